@@ -1,0 +1,42 @@
+/* From a point of the film and a point of the lens to a ray: the thin lens. Shared. */
+#ifndef CS_LENS_H
+#define CS_LENS_H
+
+#include "packet.h"
+#include "shared.h"
+
+typedef struct cs_ray {
+    vfloat origin[3];
+    vfloat direction[3]; /* its component along the camera's forward axis is 1 */
+} cs_ray;
+
+/* The ray through raster position (x, y), in pixels from the image's top left corner, and through
+ * the lens point (u, v), in aperture widths from the lens centre. All rays through (x, y) meet on
+ * the focal plane; a distance along the ray is a camera depth. */
+static inline cs_ray cs_lens_ray(cs_camera camera, vfloat x, vfloat y, vfloat u, vfloat v)
+{
+    vfloat lens_right = u * camera.aperture_width;
+    vfloat lens_down = v * camera.aperture_width;
+    f32 inverse_focus = 1.0f / camera.focal_distance;
+    vfloat right =
+        ((x - camera.centre_px[0]) * camera.pixel_width - lens_right) * inverse_focus;
+    vfloat down = ((y - camera.centre_px[1]) * camera.pixel_width - lens_down) * inverse_focus;
+    cs_ray ray;
+    for (int axis = 0; axis < 3; axis++) {
+        ray.origin[axis] = camera.eye[axis] + lens_right * camera.right[axis] +
+                           lens_down * camera.down[axis];
+        ray.direction[axis] =
+            camera.forward[axis] + right * camera.right[axis] + down * camera.down[axis];
+    }
+    return ray;
+}
+
+/* The shear of a surface at camera depth `depth` > 0: the signed circle of confusion, in pixels per
+ * aperture width. A point seen through (x, u) projects, through the lens centre, to raster
+ * x + shear * u. Positive in front of the focal plane. */
+static inline f32 cs_shear_of_depth(cs_camera camera, f32 depth)
+{
+    return camera.aperture_width / camera.pixel_width * (camera.focal_distance / depth - 1.0f);
+}
+
+#endif

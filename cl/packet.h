@@ -1,0 +1,155 @@
+/* Lanes: vfloat, vint, vuint hold one value for each of the CS_PACKET samples of a packet.
+ *
+ * Conditions are vint "masks", made by comparisons only and used by cs_any and the ternary operator
+ * only: a true lane is 1 for one lane and -1 for several. Shared: at width 1 this is plain C. */
+#ifndef CS_PACKET_H
+#define CS_PACKET_H
+
+#include "dialect.h"
+
+#ifdef CS_DEVICE
+
+#if CS_PACKET == 1
+#define CS_VECTOR(scalar) scalar
+#define CS_LANE_INDEX ((vuint)0u)
+#elif CS_PACKET == 4
+#define CS_VECTOR(scalar) scalar##4
+#define CS_LANE_INDEX ((vuint)(0u, 1u, 2u, 3u))
+#elif CS_PACKET == 8
+#define CS_VECTOR(scalar) scalar##8
+#define CS_LANE_INDEX ((vuint)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u))
+#elif CS_PACKET == 16
+#define CS_VECTOR(scalar) scalar##16
+#define CS_LANE_INDEX                                                                              \
+    ((vuint)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u, 10u, 11u, 12u, 13u, 14u, 15u))
+#else
+#error "CS_PACKET must be 1, 4, 8 or 16"
+#endif
+
+typedef CS_VECTOR(float) vfloat;
+typedef CS_VECTOR(int) vint;
+typedef CS_VECTOR(uint) vuint;
+
+#define CS_OVER_LANES(function) CS_VECTOR(function)
+#define cs_as_vint(x) CS_OVER_LANES(as_int)(x)
+#define cs_as_vuint(x) CS_OVER_LANES(as_uint)(x)
+#define cs_as_vfloat(x) CS_OVER_LANES(as_float)(x)
+/* Value of an unsigned integer below 2^31; the signed conversion is one instruction on x86. */
+#define cs_to_vfloat(x) CS_OVER_LANES(convert_float)(cs_as_vint(x))
+/* Integer part of a float in [0, 2^31). */
+#define cs_to_vuint(x) cs_as_vuint(CS_OVER_LANES(convert_int)(x))
+#define cs_mul_hi(a, b) mul_hi((vuint)(a), (vuint)(b))
+#define cs_sqrt(x) sqrt(x)
+#define cs_abs(x) fabs(x)
+#define cs_floor(x) floor(x)
+
+#else /* C17, one lane */
+
+typedef f32 vfloat;
+typedef i32 vint;
+typedef u32 vuint;
+
+#define CS_LANE_INDEX ((vuint)0u)
+static inline i32 cs_as_vint(u32 x)
+{
+    i32 y;
+    memcpy(&y, &x, sizeof y);
+    return y;
+}
+static inline u32 cs_float_bits(f32 x)
+{
+    u32 y;
+    memcpy(&y, &x, sizeof y);
+    return y;
+}
+static inline f32 cs_as_vfloat(u32 x)
+{
+    f32 y;
+    memcpy(&y, &x, sizeof y);
+    return y;
+}
+#define cs_as_vuint(x) cs_float_bits(x)
+#define cs_to_vfloat(x) ((f32)(i32)(x))
+#define cs_to_vuint(x) ((u32)(i32)(x))
+#define cs_mul_hi(a, b) ((u32)(((uint64_t)(a) * (uint64_t)(b)) >> 32))
+#define cs_sqrt(x) sqrtf(x)
+#define cs_abs(x) fabsf(x)
+#define cs_floor(x) floorf(x)
+static inline int cs_any(i32 mask)
+{
+    return mask != 0;
+}
+
+#endif
+
+/* Not fmin and fmax: those must order NaN, which costs two more instructions. A NaN in the first
+ * argument gives the second. */
+#define cs_min(a, b) ((a) < (b) ? (a) : (b))
+#define cs_max(a, b) ((a) > (b) ? (a) : (b))
+
+#ifdef CS_DEVICE
+
+typedef union cs_float_lanes {
+    vfloat all;
+    f32 lane[CS_PACKET];
+} cs_float_lanes;
+
+typedef union cs_int_lanes {
+    vint all;
+    i32 lane[CS_PACKET];
+} cs_int_lanes;
+
+/* Whether any lane of a mask is true. The narrowing form becomes one move-mask instruction where
+ * any() becomes a chain of extracts. */
+static inline int cs_any(vint mask)
+{
+#if CS_PACKET == 1
+    return mask != 0;
+#elif CS_PACKET == 4
+    return as_uint(convert_char4(mask)) != 0u;
+#elif CS_PACKET == 8
+    return as_ulong(convert_char8(mask)) != 0ul;
+#else
+    return as_ulong(convert_char8(mask.lo | mask.hi)) != 0ul;
+#endif
+}
+
+static inline f32 cs_reduce_add(vfloat x)
+{
+#if CS_PACKET == 1
+    return x;
+#else
+#if CS_PACKET == 16
+    float8 eight = x.lo + x.hi;
+    float4 four = eight.lo + eight.hi;
+#elif CS_PACKET == 8
+    float4 four = x.lo + x.hi;
+#else
+    float4 four = x;
+#endif
+    float2 two = four.lo + four.hi;
+    return two.x + two.y;
+#endif
+}
+
+static inline i32 cs_reduce_max(vint x)
+{
+#if CS_PACKET == 1
+    return x;
+#else
+#if CS_PACKET == 16
+    int8 eight = max(x.lo, x.hi);
+    int4 four = max(eight.lo, eight.hi);
+#elif CS_PACKET == 8
+    int4 four = max(x.lo, x.hi);
+#else
+    int4 four = x;
+#endif
+    int2 two = max(four.lo, four.hi);
+    return max(two.x, two.y);
+#endif
+}
+
+#endif
+
+#endif

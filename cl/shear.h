@@ -1,0 +1,167 @@
+/* Shears: measure-preserving maps of a tuple ((a, b), (c, d)) in [0, 1)^4 to a point of the pixel
+ * and a point of the lens. Shared.
+ *
+ * A surface at one depth shows the same point along the fibres x + s * u = const of the (pixel,
+ * lens) domain, where s, in pixels per unit of aperture width, is the signed circle of confusion
+ * (docs/method.md). `toroidal` slides points along the fibres and wraps them around (Singh & Jarosz
+ * 2017, section 5). `equal area` maps without wrapping, by Rosenblatt's transform: the fibre
+ * coordinate x + s * u depends on the tuple's first pair alone, the second pair moves along the
+ * fibre.
+ *
+ * Pixel coordinates are in [0, 1). Lens coordinates are centred: the square [-1/2, 1/2]^2 or the
+ * disk of area 1. */
+#ifndef CS_SHEAR_H
+#define CS_SHEAR_H
+
+#include "disk.h"
+#include "packet.h"
+#include "shared.h"
+
+typedef struct cs_film_lens {
+    vfloat x;
+    vfloat y;
+    vfloat u;
+    vfloat v;
+} cs_film_lens;
+
+/* One axis of the equal-area map for a pixel of width 1 and a blur of width `blur` > 0: `across` in
+ * [0, 1) picks the fibre, `along` in [0, 1) the place on it; returns x in [0, 1] through `x` and
+ * the lens coordinate in [0, 1] as value.
+ *
+ * t = x + blur * lens is a sum of two uniform variables; its density is a trapezoid whose inverse
+ * cumulative distribution is closed. Below blur 1 the lens coordinate is drawn first, which keeps
+ * the map well conditioned down to a pixel in focus. */
+static inline vfloat cs_trapezoid(vfloat across, vfloat along, vfloat blur, vfloat *x)
+{
+    vfloat narrow = cs_min(blur, (vfloat)(1.0f));
+    vfloat wide = cs_max(blur, (vfloat)(1.0f));
+    vfloat ramp = 0.5f * narrow / wide;
+    vfloat mirrored = cs_min(across, 1.0f - across);
+    vfloat rising = cs_sqrt(2.0f * narrow * wide * mirrored);
+    vfloat flat = narrow + (across - ramp) * wide;
+    vfloat t = across > 0.5f ? 1.0f + blur - rising : rising;
+    t = mirrored < ramp ? t : flat;
+
+    vfloat x_low = cs_max(t - blur, (vfloat)(0.0f));
+    vfloat x_high = cs_min(t, (vfloat)(1.0f));
+    vfloat x_first = x_low + (x_high - x_low) * along;
+
+    vfloat lens_low = cs_max((t - 1.0f) / blur, (vfloat)(0.0f));
+    vfloat lens_high = cs_min(t / blur, (vfloat)(1.0f));
+    vfloat lens_first = lens_low + (lens_high - lens_low) * (1.0f - along);
+
+    *x = blur < 1.0f ? t - blur * lens_first : x_first;
+    return blur < 1.0f ? lens_first : (t - x_first) / blur;
+}
+
+/* Blurs below this are in focus: the pixel's own width hides them, and the maps divide by them. */
+#define CS_LEAST_BLUR 1e-4f
+
+static inline vfloat cs_clamp(vfloat value, vfloat low, vfloat high)
+{
+    return cs_min(cs_max(value, low), high);
+}
+
+static inline cs_film_lens cs_equal_area_square(vfloat a, vfloat b, vfloat c, vfloat d, f32 shear)
+{
+    vfloat blur = (vfloat)(shear < 0.0f ? -shear : shear);
+    blur = cs_max(blur, (vfloat)(CS_LEAST_BLUR));
+    f32 sign = shear < 0.0f ? -1.0f : 1.0f;
+    cs_film_lens point;
+    point.u = sign * (cs_trapezoid(a, c, blur, &point.x) - 0.5f);
+    point.v = sign * (cs_trapezoid(b, d, blur, &point.y) - 0.5f);
+    return point;
+}
+
+/* The disk is not separable; condition in the order t_x, u | t_x, t_y | u, (y, v) | t_y, u. */
+static inline cs_film_lens cs_equal_area_disk(vfloat a, vfloat b, vfloat c, vfloat d, f32 shear)
+{
+    f32 blur = shear < 0.0f ? -shear : shear;
+    blur = blur < CS_LEAST_BLUR ? CS_LEAST_BLUR : blur;
+    f32 sign = shear < 0.0f ? -1.0f : 1.0f;
+
+    vfloat t = cs_disk_fibre(a, blur); /* centred: x - 1/2 + blur * u */
+    vfloat low = cs_max((t - 0.5f) * (1.0f / blur), (vfloat)(-CS_DISK_RADIUS));
+    vfloat high = cs_min((t + 0.5f) * (1.0f / blur), (vfloat)(CS_DISK_RADIUS));
+    vfloat mass_low = cs_disk_cdf(low);
+    vfloat mass_high = cs_disk_cdf(high);
+    vfloat u = cs_disk_quantile(mass_low + (mass_high - mass_low) * c);
+    u = cs_clamp(u, low, high);
+
+    vfloat chord = 2.0f * cs_sqrt(cs_max(CS_DISK_RADIUS * CS_DISK_RADIUS - u * u, (vfloat)(0.0f)));
+    cs_film_lens point;
+    vfloat blur_y = cs_max(blur * chord, (vfloat)(CS_LEAST_BLUR));
+    vfloat v = cs_trapezoid(b, d, blur_y, &point.y) - 0.5f;
+    point.x = t - blur * u + 0.5f;
+    point.u = sign * u;
+    point.v = sign * v * chord;
+    return point;
+}
+
+/* Centred lens coordinates without any shear. */
+static inline cs_film_lens cs_unsheared(vfloat a, vfloat b, vfloat c, vfloat d, u32 aperture)
+{
+    cs_film_lens point;
+    point.x = a;
+    point.y = b;
+    point.u = c - 0.5f;
+    point.v = d - 0.5f;
+    if (aperture == CS_APERTURE_DISK) cs_disk_from_square(&point.u, &point.v);
+    return point;
+}
+
+/* Fractional part in [0, 1); rounding must not return 1. */
+static inline vfloat cs_wrap(vfloat value)
+{
+    vfloat fraction = value - cs_floor(value);
+    return cs_min(fraction, (vfloat)(0.99999994f));
+}
+
+/* One axis of the toroidal shear; `half_chord` is half the aperture's width at the other lens
+ * coordinate. Shears the pixel coordinate for |shear| <= 1 and the lens coordinate beyond. */
+static inline void cs_toroidal_axis(vfloat *x, vfloat *u, vfloat half_chord, f32 shear)
+{
+    if (shear >= -1.0f && shear <= 1.0f) {
+        *x = cs_wrap(*x - shear * *u);
+        return;
+    }
+    vfloat width = cs_max(2.0f * half_chord, (vfloat)(1e-6f));
+    vfloat place = (*u - (*x - 0.5f) * (1.0f / shear)) / width + 0.5f;
+    *u = (cs_wrap(place) - 0.5f) * width;
+}
+
+static inline vfloat cs_half_chord(vfloat other, u32 aperture)
+{
+    if (aperture == CS_APERTURE_SQUARE) return (vfloat)(0.5f);
+    return cs_sqrt(cs_max(CS_DISK_RADIUS * CS_DISK_RADIUS - other * other, (vfloat)(0.0f)));
+}
+
+static inline cs_film_lens cs_toroidal(vfloat a, vfloat b, vfloat c, vfloat d, u32 aperture,
+                                       f32 shear)
+{
+    cs_film_lens point = cs_unsheared(a, b, c, d, aperture);
+    cs_toroidal_axis(&point.x, &point.u, cs_half_chord(point.v, aperture), shear);
+    cs_toroidal_axis(&point.y, &point.v, cs_half_chord(point.u, aperture), shear);
+    return point;
+}
+
+/* `mode` is a CS_SHEAR_ constant, `shear` the signed circle of confusion in pixels. */
+static inline cs_film_lens cs_shear(vfloat a, vfloat b, vfloat c, vfloat d, u32 mode, u32 aperture,
+                                    f32 shear)
+{
+    cs_film_lens point;
+    if (mode == CS_SHEAR_NONE)
+        point = cs_unsheared(a, b, c, d, aperture);
+    else if (mode == CS_SHEAR_TOROIDAL)
+        point = cs_toroidal(a, b, c, d, aperture, shear);
+    else if (aperture == CS_APERTURE_SQUARE)
+        point = cs_equal_area_square(a, b, c, d, shear);
+    else
+        point = cs_equal_area_disk(a, b, c, d, shear);
+    vfloat last = (vfloat)(0.99999994f);
+    point.x = cs_clamp(point.x, (vfloat)(0.0f), last);
+    point.y = cs_clamp(point.y, (vfloat)(0.0f), last);
+    return point;
+}
+
+#endif

@@ -1,0 +1,36 @@
+/* What Embree makes of a scene: the flattened hierarchy for the device, and depth on the host. No
+ * other floor sees Embree. */
+#ifndef CS_ACCEL_ACCEL_H
+#define CS_ACCEL_ACCEL_H
+
+#include "base/array.h"
+#include "base/status.h"
+#include "scene/scene.h"
+#include "shared.h"
+
+typedef struct cs_accel cs_accel;
+
+/* The hierarchy as the kernels read it. */
+typedef struct cs_flat_bvh {
+    cs_array nodes;     /* cs_node; the root is node 0 */
+    cs_array triangles; /* cs_triangle, in leaf order; spatial splits repeat some */
+    int depth;          /* of the tree; the traversal's stack needs as many entries */
+} cs_flat_bvh;
+
+void cs_flat_bvh_free(cs_flat_bvh *bvh);
+
+/* Starts Embree with `threads` threads (0: all). The scene's arrays must outlive the result. */
+clshear_status cs_accel_create(const cs_scene *scene, int threads, cs_accel **accel,
+                               cs_error *error);
+void cs_accel_free(cs_accel *accel);
+
+/* Builds the hierarchy by the surface area heuristic with spatial splits (rtcBuildBVH, high
+ * quality). */
+clshear_status cs_accel_build_bvh(const cs_accel *accel, cs_flat_bvh *bvh, cs_error *error);
+
+/* Camera depth of what the centres of the pixels of a window see through the middle of the lens,
+ * row by row; infinite where they see nothing. window: x0, x1, y0, y1. */
+void cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const int *window,
+                    float *depth);
+
+#endif

@@ -1,0 +1,225 @@
+/* The program: scene file in, pictures out. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "cli/flags.h"
+#include "cli/parse.h"
+#include "cli/progress.h"
+
+static char default_output[4096];
+
+static void warn(void *user, const char *line)
+{
+    const cli_job *job = user;
+    if (!job->quiet) fprintf(stderr, "clshear: %s\n", line);
+}
+
+static int fail(const clshear_context *context)
+{
+    fprintf(stderr, "clshear: %s\n", clshear_message(context));
+    return CLI_FAILED;
+}
+
+static void print_device(void *user, int number, const char *name)
+{
+    (void)user;
+    printf("%d: %s\n", number, name);
+}
+
+static int list_devices(void)
+{
+    return clshear_list_devices(print_device, NULL) == CLSHEAR_OK ? CLI_DONE : fail(NULL);
+}
+
+/* Without --out: the scene's name with .exr, in the current folder. */
+static void choose_output(cli_job *job)
+{
+    if (job->output_count > 0) return;
+    const char *slash = strrchr(job->scene, '/');
+    const char *name = slash != NULL ? slash + 1 : job->scene;
+    const char *dot = strrchr(name, '.');
+    int length = dot != NULL ? (int)(dot - name) : (int)strlen(name);
+    snprintf(default_output, sizeof default_output, "%.*s.exr", length, name);
+    job->outputs[job->output_count++] = default_output;
+}
+
+/* Finds out before a long render whether its result can be kept. */
+static int check_outputs(const cli_job *job)
+{
+    static const char *const known[] = {".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff"};
+    for (int i = 0; i < job->output_count; i++) {
+        const char *path = job->outputs[i], *dot = strrchr(path, '.');
+        const char *slash = strrchr(path, '/');
+        char folder[4096] = ".";
+        int found = 0;
+        for (size_t k = 0; k < sizeof known / sizeof *known && dot != NULL; k++)
+            found |= strcasecmp(dot, known[k]) == 0;
+        if (!found) {
+            fprintf(stderr, "clshear: --out %s: must end in .exr, .png, .jpg or .tif\n", path);
+            return CLI_USAGE;
+        }
+        if (slash != NULL)
+            snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
+        if (access(folder, W_OK) != 0) {
+            fprintf(stderr, "clshear: --out %s: folder %s cannot be written: %s\n", path, folder,
+                    strerror(errno));
+            return CLI_FAILED;
+        }
+    }
+    return CLI_DONE;
+}
+
+static void override_vector(const cli_vector *given, float *value)
+{
+    if (given->given) memcpy(value, given->value, sizeof given->value);
+}
+
+/* The scene's camera with what the flags say. */
+static clshear_status choose_camera(const cli_job *job, const clshear_scene *scene,
+                                    clshear_camera *camera)
+{
+    const int width = job->options.width, height = job->options.height;
+    clshear_status status = clshear_scene_camera(scene, width, height, camera);
+    if (status != CLSHEAR_OK) return status;
+    override_vector(&job->eye, camera->eye);
+    override_vector(&job->target, camera->target);
+    override_vector(&job->up, camera->up);
+    if (job->fov.given) camera->fov_deg = job->fov.value;
+    camera->aperture = job->aperture;
+    if (job->f_stop.given)
+        camera->lens_radius = clshear_lens_radius(camera, job->f_stop.value, job->unit_m.value);
+    if (job->lens_radius.given) camera->lens_radius = job->lens_radius.value;
+    if (job->focal_distance.given) camera->focal_distance = job->focal_distance.value;
+    if (job->focus_pixel_given)
+        status = clshear_camera_focus(scene, width, height, job->focus_pixel[0],
+                                      job->focus_pixel[1], camera);
+    if (status != CLSHEAR_OK) return status;
+    const int lens_chosen = camera->lens_radius >= 0.0f;
+    const int focus_chosen = camera->focal_distance > 0.0f;
+    status = clshear_camera_complete(scene, width, height, camera);
+    if (status != CLSHEAR_OK || job->quiet) return status;
+    if (!focus_chosen && camera->lens_radius > 0.0f)
+        fprintf(stderr, "clshear: focused on the middle pixel, --focal-distance %g\n",
+                (double)camera->focal_distance);
+    if (!lens_chosen)
+        fprintf(stderr, "clshear: no lens given, a moderate blur: --lens-radius %g\n",
+                (double)camera->lens_radius);
+    return CLSHEAR_OK;
+}
+
+/* The command that was given, words with spaces in quotes. */
+static char *command_line(int argc, char **argv)
+{
+    size_t size = 1;
+    for (int i = 0; i < argc; i++)
+        size += strlen(argv[i]) + 3;
+    char *text = calloc(1, size);
+    for (int i = 0; i < argc && text != NULL; i++) {
+        const char *quote = strpbrk(argv[i], " \t") != NULL ? "'" : "";
+        size_t used = strlen(text);
+        snprintf(text + used, size - used, "%s%s%s%s", i > 0 ? " " : "", quote, argv[i], quote);
+    }
+    return text;
+}
+
+static void print_stats(const clshear_context *context, const clshear_scene *scene,
+                        const clshear_film *film)
+{
+    const clshear_scene_info world = clshear_scene_describe(scene);
+    const clshear_film_info info = clshear_film_describe(film);
+    const double rays = (double)info.samples + (double)info.shadow_rays;
+    printf("device       %s\n", clshear_device_name(context));
+    printf("triangles    %zu (%zu without area dropped), %zu in leaves, %zu nodes\n",
+           world.triangles, world.degenerate, world.references, world.nodes);
+    printf("geometry     %.1f bytes per triangle on the device\n",
+           (double)world.device_bytes / (double)world.triangles);
+    printf("lights       %zu point or directional, %zu emissive triangles\n", world.lights,
+           world.emitters);
+    printf("load         %.3f s\n", world.load_s);
+    printf("build        %.3f s\n", world.build_s);
+    printf("prepass      %.3f s\n", info.prepass_s);
+    printf("kernels      %.3f s\n", info.kernel_s);
+    printf("render       %.3f s, prepass and kernels included\n", info.render_s);
+    printf("samples      %.3f M, %.2f M/s\n", 1e-6 * (double)info.samples,
+           1e-6 * (double)info.samples / info.kernel_s);
+    printf("rays         %.3f M, %.2f M/s (primary and shadow)\n", 1e-6 * rays,
+           1e-6 * rays / info.kernel_s);
+}
+
+static int write_outputs(const cli_job *job, const clshear_context *context, clshear_film *film,
+                         const char *command)
+{
+    if (command != NULL && clshear_film_annotate(film, "clshear.cmdline", command) != CLSHEAR_OK)
+        return fail(context);
+    for (int i = 0; i < job->output_count; i++)
+        if (clshear_film_write(film, job->outputs[i]) != CLSHEAR_OK) return fail(context);
+    return CLI_DONE;
+}
+
+/* From a loaded scene to written files. */
+static int render(cli_job *job, const clshear_context *context, clshear_scene *scene,
+                  const char *command)
+{
+    clshear_camera camera;
+    clshear_film *film = NULL;
+    for (int i = 0; i < job->light_count; i++)
+        if (clshear_scene_add_light(scene, &job->lights[i]) != CLSHEAR_OK) return fail(context);
+    if (choose_camera(job, scene, &camera) != CLSHEAR_OK) return fail(context);
+    cli_progress progress = cli_progress_start(job->quiet);
+    job->options.progress = cli_progress_report;
+    job->options.progress_user = &progress;
+    cli_catch_interrupt();
+    clshear_status status = clshear_render(scene, &camera, &job->options, &film);
+    cli_progress_end(&progress);
+    if (status != CLSHEAR_OK && status != CLSHEAR_CANCELLED) return fail(context);
+    int code = write_outputs(job, context, film, command);
+    if (code == CLI_DONE && job->stats) print_stats(context, scene, film);
+    clshear_film_free(film);
+    if (code != CLI_DONE) return code;
+    if (status == CLSHEAR_CANCELLED && !job->quiet)
+        fprintf(stderr, "clshear: interrupted; %s holds the samples so far\n", job->outputs[0]);
+    return status == CLSHEAR_CANCELLED ? CLI_INTERRUPTED : CLI_DONE;
+}
+
+static int run(cli_job *job, const char *command)
+{
+    clshear_context *context = NULL;
+    clshear_scene *scene = NULL;
+    choose_output(job);
+    int code = check_outputs(job);
+    if (code != CLI_DONE) return code;
+    job->context.warn = warn;
+    job->context.warn_user = job;
+    if (clshear_context_create(&job->context, &context) != CLSHEAR_OK) return fail(NULL);
+    if (clshear_scene_load(context, job->scene, &scene) != CLSHEAR_OK)
+        code = fail(context);
+    else
+        code = render(job, context, scene, command);
+    clshear_scene_free(scene);
+    clshear_context_free(context);
+    return code;
+}
+
+int main(int argc, char **argv)
+{
+    cli_job job;
+    int code = cli_parse(argc, argv, &job);
+    if (code != CLI_DONE) return code;
+    if (job.help) {
+        cli_print_help(stdout);
+        return CLI_DONE;
+    }
+    if (job.version) {
+        printf("clshear %s\n", clshear_version());
+        return CLI_DONE;
+    }
+    if (job.list_devices) return list_devices();
+    char *command = command_line(argc, argv);
+    code = run(&job, command);
+    free(command);
+    return code;
+}

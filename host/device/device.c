@@ -1,0 +1,213 @@
+#include "device/device.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "device/opencl.h"
+#include "device/program.h"
+
+struct cs_device {
+    cl_device_id id;
+    cl_context context;
+    cl_command_queue queue;
+    cl_program program;
+    cl_kernel kernels[CS_KERNEL_COUNT];
+    size_t local_size;
+    int packet;
+    int threads;
+    int is_partition;
+    char name[256];
+    char driver[256];
+};
+
+struct cs_buffer {
+    cl_mem memory;
+    cl_command_queue queue;
+};
+
+static const char *const kernel_names[CS_KERNEL_COUNT] = {"cs_render", "cs_trace", "cs_points"};
+
+/* Restricts a CPU device to some of its compute units, by a sub-device. */
+static clshear_status limit_threads(cs_device *device, int threads, cs_error *error)
+{
+    cl_uint units = 1;
+    clGetDeviceInfo(device->id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
+    device->threads = (int)units;
+    if (threads <= 0 || (cl_uint)threads >= units) return CLSHEAR_OK;
+    const cl_device_partition_property by_count[] = {CL_DEVICE_PARTITION_BY_COUNTS, threads,
+                                                     CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+    cl_device_id part;
+    if (clCreateSubDevices(device->id, by_count, 1, &part, NULL) != CL_SUCCESS)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "device %s cannot be limited to %d threads; leave the number out",
+                       device->name, threads);
+    device->id = part;
+    device->is_partition = 1;
+    device->threads = threads;
+    return CLSHEAR_OK;
+}
+
+static clshear_status create_kernels(cs_device *device, cs_error *error)
+{
+    for (int i = 0; i < CS_KERNEL_COUNT; i++) {
+        cl_int code;
+        device->kernels[i] = clCreateKernel(device->program, kernel_names[i], &code);
+        if (code != CL_SUCCESS)
+            return cs_fail(error, CLSHEAR_DEVICE_FAILED, "kernel %s: %s (OpenCL error %d)",
+                           kernel_names[i], "cannot be created", code);
+    }
+    return CLSHEAR_OK;
+}
+
+/* Work-groups fit every CPU stack (private memory of a group lies on it) and fill a GPU's warps. */
+static void choose_widths(cs_device *device, int packet)
+{
+    cl_device_type type = CL_DEVICE_TYPE_CPU;
+    clGetDeviceInfo(device->id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
+    int is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+    device->local_size = is_cpu ? 8 : 64;
+    device->packet = packet != 0 ? packet : is_cpu ? 8 : 1;
+}
+
+clshear_status cs_device_open(const char *wanted, int threads, int packet, cs_device **result,
+                              cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cl_int code;
+    cs_device *device = calloc(1, sizeof *device);
+    CS_REQUIRE(device != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    CS_REQUIRE(packet == 0 || packet == 1 || packet == 4 || packet == 8 || packet == 16,
+               CLSHEAR_BAD_ARGUMENT, "packet width %d: must be 1, 4, 8 or 16", packet);
+    CS_TRY(cs_opencl_find(wanted, &device->id, error));
+    cs_opencl_describe(device->id, device->name, device->driver, sizeof device->name);
+    CS_TRY(limit_threads(device, threads, error));
+    choose_widths(device, packet);
+    device->context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &code);
+    CS_OPENCL(code, "cannot make a context on %s", device->name);
+    device->queue = clCreateCommandQueue(device->context, device->id, 0, &code);
+    CS_OPENCL(code, "cannot make a queue on %s", device->name);
+    CS_TRY(cs_program_build(device->context, device->id, device->packet, &device->program, error));
+    CS_TRY(create_kernels(device, error));
+    *result = device;
+    device = NULL;
+done:
+    cs_device_close(device);
+    return status;
+}
+
+void cs_device_close(cs_device *device)
+{
+    if (device == NULL) return;
+    for (int i = 0; i < CS_KERNEL_COUNT; i++)
+        if (device->kernels[i] != NULL) clReleaseKernel(device->kernels[i]);
+    if (device->program != NULL) clReleaseProgram(device->program);
+    if (device->queue != NULL) clReleaseCommandQueue(device->queue);
+    if (device->context != NULL) clReleaseContext(device->context);
+    if (device->is_partition) clReleaseDevice(device->id);
+    free(device);
+}
+
+const char *cs_device_name(const cs_device *device)
+{
+    return device->name;
+}
+
+const char *cs_device_driver(const cs_device *device)
+{
+    return device->driver;
+}
+
+int cs_device_packet(const cs_device *device)
+{
+    return device->packet;
+}
+
+int cs_device_threads(const cs_device *device)
+{
+    return device->threads;
+}
+
+clshear_status cs_buffer_create(cs_device *device, size_t size, const void *initial,
+                                cs_buffer **result, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cl_int code;
+    cl_ulong limit = 0;
+    cs_buffer *buffer = calloc(1, sizeof *buffer);
+    CS_REQUIRE(buffer != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    clGetDeviceInfo(device->id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof limit, &limit, NULL);
+    if (size < 4) size = 4; /* kernels never look into an absent table, but OpenCL wants one */
+    CS_REQUIRE(size <= limit, CLSHEAR_OUT_OF_MEMORY,
+               "%s: a buffer of %zu MB is too large (the device allows %zu MB); make the scene or "
+               "the image smaller",
+               device->name, size >> 20, (size_t)limit >> 20);
+    buffer->queue = device->queue;
+    buffer->memory = clCreateBuffer(device->context, CL_MEM_READ_WRITE, size, NULL, &code);
+    CS_OPENCL(code, "%s: no memory for a buffer of %zu MB", device->name, size >> 20);
+    if (initial != NULL) {
+        CS_TRY(cs_buffer_write(buffer, size, initial, error));
+    } else {
+        const cl_uint zero = 0;
+        CS_OPENCL(clEnqueueFillBuffer(device->queue, buffer->memory, &zero, sizeof zero, 0,
+                                      size / 4 * 4, 0, NULL, NULL),
+                  "%s: cannot clear a buffer of %zu MB", device->name, size >> 20);
+        CS_OPENCL(clFinish(device->queue), "%s: cannot clear a buffer", device->name);
+    }
+    *result = buffer;
+    buffer = NULL;
+done:
+    cs_buffer_free(buffer);
+    return status;
+}
+
+clshear_status cs_buffer_read(const cs_buffer *buffer, size_t offset, size_t size, void *target,
+                              cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    CS_OPENCL(clEnqueueReadBuffer(buffer->queue, buffer->memory, CL_TRUE, offset, size, target, 0,
+                                  NULL, NULL),
+              "cannot read %zu bytes from the device", size);
+done:
+    return status;
+}
+
+clshear_status cs_buffer_write(cs_buffer *buffer, size_t size, const void *source, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    CS_OPENCL(clEnqueueWriteBuffer(buffer->queue, buffer->memory, CL_TRUE, 0, size, source, 0,
+                                   NULL, NULL),
+              "cannot write %zu bytes to the device", size);
+done:
+    return status;
+}
+
+void cs_buffer_free(cs_buffer *buffer)
+{
+    if (buffer == NULL) return;
+    if (buffer->memory != NULL) clReleaseMemObject(buffer->memory);
+    free(buffer);
+}
+
+clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
+                             const cs_argument *arguments, size_t argument_count, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const char *name = kernel_names[kernel];
+    size_t local = device->local_size;
+    size_t global = (count + local - 1) / local * local;
+    for (cl_uint i = 0; i < argument_count; i++) {
+        const cs_argument *argument = &arguments[i];
+        const void *value =
+            argument->buffer != NULL ? (const void *)&argument->buffer->memory : argument->value;
+        size_t size = argument->buffer != NULL ? sizeof(cl_mem) : argument->size;
+        CS_OPENCL(clSetKernelArg(device->kernels[kernel], i, size, value),
+                  "kernel %s: argument %u is not accepted", name, i);
+    }
+    CS_OPENCL(clEnqueueNDRangeKernel(device->queue, device->kernels[kernel], 1, NULL, &global,
+                                     &local, 0, NULL, NULL),
+              "kernel %s cannot be started", name);
+    CS_OPENCL(clFinish(device->queue), "kernel %s failed", name);
+done:
+    return status;
+}

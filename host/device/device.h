@@ -1,0 +1,53 @@
+/* An OpenCL device with the compiled kernels, its buffers and launches. No other floor sees CL/cl.h.
+ */
+#ifndef CS_DEVICE_DEVICE_H
+#define CS_DEVICE_DEVICE_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+
+typedef struct cs_device cs_device;
+typedef struct cs_buffer cs_buffer;
+
+typedef enum cs_kernel {
+    CS_KERNEL_RENDER,
+    CS_KERNEL_TRACE,
+    CS_KERNEL_POINTS,
+    CS_KERNEL_COUNT
+} cs_kernel;
+
+/* A kernel argument: a buffer (`buffer` not NULL), or `size` bytes by value. */
+typedef struct cs_argument {
+    const cs_buffer *buffer;
+    const void *value;
+    size_t size;
+} cs_argument;
+
+/* Arguments as in clshear_context_options. */
+clshear_status cs_device_open(const char *wanted, int threads, int packet, cs_device **device,
+                              cs_error *error);
+void cs_device_close(cs_device *device);
+clshear_status cs_device_list(void (*report)(void *user, int number, const char *name), void *user,
+                              cs_error *error);
+
+const char *cs_device_name(const cs_device *device);
+const char *cs_device_driver(const cs_device *device);
+int cs_device_packet(const cs_device *device);
+int cs_device_threads(const cs_device *device); /* its compute units */
+
+/* A buffer of `size` bytes, at least 4, that starts as `initial` or, where that is NULL, as zeros. */
+clshear_status cs_buffer_create(cs_device *device, size_t size, const void *initial,
+                                cs_buffer **buffer, cs_error *error);
+clshear_status cs_buffer_read(const cs_buffer *buffer, size_t offset, size_t size, void *target,
+                              cs_error *error);
+clshear_status cs_buffer_write(cs_buffer *buffer, size_t size, const void *source,
+                               cs_error *error);
+void cs_buffer_free(cs_buffer *buffer);
+
+/* Runs a kernel on `count` work-items (more are started, to fill the last work-group) and waits. */
+clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
+                             const cs_argument *arguments, size_t argument_count,
+                             cs_error *error);
+
+#endif

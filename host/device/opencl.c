@@ -1,0 +1,120 @@
+#include "device/opencl.h"
+
+#include <ctype.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "device/device.h"
+
+enum {
+    MAX_DEVICES = 64,
+    MAX_PLATFORMS = 16
+};
+
+static const char *code_name(cl_int code)
+{
+    switch (code) {
+    case CL_DEVICE_NOT_AVAILABLE: return "device not available";
+    case CL_MEM_OBJECT_ALLOCATION_FAILURE: return "no device memory";
+    case CL_OUT_OF_RESOURCES: return "out of resources";
+    case CL_OUT_OF_HOST_MEMORY: return "out of host memory";
+    case CL_BUILD_PROGRAM_FAILURE: return "build failed";
+    case CL_INVALID_KERNEL_ARGS: return "invalid kernel arguments";
+    case CL_INVALID_WORK_GROUP_SIZE: return "invalid work-group size";
+    case CL_INVALID_BUFFER_SIZE: return "invalid buffer size";
+    default: return "see the OpenCL headers";
+    }
+}
+
+clshear_status cs_opencl_fail(cs_error *error, cl_int code, const char *format, ...)
+{
+    char what[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    int memory = code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY;
+    return cs_fail(error, memory ? CLSHEAR_OUT_OF_MEMORY : CLSHEAR_DEVICE_FAILED,
+                   "%s (OpenCL error %d: %s)", what, code, code_name(code));
+}
+
+void cs_opencl_describe(cl_device_id device, char *name, char *driver, size_t size)
+{
+    char device_name[128] = "unknown", platform_name[128] = "unknown", version[128] = "";
+    cl_platform_id platform = NULL;
+    clGetDeviceInfo(device, CL_DEVICE_NAME, sizeof device_name, device_name, NULL);
+    clGetDeviceInfo(device, CL_DRIVER_VERSION, sizeof version, version, NULL);
+    clGetDeviceInfo(device, CL_DEVICE_PLATFORM, sizeof platform, &platform, NULL);
+    clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof platform_name, platform_name, NULL);
+    snprintf(name, size, "%s (%s)", device_name, platform_name);
+    if (driver != NULL) snprintf(driver, size, "%s %s", platform_name, version);
+}
+
+static cl_uint all_devices(cl_device_id *devices)
+{
+    cl_platform_id platforms[MAX_PLATFORMS];
+    cl_uint platform_count = 0, total = 0;
+    if (clGetPlatformIDs(MAX_PLATFORMS, platforms, &platform_count) != CL_SUCCESS) return 0;
+    if (platform_count > MAX_PLATFORMS) platform_count = MAX_PLATFORMS;
+    for (cl_uint i = 0; i < platform_count; i++) {
+        cl_uint count = 0;
+        if (clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_ALL, MAX_DEVICES - total, devices + total,
+                           &count) != CL_SUCCESS)
+            continue;
+        total += count < MAX_DEVICES - total ? count : MAX_DEVICES - total;
+        if (total == MAX_DEVICES) break;
+    }
+    return total;
+}
+
+static int contains_ignoring_case(const char *text, const char *part)
+{
+    size_t length = strlen(part);
+    for (; *text != '\0'; text++) {
+        size_t i = 0;
+        while (i < length && tolower((unsigned char)text[i]) == tolower((unsigned char)part[i]))
+            i++;
+        if (i == length) return 1;
+    }
+    return length == 0;
+}
+
+clshear_status cs_opencl_find(const char *wanted, cl_device_id *device, cs_error *error)
+{
+    cl_device_id devices[MAX_DEVICES];
+    cl_uint count = all_devices(devices);
+    if (count == 0)
+        return cs_fail(error, CLSHEAR_NO_DEVICE,
+                       "no OpenCL device found; install a driver, for CPUs pocl-opencl-icd");
+    char *end;
+    long number = wanted == NULL ? 0 : strtol(wanted, &end, 10);
+    int is_number = wanted == NULL || (*wanted != '\0' && *end == '\0');
+    for (cl_uint i = 0; i < count; i++) {
+        char name[256];
+        cs_opencl_describe(devices[i], name, NULL, sizeof name);
+        if (is_number ? number == (long)i : contains_ignoring_case(name, wanted)) {
+            *device = devices[i];
+            return CLSHEAR_OK;
+        }
+    }
+    return cs_fail(error, CLSHEAR_NO_DEVICE, "no OpenCL device \"%s\" among %u; see the device list",
+                   wanted, count);
+}
+
+clshear_status cs_device_list(void (*report)(void *user, int number, const char *name), void *user,
+                              cs_error *error)
+{
+    cl_device_id devices[MAX_DEVICES];
+    cl_uint count = all_devices(devices);
+    if (count == 0)
+        return cs_fail(error, CLSHEAR_NO_DEVICE,
+                       "no OpenCL device found; install a driver, for CPUs pocl-opencl-icd");
+    for (cl_uint i = 0; i < count; i++) {
+        char name[256];
+        cs_opencl_describe(devices[i], name, NULL, sizeof name);
+        report(user, (int)i, name);
+    }
+    return CLSHEAR_OK;
+}

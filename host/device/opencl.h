@@ -1,0 +1,30 @@
+/* Finding OpenCL devices, and turning OpenCL's error codes into messages. */
+#ifndef CS_DEVICE_OPENCL_H
+#define CS_DEVICE_OPENCL_H
+
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+
+#include "base/status.h"
+
+/* Fails with the formatted message and the code's name unless `call` is CL_SUCCESS. */
+#define CS_OPENCL(call, ...)                                                                       \
+    do {                                                                                           \
+        cl_int opencl_code = (call);                                                               \
+        if (opencl_code != CL_SUCCESS) {                                                           \
+            status = cs_opencl_fail(error, opencl_code, __VA_ARGS__);                              \
+            goto done;                                                                             \
+        }                                                                                          \
+    } while (0)
+
+clshear_status cs_opencl_fail(cs_error *error, cl_int code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* The device that `wanted` names: its number in cs_device_list, or part of "name (platform)", case
+ * ignored; NULL: the first. */
+clshear_status cs_opencl_find(const char *wanted, cl_device_id *device, cs_error *error);
+
+/* "name (platform)" and "driver version", each at most `size` bytes. */
+void cs_opencl_describe(cl_device_id device, char *name, char *driver, size_t size);
+
+#endif

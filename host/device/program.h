@@ -1,0 +1,11 @@
+/* The kernels' text, embedded at build time, and its compilation. */
+#ifndef CS_DEVICE_PROGRAM_H
+#define CS_DEVICE_PROGRAM_H
+
+#include "device/opencl.h"
+
+/* Compiles the kernels for packets of `packet` lanes. */
+clshear_status cs_program_build(cl_context context, cl_device_id device, int packet,
+                                cl_program *program, cs_error *error);
+
+#endif

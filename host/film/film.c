@@ -1,0 +1,162 @@
+#include "film/film.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+clshear_status cs_film_create(const int *window, int full_width, int full_height, cs_error *error,
+                              clshear_film **result)
+{
+    clshear_film *film = calloc(1, sizeof *film);
+    if (film == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    film->error = error;
+    film->channels.item_size = sizeof(cs_channel);
+    film->attributes.item_size = sizeof(cs_attribute);
+    memcpy(film->window, window, sizeof film->window);
+    film->full_width = full_width;
+    film->full_height = full_height;
+    film->info.width = window[1] - window[0];
+    film->info.height = window[3] - window[2];
+    *result = film;
+    return CLSHEAR_OK;
+}
+
+float *cs_film_add_channel(clshear_film *film, const char *name)
+{
+    size_t count = (size_t)film->info.width * (size_t)film->info.height;
+    float *pixels = calloc(count, sizeof *pixels);
+    cs_channel *channel = pixels != NULL ? cs_array_extend(&film->channels, 1) : NULL;
+    if (channel == NULL) {
+        free(pixels);
+        return NULL;
+    }
+    snprintf(channel->name, sizeof channel->name, "%s", name);
+    channel->pixels = pixels;
+    film->info.channels = film->channels.count;
+    return pixels;
+}
+
+/* The attribute of that name, emptied, or a new one; NULL when out of memory. */
+static cs_attribute *attribute_named(clshear_film *film, const char *name)
+{
+    cs_attribute *attributes = film->attributes.items;
+    for (size_t i = 0; i < film->attributes.count; i++)
+        if (strcmp(attributes[i].name, name) == 0) {
+            free(attributes[i].text);
+            attributes[i].text = NULL;
+            return &attributes[i];
+        }
+    cs_attribute *added = cs_array_extend(&film->attributes, 1);
+    if (added != NULL) snprintf(added->name, sizeof added->name, "%s", name);
+    return added;
+}
+
+static clshear_status out_of_memory(clshear_film *film)
+{
+    return cs_fail(film->error, CLSHEAR_OUT_OF_MEMORY, "out of memory for metadata");
+}
+
+clshear_status cs_film_set_int(clshear_film *film, const char *name, int32_t value)
+{
+    cs_attribute *attribute = attribute_named(film, name);
+    if (attribute == NULL) return out_of_memory(film);
+    attribute->kind = CS_ATTRIBUTE_INT;
+    attribute->integer = value;
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_film_set_float(clshear_film *film, const char *name, float value)
+{
+    cs_attribute *attribute = attribute_named(film, name);
+    if (attribute == NULL) return out_of_memory(film);
+    attribute->kind = CS_ATTRIBUTE_FLOAT;
+    attribute->numbers[0] = value;
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_film_set_matrix(clshear_film *film, const char *name, const float *matrix)
+{
+    cs_attribute *attribute = attribute_named(film, name);
+    if (attribute == NULL) return out_of_memory(film);
+    attribute->kind = CS_ATTRIBUTE_MATRIX;
+    memcpy(attribute->numbers, matrix, sizeof attribute->numbers);
+    return CLSHEAR_OK;
+}
+
+clshear_status clshear_film_annotate(clshear_film *film, const char *name, const char *text)
+{
+    cs_attribute *attribute = attribute_named(film, name);
+    char *copy = strdup(text);
+    if (attribute == NULL || copy == NULL) {
+        free(copy);
+        return out_of_memory(film);
+    }
+    attribute->kind = CS_ATTRIBUTE_TEXT;
+    attribute->text = copy;
+    return CLSHEAR_OK;
+}
+
+clshear_film_info clshear_film_describe(const clshear_film *film)
+{
+    return film->info;
+}
+
+const char *clshear_film_channel_name(const clshear_film *film, size_t index)
+{
+    const cs_channel *channels = film->channels.items;
+    return index < film->channels.count ? channels[index].name : NULL;
+}
+
+const float *clshear_film_channel(const clshear_film *film, const char *name)
+{
+    const cs_channel *channels = film->channels.items;
+    for (size_t i = 0; i < film->channels.count; i++)
+        if (strcmp(channels[i].name, name) == 0) return channels[i].pixels;
+    return NULL;
+}
+
+clshear_status clshear_film_write(clshear_film *film, const char *path)
+{
+    enum {
+        MAX_CHANNELS = 64
+    };
+    const char *names[MAX_CHANNELS];
+    const float *planes[MAX_CHANNELS];
+    const cs_channel *channels = film->channels.items;
+    if (!cs_image_can_write(path))
+        return cs_fail(film->error, CLSHEAR_BAD_FILE,
+                       "%s: unknown image format; use .exr, .png, .jpg or .tif", path);
+    size_t count = film->channels.count < MAX_CHANNELS ? film->channels.count : MAX_CHANNELS;
+    for (size_t i = 0; i < count; i++) {
+        names[i] = channels[i].name;
+        planes[i] = channels[i].pixels;
+    }
+    cs_picture picture = {
+        .width = film->info.width,
+        .height = film->info.height,
+        .x = film->window[0],
+        .y = film->window[2],
+        .full_width = film->full_width,
+        .full_height = film->full_height,
+        .channel_count = count,
+        .names = names,
+        .planes = planes,
+        .attribute_count = film->attributes.count,
+        .attributes = film->attributes.items,
+    };
+    return cs_image_write(path, &picture, film->error);
+}
+
+void clshear_film_free(clshear_film *film)
+{
+    if (film == NULL) return;
+    cs_channel *channels = film->channels.items;
+    for (size_t i = 0; i < film->channels.count; i++)
+        free(channels[i].pixels);
+    cs_attribute *attributes = film->attributes.items;
+    for (size_t i = 0; i < film->attributes.count; i++)
+        free(attributes[i].text);
+    cs_array_free(&film->channels);
+    cs_array_free(&film->attributes);
+    free(film);
+}

@@ -1,0 +1,34 @@
+/* The rendered image: named float planes and metadata. */
+#ifndef CS_FILM_FILM_H
+#define CS_FILM_FILM_H
+
+#include "base/array.h"
+#include "base/status.h"
+#include "image/image_io.h"
+
+typedef struct cs_channel {
+    char name[24];
+    float *pixels; /* width * height */
+} cs_channel;
+
+struct clshear_film {
+    cs_error *error;      /* of the context */
+    cs_array channels;    /* cs_channel */
+    cs_array attributes;  /* cs_attribute */
+    int window[4];        /* x0, x1, y0, y1 in the full image */
+    int full_width;
+    int full_height;
+    clshear_film_info info;
+};
+
+clshear_status cs_film_create(const int *window, int full_width, int full_height, cs_error *error,
+                              clshear_film **film);
+
+/* Adds a plane of zeros, or NULL when out of memory. */
+float *cs_film_add_channel(clshear_film *film, const char *name);
+
+clshear_status cs_film_set_int(clshear_film *film, const char *name, int32_t value);
+clshear_status cs_film_set_float(clshear_film *film, const char *name, float value);
+clshear_status cs_film_set_matrix(clshear_film *film, const char *name, const float *matrix);
+
+#endif

@@ -1,0 +1,195 @@
+/* C++ because OpenImageIO has no C interface. No exception leaves this file. */
+#include "image/image_io.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace
+{
+
+using OIIO::ImageBuf;
+using OIIO::ImageSpec;
+using OIIO::TypeDesc;
+
+/* Runs `work`, which returns a status, and turns exceptions into one. */
+template <typename Work>
+clshear_status guarded(const char *path, cs_error *error, Work work)
+{
+    try {
+        return work();
+    } catch (const std::bad_alloc &) {
+        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
+    } catch (const std::exception &exception) {
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path, exception.what());
+    }
+}
+
+/* First line of a message of OpenImageIO. */
+std::string first_line(const std::string &text)
+{
+    return text.substr(0, text.find('\n'));
+}
+
+/* Any number of channels as linear RGBA: grey is repeated, alpha is kept but not used. */
+ImageBuf linear_rgba(const ImageBuf &source)
+{
+    const int channels = source.nchannels();
+    const int grey = channels < 3;
+    const int order[4] = {0, grey ? 0 : 1, grey ? 0 : 2, -1};
+    const float fill[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+    ImageBuf rgba = OIIO::ImageBufAlgo::channels(source, 4, order, fill);
+    std::string space = source.spec().get_string_attribute("oiio:ColorSpace");
+    const bool is_integer = !source.spec().format.is_floating_point();
+    if (space.empty()) space = is_integer ? "sRGB" : "linear";
+    if (space != "sRGB") return rgba;
+    return OIIO::ImageBufAlgo::colorconvert(rgba, "sRGB", "linear", false);
+}
+
+clshear_status read_texels(const char *path, const void *memory, size_t size, cs_texels *texels,
+                           cs_error *error)
+{
+    OIIO::Filesystem::IOMemReader reader(const_cast<void *>(memory), size);
+    ImageBuf source(path, 0, 0, nullptr, nullptr, memory != nullptr ? &reader : nullptr);
+    if (!source.read(0, 0, true, TypeDesc::FLOAT))
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path, first_line(source.geterror()).c_str());
+    const ImageBuf rgba = linear_rgba(source);
+    if (rgba.has_error())
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path, first_line(rgba.geterror()).c_str());
+    const size_t width = static_cast<size_t>(rgba.spec().width);
+    const size_t height = static_cast<size_t>(rgba.spec().height);
+    auto *halves = static_cast<uint16_t *>(std::malloc(width * height * 4 * sizeof(uint16_t)));
+    if (halves == nullptr) throw std::bad_alloc();
+    if (!rgba.get_pixels(rgba.roi(), TypeDesc::HALF, halves)) {
+        std::free(halves);
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path, first_line(rgba.geterror()).c_str());
+    }
+    texels->width = static_cast<uint32_t>(width);
+    texels->height = static_cast<uint32_t>(height);
+    texels->halves = halves;
+    return CLSHEAR_OK;
+}
+
+void set_attributes(const cs_picture *picture, ImageSpec &spec)
+{
+    for (size_t i = 0; i < picture->attribute_count; i++) {
+        const cs_attribute &attribute = picture->attributes[i];
+        switch (attribute.kind) {
+        case CS_ATTRIBUTE_TEXT: spec.attribute(attribute.name, attribute.text); break;
+        case CS_ATTRIBUTE_INT: spec.attribute(attribute.name, attribute.integer); break;
+        case CS_ATTRIBUTE_FLOAT: spec.attribute(attribute.name, attribute.numbers[0]); break;
+        case CS_ATTRIBUTE_MATRIX:
+            spec.attribute(attribute.name, OIIO::TypeMatrix, attribute.numbers);
+            break;
+        }
+    }
+}
+
+/* The chosen planes, interleaved, in a window of the full image. */
+ImageBuf interleaved(const cs_picture *picture, const std::vector<size_t> &chosen)
+{
+    ImageSpec spec(picture->width, picture->height, static_cast<int>(chosen.size()),
+                   TypeDesc::FLOAT);
+    spec.x = picture->x;
+    spec.y = picture->y;
+    spec.full_width = picture->full_width;
+    spec.full_height = picture->full_height;
+    spec.channelnames.clear();
+    for (size_t index : chosen)
+        spec.channelnames.push_back(picture->names[index]);
+    set_attributes(picture, spec);
+    ImageBuf buffer(spec);
+    const size_t count = chosen.size();
+    const size_t pixels = static_cast<size_t>(picture->width) * static_cast<size_t>(picture->height);
+    auto *target = static_cast<float *>(buffer.localpixels());
+    for (size_t c = 0; c < count; c++)
+        for (size_t p = 0; p < pixels; p++)
+            target[p * count + c] = picture->planes[chosen[c]][p];
+    return buffer;
+}
+
+std::string extension_of(const char *path)
+{
+    std::string extension = OIIO::Filesystem::extension(path, false);
+    for (char &letter : extension)
+        letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    return extension;
+}
+
+/* The buffer to write for this extension: everything for EXR, an sRGB picture for the others. */
+ImageBuf buffer_for(const std::string &extension, const cs_picture *picture)
+{
+    std::vector<size_t> chosen;
+    for (size_t i = 0; i < picture->channel_count; i++)
+        if (extension == "exr" || std::strlen(picture->names[i]) == 1) chosen.push_back(i);
+    if (extension == "exr") return interleaved(picture, chosen);
+    chosen.clear();
+    for (const char *name : {"R", "G", "B"})
+        for (size_t i = 0; i < picture->channel_count; i++)
+            if (std::strcmp(picture->names[i], name) == 0) chosen.push_back(i);
+    ImageBuf linear = interleaved(picture, chosen);
+    return OIIO::ImageBufAlgo::colorconvert(linear, "linear", "sRGB", false);
+}
+
+/* Writes under a temporary name in the same folder; the rename is what makes it visible. */
+clshear_status write_picture(const char *path, const cs_picture *picture, cs_error *error)
+{
+    const std::string extension = extension_of(path);
+    const ImageBuf buffer = buffer_for(extension, picture);
+    const std::string temporary =
+        std::string(path) + ".part" + std::to_string(static_cast<long>(getpid()));
+    auto output = OIIO::ImageOutput::create(extension);
+    if (output == nullptr)
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: this image format cannot be written", path);
+    ImageSpec spec = buffer.spec();
+    const bool is_exr = extension == "exr";
+    const bool is_tiff = extension == "tif" || extension == "tiff";
+    spec.set_format(is_exr ? TypeDesc::FLOAT : is_tiff ? TypeDesc::UINT16 : TypeDesc::UINT8);
+    if (!is_exr) spec.attribute("oiio:ColorSpace", "sRGB");
+    if (is_exr) spec.attribute("compression", "zip");
+    bool good = output->open(temporary, spec) &&
+                output->write_image(TypeDesc::FLOAT, buffer.localpixels());
+    std::string reason = first_line(output->geterror());
+    if (!output->close() && good) {
+        good = false;
+        reason = first_line(output->geterror());
+    }
+    if (good && std::rename(temporary.c_str(), path) != 0) {
+        good = false;
+        reason = std::strerror(errno);
+    }
+    if (good) return CLSHEAR_OK;
+    std::remove(temporary.c_str());
+    return cs_fail(error, CLSHEAR_BAD_FILE, "%s: cannot be written: %s", path, reason.c_str());
+}
+
+} // namespace
+
+extern "C" clshear_status cs_image_read_texels(const char *path, const void *memory, size_t size,
+                                               cs_texels *texels, cs_error *error)
+{
+    return guarded(path, error, [&] { return read_texels(path, memory, size, texels, error); });
+}
+
+extern "C" int cs_image_can_write(const char *path)
+{
+    for (const char *known : {"exr", "png", "jpg", "jpeg", "tif", "tiff"})
+        if (extension_of(path) == known) return 1;
+    return 0;
+}
+
+extern "C" clshear_status cs_image_write(const char *path, const cs_picture *picture,
+                                         cs_error *error)
+{
+    return guarded(path, error, [&] { return write_picture(path, picture, error); });
+}

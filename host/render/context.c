@@ -1,0 +1,68 @@
+/* Contexts and what they say about themselves. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "render/handles.h"
+
+/* The reason of a failure that left no context to keep it in. */
+static _Thread_local cs_error last_failure;
+
+const char *clshear_version(void)
+{
+    return CLSHEAR_VERSION;
+}
+
+clshear_context_options clshear_context_defaults(void)
+{
+    return (clshear_context_options){0};
+}
+
+clshear_status clshear_context_create(const clshear_context_options *options,
+                                      clshear_context **result)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_error *error = &last_failure;
+    const clshear_context_options defaults = clshear_context_defaults();
+    clshear_context *context = calloc(1, sizeof *context);
+    if (options == NULL) options = &defaults;
+    CS_REQUIRE(context != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    CS_REQUIRE(options->threads >= 0, CLSHEAR_BAD_ARGUMENT,
+               "%d threads: must be 0 (all) or a positive number", options->threads);
+    context->log = (cs_log){options->warn, options->warn_user};
+    context->threads = options->threads;
+    CS_TRY(cs_device_open(options->device, options->threads, options->packet, &context->device,
+                          error));
+    *result = context;
+    context = NULL;
+done:
+    clshear_context_free(context);
+    return status;
+}
+
+void clshear_context_free(clshear_context *context)
+{
+    if (context == NULL) return;
+    cs_device_close(context->device);
+    free(context);
+}
+
+const char *clshear_message(const clshear_context *context)
+{
+    return context != NULL ? context->error.message : last_failure.message;
+}
+
+clshear_status clshear_list_devices(void (*report)(void *user, int number, const char *name),
+                                    void *user)
+{
+    return cs_device_list(report, user, &last_failure);
+}
+
+const char *clshear_device_name(const clshear_context *context)
+{
+    return cs_device_name(context->device);
+}
+
+const char *clshear_driver_name(const clshear_context *context)
+{
+    return cs_device_driver(context->device);
+}

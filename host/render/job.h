@@ -1,0 +1,32 @@
+/* One render, from checked options to gathered pixels. */
+#ifndef CS_RENDER_JOB_H
+#define CS_RENDER_JOB_H
+
+#include "film/film.h"
+#include "frame.h"
+#include "render/handles.h"
+
+typedef struct cs_job {
+    clshear_scene *scene;
+    clshear_options options;
+    clshear_camera lens; /* as the caller gave it */
+    cs_camera camera;
+    cs_grid grid;
+    int window[4]; /* x0, x1, y0, y1 */
+    size_t pixel_count;
+    float *depth;
+    float *shear_px;
+    cs_buffer *pixels; /* cs_pixel */
+    cs_buffer *shears;
+    double prepass_s;
+    double kernel_s;
+} cs_job;
+
+/* Runs all passes. Each launch takes a fraction of a second, so that progress, cancelling and GPU
+ * watchdogs work; how the work is cut into launches does not change the result. */
+clshear_status cs_job_run_passes(cs_job *job, cs_error *error);
+
+/* Turns the gathered pixels into a film with metadata. */
+clshear_status cs_job_resolve(cs_job *job, clshear_film **film, cs_error *error);
+
+#endif

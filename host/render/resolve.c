@@ -1,0 +1,164 @@
+/* From gathered pixels to a film. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/job.h"
+
+enum {
+    SLICE = 1 << 16 /* pixels read back at once */
+};
+
+typedef struct planes {
+    float *mean[3];
+    float *variance[3];
+    float *sample_variance[3];
+    float *depth;
+    float *shear;
+    float *samples;
+} planes;
+
+static clshear_status add_planes(clshear_film *film, planes *all)
+{
+    static const char *const letters[3] = {"R", "G", "B"};
+    char name[32];
+    int good = 1;
+    for (int c = 0; c < 3; c++)
+        good &= (all->mean[c] = cs_film_add_channel(film, letters[c])) != NULL;
+    for (int c = 0; c < 3; c++) {
+        snprintf(name, sizeof name, "Variance.%s", letters[c]);
+        good &= (all->variance[c] = cs_film_add_channel(film, name)) != NULL;
+    }
+    for (int c = 0; c < 3; c++) {
+        snprintf(name, sizeof name, "SampleVariance.%s", letters[c]);
+        good &= (all->sample_variance[c] = cs_film_add_channel(film, name)) != NULL;
+    }
+    good &= (all->depth = cs_film_add_channel(film, "Z")) != NULL;
+    good &= (all->shear = cs_film_add_channel(film, "Shear")) != NULL;
+    good &= (all->samples = cs_film_add_channel(film, "Samples")) != NULL;
+    return good ? CLSHEAR_OK
+                : cs_fail(film->error, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
+}
+
+/* One pixel; `pattern` is the number of samples in a finished pattern. */
+static void resolve_pixel(const cs_pixel *pixel, uint32_t pattern, size_t index, planes *all)
+{
+    const double samples = pixel->samples, patterns = pixel->patterns;
+    for (int c = 0; c < 3; c++) {
+        double finished = (double)pixel->pattern_sum[c] + (double)pixel->pattern_carry[c];
+        double pending = (double)pixel->sum[c] + (double)pixel->carry[c];
+        if (samples > 0.0)
+            all->mean[c][index] = (float)((finished * pattern + pending) / samples);
+        if (patterns > 1.0)
+            all->variance[c][index] =
+                (float)((double)pixel->pattern_m2[c] / (patterns * (patterns - 1.0)));
+        if (samples > 1.0)
+            all->sample_variance[c][index] = (float)((double)pixel->sample_m2[c] / (samples - 1.0));
+    }
+    all->samples[index] = (float)samples;
+}
+
+/* Removes the variance planes when a pixel has too few patterns to tell. */
+static void drop_variance(clshear_film *film)
+{
+    cs_channel *channels = film->channels.items;
+    size_t kept = 0;
+    for (size_t i = 0; i < film->channels.count; i++) {
+        if (strncmp(channels[i].name, "Variance.", 9) == 0)
+            free(channels[i].pixels);
+        else
+            channels[kept++] = channels[i];
+    }
+    film->channels.count = kept;
+    film->info.channels = kept;
+}
+
+static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    uint32_t fewest = UINT32_MAX;
+    cs_pixel *slice = malloc(SLICE * sizeof *slice);
+    CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
+    for (size_t first = 0; first < job->pixel_count; first += SLICE) {
+        size_t count = job->pixel_count - first < SLICE ? job->pixel_count - first : SLICE;
+        CS_TRY(cs_buffer_read(job->pixels, first * sizeof *slice, count * sizeof *slice, slice,
+                              error));
+        for (size_t i = 0; i < count; i++) {
+            resolve_pixel(&slice[i], job->grid.count, first + i, all);
+            film->info.samples += slice[i].samples;
+            film->info.shadow_rays += slice[i].shadow_rays;
+            if (slice[i].patterns < fewest) fewest = slice[i].patterns;
+        }
+    }
+    memcpy(all->depth, job->depth, job->pixel_count * sizeof *job->depth);
+    memcpy(all->shear, job->shear_px, job->pixel_count * sizeof *job->shear_px);
+    if (fewest < 2) drop_variance(film);
+done:
+    free(slice);
+    return status;
+}
+
+/* World to camera space for row vectors: x right, y up, z forward, as OpenEXR has it. */
+static void world_to_camera(const cs_camera *camera, float *matrix)
+{
+    memset(matrix, 0, 16 * sizeof *matrix);
+    matrix[15] = 1.0f;
+    for (int axis = 0; axis < 3; axis++) {
+        const float columns[3] = {camera->right[axis], -camera->down[axis], camera->forward[axis]};
+        for (int column = 0; column < 3; column++) {
+            matrix[4 * axis + column] = columns[column];
+            matrix[12 + column] -= camera->eye[axis] * columns[column];
+        }
+    }
+}
+
+/* What is needed to make the image again. */
+static clshear_status describe(const cs_job *job, clshear_film *film)
+{
+    static const char *const shears[] = {"none", "toroidal", "equal-area"};
+    clshear_status status = CLSHEAR_OK;
+    clshear_context *context = job->scene->context;
+    char seed[16];
+    float matrix[16];
+    snprintf(seed, sizeof seed, "%u", job->options.seed);
+    world_to_camera(&job->camera, matrix);
+    CS_TRY(clshear_film_annotate(film, "Software", "clshear " CLSHEAR_VERSION));
+    CS_TRY(clshear_film_annotate(film, "clshear.version", CLSHEAR_VERSION));
+    CS_TRY(clshear_film_annotate(film, "clshear.seed", seed));
+    CS_TRY(clshear_film_annotate(film, "clshear.sampler", "mj"));
+    CS_TRY(clshear_film_annotate(film, "clshear.shear", shears[job->options.shear]));
+    CS_TRY(clshear_film_annotate(film, "clshear.device", clshear_device_name(context)));
+    CS_TRY(clshear_film_annotate(film, "clshear.driver", clshear_driver_name(context)));
+    CS_TRY(clshear_film_annotate(film, "clshear.aperture",
+                                 job->lens.aperture == CLSHEAR_APERTURE_SQUARE ? "square"
+                                                                               : "disk"));
+    CS_TRY(cs_film_set_int(film, "clshear.replicates", (int32_t)job->options.replicates));
+    CS_TRY(cs_film_set_int(film, "clshear.packet", cs_device_packet(context->device)));
+    CS_TRY(cs_film_set_int(film, "samplesPerPixel",
+                           (int32_t)(job->options.replicates * job->grid.count)));
+    CS_TRY(cs_film_set_float(film, "clshear.focalDistance", job->camera.focal_distance));
+    CS_TRY(cs_film_set_float(film, "clshear.lensRadius", job->lens.lens_radius));
+    CS_TRY(cs_film_set_float(film, "clshear.fov", job->lens.fov_deg));
+    CS_TRY(cs_film_set_matrix(film, "worldtocamera", matrix));
+done:
+    return status;
+}
+
+clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    clshear_film *film = NULL;
+    planes all;
+    CS_TRY(cs_film_create(job->window, job->options.width, job->options.height, error, &film));
+    CS_TRY(add_planes(film, &all));
+    CS_TRY(read_pixels(job, film, &all, error));
+    CS_TRY(describe(job, film));
+    film->info.prepass_s = job->prepass_s;
+    film->info.kernel_s = job->kernel_s;
+    *result = film;
+    film = NULL;
+done:
+    clshear_film_free(film);
+    return status;
+}

@@ -1,0 +1,110 @@
+#include "scene/camera.h"
+
+#include <assimp/camera.h>
+#include <math.h>
+#include <string.h>
+
+static const float default_fov_deg = 40.0f;
+static const float degrees = CS_PI / 180.0f;
+
+void cs_camera_import(cs_scene *scene, const struct aiCamera *source)
+{
+    clshear_camera *camera = &scene->camera;
+    const struct aiVector3D *eye = &source->mPosition, *towards = &source->mLookAt;
+    const float values[3][3] = {{eye->x, eye->y, eye->z},
+                                {eye->x + towards->x, eye->y + towards->y, eye->z + towards->z},
+                                {source->mUp.x, source->mUp.y, source->mUp.z}};
+    memcpy(camera->eye, values[0], sizeof values[0]);
+    memcpy(camera->target, values[1], sizeof values[1]);
+    memcpy(camera->up, values[2], sizeof values[2]);
+    camera->fov_deg = source->mHorizontalFOV / degrees;
+    scene->camera_aspect = source->mAspect;
+    scene->has_camera = 1;
+}
+
+/* Files give the horizontal angle; the shorter axis is the vertical one of wide pictures. */
+static float shorter_fov_deg(float horizontal_deg, float aspect)
+{
+    if (aspect <= 1.0f) return horizontal_deg;
+    return 2.0f * atanf(tanf(0.5f * horizontal_deg * degrees) / aspect) / degrees;
+}
+
+clshear_camera cs_camera_of_scene(const cs_scene *scene, int width, int height)
+{
+    clshear_camera camera = scene->camera;
+    const float aspect = (float)width / (float)height;
+    camera.lens_radius = -1.0f;
+    camera.focal_distance = 0.0f;
+    camera.aperture = CLSHEAR_APERTURE_DISK;
+    if (scene->has_camera) {
+        float file_aspect = scene->camera_aspect > 0.0f ? scene->camera_aspect : aspect;
+        camera.fov_deg = shorter_fov_deg(camera.fov_deg, file_aspect);
+        return camera;
+    }
+    float half[3];
+    for (int axis = 0; axis < 3; axis++) {
+        float low = scene->bounds[0][axis], high = scene->bounds[1][axis];
+        half[axis] = 0.5f * (high - low);
+        camera.target[axis] = 0.5f * (low + high);
+        camera.eye[axis] = camera.target[axis];
+        camera.up[axis] = axis == 1 ? 1.0f : 0.0f;
+    }
+    /* The front face of the box fills the picture but for a margin. */
+    float tangent = tanf(0.5f * default_fov_deg * degrees);
+    float wide = aspect > 1.0f ? aspect : 1.0f, tall = aspect < 1.0f ? 1.0f / aspect : 1.0f;
+    float reach = fmaxf(half[0] / wide, half[1] / tall) / tangent * 1.05f;
+    camera.fov_deg = default_fov_deg;
+    camera.eye[2] += half[2] + fmaxf(reach, 1e-3f * half[2]);
+    return camera;
+}
+
+static int normalise(float *v)
+{
+    float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    if (!(length > 0.0f) || !isfinite(length)) return 0;
+    for (int i = 0; i < 3; i++)
+        v[i] /= length;
+    return 1;
+}
+
+static void cross(const float *a, const float *b, float *c)
+{
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        c[i] = a[j] * b[k] - a[k] * b[j];
+    }
+}
+
+clshear_status cs_camera_frame(const clshear_camera *camera, int width, int height,
+                               cs_camera *frame, cs_error *error)
+{
+    float up[3];
+    memcpy(up, camera->up, sizeof up);
+    for (int i = 0; i < 3; i++) {
+        frame->eye[i] = camera->eye[i];
+        frame->forward[i] = camera->target[i] - camera->eye[i];
+        if (!isfinite(camera->eye[i]) || !isfinite(camera->target[i]) || !isfinite(up[i]))
+            return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "camera: eye, target and up must be finite");
+    }
+    if (!normalise(frame->forward))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "camera: eye and target are the same point");
+    cross(frame->forward, up, frame->right);
+    if (!normalise(up) || !normalise(frame->right))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "camera: up is parallel to the line of sight");
+    cross(frame->forward, frame->right, frame->down);
+    if (!(camera->fov_deg > 0.0f && camera->fov_deg < 180.0f))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "field of view %g degrees: must be above 0 and below 180",
+                       (double)camera->fov_deg);
+    const int shorter = width < height ? width : height;
+    const float radius = camera->lens_radius > 0.0f ? camera->lens_radius : 0.0f;
+    const int square = camera->aperture == CLSHEAR_APERTURE_SQUARE;
+    frame->focal_distance = camera->focal_distance > 0.0f ? camera->focal_distance : 1.0f;
+    frame->pixel_width = 2.0f * frame->focal_distance * tanf(0.5f * camera->fov_deg * degrees) /
+                         (float)shorter;
+    frame->aperture = square ? CS_APERTURE_SQUARE : CS_APERTURE_DISK;
+    frame->aperture_width = radius * (square ? 2.0f : sqrtf(CS_PI));
+    frame->centre_px[0] = 0.5f * (float)width;
+    frame->centre_px[1] = 0.5f * (float)height;
+    return CLSHEAR_OK;
+}

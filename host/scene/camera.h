@@ -1,0 +1,21 @@
+/* Cameras: the file's, the framing one, and the thin lens as the kernels want it. */
+#ifndef CS_SCENE_CAMERA_H
+#define CS_SCENE_CAMERA_H
+
+
+#include "scene/scene.h"
+
+struct aiCamera;
+
+/* Takes over the camera of a scene file. */
+void cs_camera_import(cs_scene *scene, const struct aiCamera *source);
+
+/* The file's camera, or one that frames the bounding box, for an image of this size. */
+clshear_camera cs_camera_of_scene(const cs_scene *scene, int width, int height);
+
+/* Checks `camera` and computes its frame. A focal distance that is not chosen counts as 1: for
+ * pinhole rays it does not matter. */
+clshear_status cs_camera_frame(const clshear_camera *camera, int width, int height,
+                               cs_camera *frame, cs_error *error);
+
+#endif

@@ -1,0 +1,97 @@
+/* Lights of a scene: added ones, the default one, and the table of emissive triangles. */
+#include <math.h>
+#include <string.h>
+
+#include "scene/scene.h"
+
+clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error)
+{
+    for (int i = 0; i < 3; i++)
+        if (!isfinite(light->vector[i]) || !isfinite(light->colour[i]) || light->colour[i] < 0.0f)
+            return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                           "light: position must be finite, colour finite and not negative");
+    float length = 1.0f;
+    if (light->kind == CLSHEAR_LIGHT_DIRECTIONAL) {
+        length = sqrtf(light->vector[0] * light->vector[0] + light->vector[1] * light->vector[1] +
+                       light->vector[2] * light->vector[2]);
+        if (length == 0.0f)
+            return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: its direction has no length");
+    }
+    cs_light *added = cs_array_extend(&scene->lights, 1);
+    if (added == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    added->kind =
+        light->kind == CLSHEAR_LIGHT_DIRECTIONAL ? CS_LIGHT_DIRECTIONAL : CS_LIGHT_POINT;
+    for (int i = 0; i < 3; i++) {
+        added->vector[i] = light->vector[i] / length;
+        added->colour[i] = light->colour[i];
+    }
+    return CLSHEAR_OK;
+}
+
+cs_light cs_scene_default_light(const cs_scene *scene)
+{
+    cs_light light;
+    memset(&light, 0, sizeof light);
+    light.kind = CS_LIGHT_POINT;
+    float square = 0.0f;
+    for (int axis = 0; axis < 3; axis++) {
+        float low = scene->bounds[0][axis], high = scene->bounds[1][axis];
+        light.vector[axis] = axis == 1 ? low + 0.95f * (high - low) : 0.5f * (low + high);
+        square += 0.25f * (high - low) * (high - low);
+    }
+    /* A white surface that faces the light from half a diagonal away has radiance 1. */
+    for (int c = 0; c < 3; c++)
+        light.colour[c] = CS_PI * square;
+    return light;
+}
+
+static float luminance(const float *colour)
+{
+    return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
+}
+
+/* Fills in one emitter; returns its power up to a constant. */
+static double describe_emitter(const cs_scene *scene, size_t triangle, cs_emitter *emitter)
+{
+    const uint32_t *corner = ((const uint32_t(*)[3])scene->indices.items)[triangle];
+    const float(*positions)[3] = scene->positions.items;
+    const uint32_t material = ((const uint32_t *)scene->triangle_materials.items)[triangle];
+    const cs_material *look = (const cs_material *)scene->materials.items + material;
+    double square = 0.0;
+    for (int i = 0; i < 3; i++) {
+        emitter->corner[i] = positions[corner[0]][i];
+        emitter->edge1[i] = positions[corner[1]][i] - positions[corner[0]][i];
+        emitter->edge2[i] = positions[corner[2]][i] - positions[corner[0]][i];
+        emitter->radiance[i] = look->emission[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        double normal = (double)emitter->edge1[j] * (double)emitter->edge2[k] -
+                        (double)emitter->edge1[k] * (double)emitter->edge2[j];
+        square += normal * normal;
+    }
+    emitter->area = (float)(0.5 * sqrt(square));
+    return (double)emitter->area * (double)luminance(look->emission);
+}
+
+clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, cs_error *error)
+{
+    const uint32_t *materials = scene->triangle_materials.items;
+    const cs_material *looks = scene->materials.items;
+    double total = 0.0, below = 0.0;
+    for (size_t i = 0; i < scene->indices.count; i++) {
+        if (!(luminance(looks[materials[i]].emission) > 0.0f)) continue;
+        cs_emitter *emitter = cs_array_extend(emitters, 1);
+        if (emitter == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+        double power = describe_emitter(scene, i, emitter);
+        emitter->probability = (float)power;
+        total += power;
+    }
+    cs_emitter *table = emitters->items;
+    for (size_t i = 0; i < emitters->count; i++) {
+        below += (double)table[i].probability;
+        table[i].cumulative = (float)(below / total);
+        table[i].probability = (float)((double)table[i].probability / total);
+    }
+    return CLSHEAR_OK;
+}

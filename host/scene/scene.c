@@ -1,0 +1,133 @@
+#include "scene/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+void cs_scene_init(cs_scene *scene)
+{
+    memset(scene, 0, sizeof *scene);
+    scene->positions.item_size = 3 * sizeof(float);
+    scene->vertices.item_size = sizeof(cs_vertex);
+    scene->indices.item_size = 3 * sizeof(uint32_t);
+    scene->triangle_materials.item_size = sizeof(uint32_t);
+    scene->triangle_flags.item_size = sizeof(uint8_t);
+    scene->materials.item_size = sizeof(cs_material);
+    scene->textures.item_size = sizeof(cs_texture);
+    scene->texels.item_size = 4 * sizeof(uint16_t);
+    scene->lights.item_size = sizeof(cs_light);
+}
+
+void cs_scene_free(cs_scene *scene)
+{
+    cs_array_free(&scene->positions);
+    cs_array_free(&scene->vertices);
+    cs_array_free(&scene->indices);
+    cs_array_free(&scene->triangle_materials);
+    cs_array_free(&scene->triangle_flags);
+    cs_array_free(&scene->materials);
+    cs_array_free(&scene->textures);
+    cs_array_free(&scene->texels);
+    cs_array_free(&scene->lights);
+}
+
+size_t cs_scene_triangle_count(const cs_scene *scene)
+{
+    return scene->indices.count;
+}
+
+static clshear_status add_vertices(cs_scene *scene, const clshear_mesh *mesh, const float *texture,
+                                   const char *name, cs_error *error)
+{
+    for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
+        if (!isfinite(mesh->positions[i]))
+            return cs_fail(error, CLSHEAR_BAD_FILE,
+                           "%s: vertex %zu is not a finite number; repair the mesh", name, i / 3);
+    float(*positions)[3] = cs_array_extend(&scene->positions, mesh->vertex_count);
+    cs_vertex *vertices = cs_array_extend(&scene->vertices, mesh->vertex_count);
+    if (positions == NULL || vertices == NULL)
+        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", name);
+    memcpy(positions, mesh->positions, mesh->vertex_count * sizeof *positions);
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        if (mesh->normals != NULL)
+            memcpy(vertices[i].normal, mesh->normals + 3 * i, sizeof vertices[i].normal);
+        if (texture != NULL)
+            memcpy(vertices[i].texture, texture + 3 * i, sizeof vertices[i].texture);
+    }
+    return CLSHEAR_OK;
+}
+
+/* Whether the three corners span an area that a float can hold. */
+static int has_area(const float *a, const float *b, const float *c)
+{
+    double e1[3], e2[3], square = 0.0;
+    for (int i = 0; i < 3; i++) {
+        e1[i] = (double)b[i] - (double)a[i];
+        e2[i] = (double)c[i] - (double)a[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        double normal = e1[j] * e2[k] - e1[k] * e2[j];
+        square += normal * normal;
+    }
+    return square > 1e-36 && isfinite((float)square);
+}
+
+clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, const float *texture,
+                                 uint32_t material, const char *name, cs_error *error)
+{
+    const size_t first_vertex = scene->positions.count;
+    clshear_status status = add_vertices(scene, mesh, texture, name, error);
+    if (status != CLSHEAR_OK) return status;
+    const size_t first = scene->indices.count;
+    uint32_t(*indices)[3] = cs_array_extend(&scene->indices, mesh->triangle_count);
+    uint32_t *materials = cs_array_extend(&scene->triangle_materials, mesh->triangle_count);
+    uint8_t *flags = cs_array_extend(&scene->triangle_flags, mesh->triangle_count);
+    if (indices == NULL || materials == NULL || flags == NULL)
+        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", name);
+    const cs_material *look = (const cs_material *)scene->materials.items + material;
+    const int textured = texture != NULL && look->texture != CS_NO_TEXTURE;
+    const uint8_t flag = (uint8_t)((mesh->normals != NULL ? CS_FACE_SMOOTH : 0) |
+                                   (textured ? CS_FACE_TEXTURED : 0));
+    size_t kept = 0;
+    for (size_t i = 0; i < mesh->triangle_count; i++) {
+        const uint32_t *corner = mesh->indices + 3 * i;
+        for (int k = 0; k < 3; k++)
+            if (corner[k] >= mesh->vertex_count)
+                return cs_fail(error, CLSHEAR_BAD_FILE,
+                               "%s: triangle %zu names vertex %u, but there are %zu; repair the mesh",
+                               name, i, corner[k], mesh->vertex_count);
+        const float *p = mesh->positions;
+        if (!has_area(p + 3 * corner[0], p + 3 * corner[1], p + 3 * corner[2])) continue;
+        for (int k = 0; k < 3; k++)
+            indices[kept][k] = (uint32_t)first_vertex + corner[k];
+        materials[kept] = material;
+        flags[kept] = flag;
+        kept++;
+    }
+    scene->degenerate += mesh->triangle_count - kept;
+    scene->indices.count = first + kept;
+    scene->triangle_materials.count = first + kept;
+    scene->triangle_flags.count = first + kept;
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_scene_finish(cs_scene *scene, const char *name, cs_error *error)
+{
+    const uint32_t(*indices)[3] = scene->indices.items;
+    const float(*positions)[3] = scene->positions.items;
+    if (scene->indices.count == 0)
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: no triangles in it (%zu without area)", name,
+                       scene->degenerate);
+    for (int axis = 0; axis < 3; axis++) {
+        scene->bounds[0][axis] = INFINITY;
+        scene->bounds[1][axis] = -INFINITY;
+    }
+    for (size_t i = 0; i < scene->indices.count; i++)
+        for (int k = 0; k < 3; k++)
+            for (int axis = 0; axis < 3; axis++) {
+                float value = positions[indices[i][k]][axis];
+                scene->bounds[0][axis] = fminf(scene->bounds[0][axis], value);
+                scene->bounds[1][axis] = fmaxf(scene->bounds[1][axis], value);
+            }
+    return CLSHEAR_OK;
+}

@@ -1,0 +1,48 @@
+/* What is rendered: triangles with materials, textures, lights, perhaps a camera. */
+#ifndef CS_SCENE_SCENE_H
+#define CS_SCENE_SCENE_H
+
+#include "base/array.h"
+#include "base/status.h"
+#include "shared.h"
+
+typedef struct cs_scene {
+    cs_array positions;          /* float[3] a vertex */
+    cs_array vertices;           /* cs_vertex; as many as positions */
+    cs_array indices;            /* uint32_t[3] a triangle */
+    cs_array triangle_materials; /* uint32_t a triangle */
+    cs_array triangle_flags;     /* uint8_t a triangle, CS_FACE_ */
+    cs_array materials;          /* cs_material */
+    cs_array textures;           /* cs_texture */
+    cs_array texels;             /* uint16_t[4] */
+    cs_array lights;             /* cs_light */
+    size_t degenerate;           /* triangles left out */
+    float bounds[2][3];          /* low and high corner */
+    int has_camera;
+    clshear_camera camera; /* of the file; its fov is horizontal until an image size is known */
+    float camera_aspect;   /* width / height; 0: not said */
+} cs_scene;
+
+void cs_scene_init(cs_scene *scene);
+void cs_scene_free(cs_scene *scene);
+
+size_t cs_scene_triangle_count(const cs_scene *scene);
+
+/* Appends the triangles of `mesh`, whose texture coordinates (3 floats a vertex, or NULL) and
+ * material are already known. `name` is for messages. Drops triangles without area. */
+clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, const float *texture,
+                                 uint32_t material, const char *name, cs_error *error);
+
+/* Checks that there is something to render and computes the bounds. */
+clshear_status cs_scene_finish(cs_scene *scene, const char *name, cs_error *error);
+
+/* Checks and appends a light. */
+clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error);
+
+/* A white point light under the top of the bounding box, as bright as daylight inside it. */
+cs_light cs_scene_default_light(const cs_scene *scene);
+
+/* The emissive triangles (cs_emitter, in `emitters`), with probabilities in proportion to power. */
+clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, cs_error *error);
+
+#endif

@@ -1,0 +1,74 @@
+#include "scene/texture.h"
+
+#include <assimp/scene.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/image_io.h"
+
+/* `name` seen from the folder of `path`; backslashes of Windows exporters become slashes. */
+static void resolve(const char *path, const char *name, char *resolved, size_t size)
+{
+    const char *slash = strrchr(path, '/');
+    int folder = slash == NULL || name[0] == '/' ? 0 : (int)(slash - path) + 1;
+    snprintf(resolved, size, "%.*s%s", folder, path, name);
+    for (char *letter = resolved + folder; *letter != '\0'; letter++)
+        if (*letter == '\\') *letter = '/';
+}
+
+/* The image inside the scene file that `name` means: "*N", or the name of one; NULL if none. */
+static const struct aiTexture *embedded_image(const struct aiScene *file, const char *name)
+{
+    for (unsigned i = 0; i < file->mNumTextures; i++) {
+        char number[16];
+        snprintf(number, sizeof number, "*%u", i);
+        if (strcmp(name, number) == 0 || strcmp(name, file->mTextures[i]->mFilename.data) == 0)
+            return file->mTextures[i];
+    }
+    return NULL;
+}
+
+static clshear_status append(cs_scene *scene, const cs_texels *image, i32 *texture,
+                             cs_error *error)
+{
+    size_t count = (size_t)image->width * image->height, first = scene->texels.count;
+    if (first + count > UINT32_MAX)
+        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY,
+                       "textures have more than 2^32 texels; use smaller images");
+    void *texels = cs_array_extend(&scene->texels, count);
+    cs_texture *added = cs_array_extend(&scene->textures, 1);
+    if (texels == NULL || added == NULL)
+        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for textures");
+    memcpy(texels, image->halves, count * scene->texels.item_size);
+    *added = (cs_texture){
+        .first = (uint32_t)first, .width = image->width, .height = image->height};
+    *texture = (i32)(scene->textures.count - 1);
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_texture_add(cs_scene *scene, const struct aiScene *file, const char *path,
+                              const char *name, i32 *texture, const cs_log *log, cs_error *error)
+{
+    char resolved[4096];
+    const void *memory = NULL;
+    size_t size = 0;
+    cs_texels image = {0};
+    cs_error reason;
+    *texture = CS_NO_TEXTURE;
+    resolve(path, name, resolved, sizeof resolved);
+    const struct aiTexture *embedded = embedded_image(file, name);
+    if (embedded != NULL && embedded->mHeight == 0) {
+        memory = embedded->pcData;
+        size = embedded->mWidth;
+        snprintf(resolved, sizeof resolved, "%s.%s", name, embedded->achFormatHint);
+    }
+    clshear_status status = cs_image_read_texels(resolved, memory, size, &image, &reason);
+    if (status != CLSHEAR_OK) {
+        cs_warn(log, "%s: texture %s; it is mid-grey", path, reason.message);
+        return CLSHEAR_OK;
+    }
+    status = append(scene, &image, texture, error);
+    free(image.halves);
+    return status;
+}
