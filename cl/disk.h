@@ -138,11 +138,12 @@ static inline void cs_disk_from_square(vfloat *u, vfloat *v)
     vfloat divisor = cs_abs(radius) < 1e-9f ? (vfloat)(1e-9f) : radius;
     vfloat angle = (0.25f * CS_PI) * (other / divisor);
     vfloat square = angle * angle;
-    vfloat sine = angle * (1.0f + square * (-0.166666667f + square * (0.00833333333f -
-                                                                      square * 0.000198412698f)));
+    vfloat sine =
+        angle *
+        (1.0f + square * (-0.166666667f + square * (0.00833333333f - square * 0.000198412698f)));
     vfloat cosine =
-        1.0f + square * (-0.5f + square * (0.0416666667f + square * (-0.00138888889f +
-                                                                     square * 2.48015873e-5f)));
+        1.0f + square * (-0.5f + square * (0.0416666667f +
+                                           square * (-0.00138888889f + square * 2.48015873e-5f)));
     radius *= 2.0f * CS_DISK_RADIUS;
     *u = radius * (wide ? cosine : sine);
     *v = radius * (wide ? sine : cosine);

@@ -16,12 +16,29 @@ typedef struct cs_frame {
     u32 crop_x;
     u32 crop_y;
     u32 crop_width;
-    u32 first_pixel; /* of the crop, row by row */
+    u32 crop_height;
+    u32 first_pixel; /* in the order of cs_tiled_pixel */
     u32 pixel_count;
     u32 shear_mode; /* CS_SHEAR_ */
     u32 lights;
     u32 emitters;
 } cs_frame;
-CS_SHARED_WORDS(cs_frame, 48);
+CS_SHARED_WORDS(cs_frame, 49);
+
+/* Raster index (row by row) of the pixel that is number `order` in a walk through tiles of 8 x 8
+ * pixels: neighbours in time are neighbours in both directions, and find their nodes in the cache.
+ * Tiles at the right and lower edge are narrower. */
+static inline u32 cs_tiled_pixel(u32 order, u32 width, u32 height)
+{
+    const u32 side = 8u;
+    u32 band = order / (side * width);
+    u32 rows = height - band * side < side ? height - band * side : side;
+    u32 within_band = order - band * side * width;
+    u32 tile = within_band / (side * rows);
+    u32 columns = width - tile * side < side ? width - tile * side : side;
+    u32 within_tile = within_band - tile * side * rows;
+    u32 row = band * side + within_tile / columns;
+    return row * width + tile * side + within_tile % columns;
+}
 
 #endif

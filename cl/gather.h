@@ -44,8 +44,8 @@ static inline void cs_gather_add(cs_gather *gather, const vfloat *radiance, vflo
     gather->shadow_rays += shadow_rays;
 }
 
-static inline void cs_merge_channel(CS_GLOBAL cs_pixel *pixel, int c, f32 count, f32 shift,
-                                    f32 sum, f32 square)
+static inline void cs_merge_channel(CS_GLOBAL cs_pixel *pixel, int c, f32 count, f32 shift, f32 sum,
+                                    f32 square)
 {
     cs_exact_sum total = {pixel->sum[c], pixel->carry[c]};
     total = cs_exact_add(cs_exact_add(total, shift * count), sum);

@@ -6,15 +6,15 @@
 
 /* A bijective mixer of 32 bits with low bias: two rounds of xor-shift and odd multiplication, with
  * multipliers found by C. Wellons' search ("Prospecting for Hash Functions", 2018). */
-#define CS_DEFINE_HASH(name, type)                                                                 \
-    static inline type name(type x)                                                                \
-    {                                                                                              \
-        x ^= x >> 16;                                                                              \
-        x *= 0x7feb352du;                                                                          \
-        x ^= x >> 15;                                                                              \
-        x *= 0x846ca68bu;                                                                          \
-        x ^= x >> 16;                                                                              \
-        return x;                                                                                  \
+#define CS_DEFINE_HASH(name, type)  \
+    static inline type name(type x) \
+    {                               \
+        x ^= x >> 16;               \
+        x *= 0x7feb352du;           \
+        x ^= x >> 15;               \
+        x *= 0x846ca68bu;           \
+        x ^= x >> 16;               \
+        return x;                   \
     }
 
 CS_DEFINE_HASH(cs_hash, u32)

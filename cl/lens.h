@@ -18,13 +18,12 @@ static inline cs_ray cs_lens_ray(cs_camera camera, vfloat x, vfloat y, vfloat u,
     vfloat lens_right = u * camera.aperture_width;
     vfloat lens_down = v * camera.aperture_width;
     f32 inverse_focus = 1.0f / camera.focal_distance;
-    vfloat right =
-        ((x - camera.centre_px[0]) * camera.pixel_width - lens_right) * inverse_focus;
+    vfloat right = ((x - camera.centre_px[0]) * camera.pixel_width - lens_right) * inverse_focus;
     vfloat down = ((y - camera.centre_px[1]) * camera.pixel_width - lens_down) * inverse_focus;
     cs_ray ray;
     for (int axis = 0; axis < 3; axis++) {
-        ray.origin[axis] = camera.eye[axis] + lens_right * camera.right[axis] +
-                           lens_down * camera.down[axis];
+        ray.origin[axis] =
+            camera.eye[axis] + lens_right * camera.right[axis] + lens_down * camera.down[axis];
         ray.direction[axis] =
             camera.forward[axis] + right * camera.right[axis] + down * camera.down[axis];
     }

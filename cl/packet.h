@@ -20,7 +20,7 @@
 #define CS_LANE_INDEX ((vuint)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u))
 #elif CS_PACKET == 16
 #define CS_VECTOR(scalar) scalar##16
-#define CS_LANE_INDEX                                                                              \
+#define CS_LANE_INDEX \
     ((vuint)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u, 10u, 11u, 12u, 13u, 14u, 15u))
 #else
 #error "CS_PACKET must be 1, 4, 8 or 16"

@@ -13,10 +13,10 @@ __kernel void cs_points(const cs_frame frame, const uint pixel, const float shea
     vuint index = first + CS_LANE_INDEX;
     index = index < frame.grid.count ? index : (vuint)(0u);
     u32 key = cs_pattern_key(frame.seed, pixel, frame.replicate);
-    cs_pair film = cs_draw_pair(frame.grid, key, CS_PAIR_FIBRE, index);
-    cs_pair lens = cs_draw_pair(frame.grid, key, CS_PAIR_LENS, index);
-    cs_film_lens point = cs_shear(film.x, film.y, lens.x, lens.y, frame.shear_mode,
-                                  frame.camera.aperture, shear);
+    cs_pair film = cs_draw_pair(&frame.grid, key, CS_PAIR_FIBRE, index);
+    cs_pair lens = cs_draw_pair(&frame.grid, key, CS_PAIR_LENS, index);
+    cs_film_lens point =
+        cs_shear(film.x, film.y, lens.x, lens.y, frame.shear_mode, frame.camera.aperture, shear);
     cs_float_lanes value[8];
     value[0].all = film.x;
     value[1].all = film.y;

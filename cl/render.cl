@@ -12,18 +12,22 @@ typedef struct cs_place {
     f32 shear; /* of its tuples, pixels */
 } cs_place;
 
-/* Draws and traces the packet at `position` of the pixel's order; returns the lanes in use. */
+/* Draws and traces the packet that begins at place `start` of the pixel's order; returns the lanes in
+ * use: those before `end` that are samples of the pattern. */
 static inline vint cs_sample_packet(const cs_frame *frame, const cs_world *world,
-                                    const cs_place *place, vuint position, cs_radiance *radiance)
+                                    const cs_place *place, u32 start, u32 end,
+                                    cs_radiance *radiance)
 {
-    vuint index = cs_index_at(frame->grid, place->key, position);
-    vint active = index < frame->grid.count;
+    vuint position = start + CS_LANE_INDEX;
+    vint inside = position < end;
+    vuint index = cs_index_at(&frame->grid, place->key, inside ? position : (vuint)(start));
+    vint active = inside & (index < frame->grid.count);
     index = active ? index : (vuint)(0u);
-    cs_pair film = cs_draw_pair(frame->grid, place->key, CS_PAIR_FIBRE, index);
-    cs_pair lens = cs_draw_pair(frame->grid, place->key, CS_PAIR_LENS, index);
+    cs_pair film = cs_draw_pair(&frame->grid, place->key, CS_PAIR_FIBRE, index);
+    cs_pair lens = cs_draw_pair(&frame->grid, place->key, CS_PAIR_LENS, index);
     cs_pair emitter = film;
     if (frame->emitters > 0u)
-        emitter = cs_draw_pair(frame->grid, place->key, CS_PAIR_EMITTER, index);
+        emitter = cs_draw_pair(&frame->grid, place->key, CS_PAIR_EMITTER, index);
     cs_film_lens point = cs_shear(film.x, film.y, lens.x, lens.y, frame->shear_mode,
                                   frame->camera.aperture, place->shear);
     cs_ray ray = cs_lens_ray(frame->camera, point.x + (f32)place->x, point.y + (f32)place->y,
@@ -47,7 +51,8 @@ __kernel void cs_render(const cs_frame frame, __global cs_pixel *pixels,
     if (get_global_id(0) >= frame.pixel_count) return;
     const cs_world world = {nodes,    triangles, faces,  vertices, materials,
                             textures, texels,    lights, emitters};
-    u32 number = frame.first_pixel + (u32)get_global_id(0);
+    u32 number = cs_tiled_pixel(frame.first_pixel + (u32)get_global_id(0), frame.crop_width,
+                                frame.crop_height);
     cs_place place;
     place.x = frame.crop_x + number % frame.crop_width;
     place.y = frame.crop_y + number / frame.crop_width;
@@ -61,8 +66,7 @@ __kernel void cs_render(const cs_frame frame, __global cs_pixel *pixels,
         int first = 1;
         for (u32 start = block * (u32)CS_BLOCK; start < end; start += (u32)CS_PACKET) {
             cs_radiance radiance;
-            vuint position = start + CS_LANE_INDEX;
-            vint active = cs_sample_packet(&frame, &world, &place, position, &radiance);
+            vint active = cs_sample_packet(&frame, &world, &place, start, end, &radiance);
             cs_gather_add(&gather, radiance.channel, radiance.shadow_rays, active, first);
             first = 0;
         }

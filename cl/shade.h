@@ -47,10 +47,10 @@ static inline float3 cs_texel(const cs_world *world, u32 texture, f32 s, f32 t)
     u32 y1 = y0 + 1u < image->height ? y0 + 1u : 0u;
     size_t above = (size_t)image->first + (size_t)y0 * image->width;
     size_t below = (size_t)image->first + (size_t)y1 * image->width;
-    float4 upper = mix(vload_half4(above + x0, world->texels),
-                       vload_half4(above + x1, world->texels), across);
-    float4 lower = mix(vload_half4(below + x0, world->texels),
-                       vload_half4(below + x1, world->texels), across);
+    float4 upper =
+        mix(vload_half4(above + x0, world->texels), vload_half4(above + x1, world->texels), across);
+    float4 lower =
+        mix(vload_half4(below + x0, world->texels), vload_half4(below + x1, world->texels), across);
     return mix(upper, lower, down).xyz;
 }
 
@@ -114,8 +114,7 @@ static inline void cs_describe_triangle(const cs_world *world, const cs_ray *ray
     for (int axis = 0; axis < 3; axis++) {
         surface->outward[axis] = mine ? towards * n[axis] : surface->outward[axis];
         surface->normal[axis] = mine ? surface->outward[axis] : surface->normal[axis];
-        surface->albedo[axis] =
-            mine ? (vfloat)(material->diffuse[axis]) : surface->albedo[axis];
+        surface->albedo[axis] = mine ? (vfloat)(material->diffuse[axis]) : surface->albedo[axis];
         surface->emission[axis] =
             mine ? (vfloat)(material->emission[axis]) : surface->emission[axis];
     }
@@ -128,9 +127,11 @@ static inline void cs_describe_triangle(const cs_world *world, const cs_ray *ray
     CS_GLOBAL const f32 *e1 = triangle->edge1;
     CS_GLOBAL const f32 *e2 = triangle->edge2;
     vfloat b1 = (x * (e2[1] * n[2] - e2[2] * n[1]) + y * (e2[2] * n[0] - e2[0] * n[2]) +
-                 z * (e2[0] * n[1] - e2[1] * n[0])) * inverse;
+                 z * (e2[0] * n[1] - e2[1] * n[0])) *
+                inverse;
     vfloat b2 = (x * (n[1] * e1[2] - n[2] * e1[1]) + y * (n[2] * e1[0] - n[0] * e1[2]) +
-                 z * (n[0] * e1[1] - n[1] * e1[0])) * inverse;
+                 z * (n[0] * e1[1] - n[1] * e1[0])) *
+                inverse;
     CS_GLOBAL const cs_face *face = world->faces + triangle->face;
     if (triangle->flags & CS_FACE_SMOOTH)
         cs_apply_smooth_normal(world, face, b1, b2, mine, surface);
@@ -182,8 +183,8 @@ static inline void cs_add_light(const cs_world *world, const cs_surface *surface
                                 f32 reach, vfloat weight, const vfloat *colour,
                                 cs_radiance *radiance)
 {
-    vint facing = surface->hit & (weight > 0.0f) &
-                  (cs_dot(surface->outward, shadow->direction) > 0.0f);
+    vint facing =
+        surface->hit & (weight > 0.0f) & (cs_dot(surface->outward, shadow->direction) > 0.0f);
     if (!cs_any(facing)) return;
     cs_hit blocked;
     blocked.distance = facing ? (vfloat)(reach) : (vfloat)(-1.0f);
@@ -263,8 +264,8 @@ static inline void cs_add_emitters(const cs_world *world, u32 count, const cs_su
         light_colour[axis] = colour[axis].all;
     }
     vfloat square = cs_max(cs_dot(shadow.direction, shadow.direction), (vfloat)(1e-30f));
-    vfloat cosines = cs_dot(surface->normal, shadow.direction) *
-                     fabs(cs_dot(light_normal, shadow.direction));
+    vfloat cosines =
+        cs_dot(surface->normal, shadow.direction) * fabs(cs_dot(light_normal, shadow.direction));
     vfloat weight = cosines / (square * square * density.all);
     cs_add_light(world, surface, &shadow, 0.9999f, weight, light_colour, radiance);
 }

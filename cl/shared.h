@@ -8,13 +8,14 @@
 #include "dialect.h"
 
 enum {
-    CS_BLOCK = 8,           /* samples whose order within a pattern is kept together */
-    CS_FLUSH_BLOCKS = 8,    /* blocks between two updates of a pixel's state */
-    CS_STACK = 64,          /* traversal stack, so the deepest hierarchy a device can walk */
-    CS_MAX_PATTERN = 1 << 20, /* samples in one pattern: strata must stay wider than a float's ulp */
-    CS_MAX_LEAF = 4,        /* triangles in a leaf */
-    CS_LEAF = 1 << 30,      /* set in a child reference that names triangles; low bits: first */
-    CS_LEAF_SHIFT = 27,     /* bits 27..29 of a leaf reference: number of triangles, less one */
+    CS_BLOCK = 8,        /* samples whose order within a pattern is kept together */
+    CS_FLUSH_BLOCKS = 8, /* blocks between two updates of a pixel's state */
+    CS_STACK = 64,       /* traversal stack, so the deepest hierarchy a device can walk */
+    CS_MAX_PATTERN =
+        1 << 20,        /* samples in one pattern: strata must stay wider than a float's ulp */
+    CS_MAX_LEAF = 4,    /* triangles in a leaf */
+    CS_LEAF = 1 << 30,  /* set in a child reference that names triangles; low bits: first */
+    CS_LEAF_SHIFT = 27, /* bits 27..29 of a leaf reference: number of triangles, less one */
     CS_NO_TEXTURE = -1,
     CS_NO_HIT = -1
 };
@@ -77,8 +78,8 @@ typedef struct cs_vertex {
 CS_SHARED_WORDS(cs_vertex, 5);
 
 typedef struct cs_material {
-    f32 diffuse[3]; /* albedo, linear Rec.709; multiplies the texture if there is one */
-    i32 texture;    /* index, or CS_NO_TEXTURE */
+    f32 diffuse[3];  /* albedo, linear Rec.709; multiplies the texture if there is one */
+    i32 texture;     /* index, or CS_NO_TEXTURE */
     f32 emission[3]; /* radiance, both sides */
     u32 padding;
 } cs_material;
@@ -129,15 +130,15 @@ CS_SHARED_WORDS(cs_camera, 18);
 
 /* What one pixel has gathered. Channels are linear Rec.709 radiance. */
 typedef struct cs_pixel {
-    f32 sum[3];          /* of the unfinished pattern, with what rounding lost in `carry` */
+    f32 sum[3]; /* of the unfinished pattern, with what rounding lost in `carry` */
     f32 carry[3];
-    f32 pattern_sum[3];  /* of the means of finished patterns, likewise */
+    f32 pattern_sum[3]; /* of the means of finished patterns, likewise */
     f32 pattern_carry[3];
-    f32 pattern_m2[3];   /* squared deviations of the pattern means */
-    f32 sample_mean[3];  /* of all samples */
+    f32 pattern_m2[3];  /* squared deviations of the pattern means */
+    f32 sample_mean[3]; /* of all samples */
     f32 sample_m2[3];
-    u32 samples;         /* of all patterns */
-    u32 pending;         /* of the unfinished pattern */
+    u32 samples; /* of all patterns */
+    u32 pending; /* of the unfinished pattern */
     u32 patterns;
     u32 shadow_rays;
 } cs_pixel;

@@ -55,7 +55,7 @@ static inline vfloat cs_trapezoid(vfloat across, vfloat along, vfloat blur, vflo
 }
 
 /* Blurs below this are in focus: the pixel's own width hides them, and the maps divide by them. */
-#define CS_LEAST_BLUR 1e-4f
+#define CS_LEAST_BLUR 1e-5f
 
 static inline vfloat cs_clamp(vfloat value, vfloat low, vfloat high)
 {

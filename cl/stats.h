@@ -40,13 +40,16 @@ typedef struct cs_exact_sum {
     f32 carry;
 } cs_exact_sum;
 
-/* Adds by Knuth's two-sum (TAOCP 2, 4.2.2), exact for any order of magnitudes. */
+/* Adds by Knuth's two-sum (TAOCP 2, 4.2.2), exact for any order of magnitudes, and renormalises so
+ * that the carry stays below half an ulp of the sum. */
 static inline cs_exact_sum cs_exact_add(cs_exact_sum total, f32 value)
 {
+    f32 sum = total.sum + value;
+    f32 shadow = sum - total.sum;
+    f32 carry = total.carry + ((total.sum - (sum - shadow)) + (value - shadow));
     cs_exact_sum next;
-    next.sum = total.sum + value;
-    f32 shadow = next.sum - total.sum;
-    next.carry = total.carry + ((total.sum - (next.sum - shadow)) + (value - shadow));
+    next.sum = sum + carry;
+    next.carry = carry - (next.sum - sum);
     return next;
 }
 

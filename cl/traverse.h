@@ -56,10 +56,12 @@ static inline void cs_hit_triangle(CS_GLOBAL const cs_triangle *triangle, i32 in
     vfloat cross_x = fma(to_y, dz, -to_z * dy);
     vfloat cross_y = fma(to_z, dx, -to_x * dz);
     vfloat cross_z = fma(to_x, dy, -to_y * dx);
-    vfloat u = inverse * fma(cross_x, (vfloat)(triangle->edge2[0]),
-                             fma(cross_y, (vfloat)(triangle->edge2[1]), cross_z * triangle->edge2[2]));
-    vfloat v = -inverse * fma(cross_x, (vfloat)(triangle->edge1[0]),
-                              fma(cross_y, (vfloat)(triangle->edge1[1]), cross_z * triangle->edge1[2]));
+    vfloat u =
+        inverse * fma(cross_x, (vfloat)(triangle->edge2[0]),
+                      fma(cross_y, (vfloat)(triangle->edge2[1]), cross_z * triangle->edge2[2]));
+    vfloat v =
+        -inverse * fma(cross_x, (vfloat)(triangle->edge1[0]),
+                       fma(cross_y, (vfloat)(triangle->edge1[1]), cross_z * triangle->edge1[2]));
     vfloat distance = inverse * fma(nx, to_x, fma(ny, to_y, nz * to_z));
     vint inside = (u >= 0.0f) & (v >= 0.0f) & (u + v <= 1.0f) & (distance > 0.0f) &
                   (distance < hit->distance) & active;
@@ -71,10 +73,13 @@ static inline void cs_hit_triangle(CS_GLOBAL const cs_triangle *triangle, i32 in
     }
 }
 
-/* Walks the lanes of one octant. Lanes outside it have a negative distance and hit nothing. */
-static inline void cs_walk_octant(CS_GLOBAL const cs_node *nodes,
-                                  CS_GLOBAL const cs_triangle *triangles, const cs_ray *ray,
-                                  const cs_walk *walk, int octant, const int any_hit, cs_hit *hit)
+/* Walks the lanes of one octant. Lanes outside it have a negative distance and hit nothing.
+ *
+ * Works on copies: through the caller's pointers every update of the hit might change the ray, and
+ * the compiler would fetch it anew at each step. */
+static inline cs_hit cs_walk_octant(CS_GLOBAL const cs_node *nodes,
+                                    CS_GLOBAL const cs_triangle *triangles, const cs_ray ray,
+                                    const cs_walk walk, int octant, const int any_hit, cs_hit hit)
 {
     const int negative[3] = {octant & 1, octant >> 1 & 1, octant >> 2 & 1};
     u32 stack[CS_STACK];
@@ -86,8 +91,8 @@ static inline void cs_walk_octant(CS_GLOBAL const cs_node *nodes,
         if (!(current & CS_LEAF)) {
             CS_GLOBAL const cs_node *node = nodes + current;
             vint hit0, hit1;
-            vfloat enter0 = cs_enter_box(node, 0, walk, negative, hit->distance, &hit0);
-            vfloat enter1 = cs_enter_box(node, 1, walk, negative, hit->distance, &hit1);
+            vfloat enter0 = cs_enter_box(node, 0, &walk, negative, hit.distance, &hit0);
+            vfloat enter1 = cs_enter_box(node, 1, &walk, negative, hit.distance, &hit1);
             int any0 = cs_any(hit0), any1 = cs_any(hit1);
             descend = any0 | any1;
             current = any0 ? node->child[0] : node->child[1];
@@ -105,20 +110,20 @@ static inline void cs_walk_octant(CS_GLOBAL const cs_node *nodes,
             u32 first = current & ((1u << CS_LEAF_SHIFT) - 1u);
             u32 last = first + (current >> CS_LEAF_SHIFT & 7u);
             for (u32 i = first; i <= last; i++)
-                cs_hit_triangle(triangles + i, (i32)i, ray, walk->active, any_hit, hit);
-            if (any_hit && !cs_any(hit->distance >= 0.0f)) return;
+                cs_hit_triangle(triangles + i, (i32)i, &ray, walk.active, any_hit, &hit);
+            if (any_hit && !cs_any(hit.distance >= 0.0f)) return hit;
         }
         while (!descend) {
-            if (top == 0) return;
+            if (top == 0) return hit;
             top--;
             current = stack[top];
-            descend = cs_any(stack_enter[top] < hit->distance);
+            descend = cs_any(stack_enter[top] < hit.distance);
         }
     }
 }
 
-/* Traces the lanes whose hit->distance is positive, up to that distance. Closest hit: `hit` gets the
- * nearest triangle and its distance. Any hit: the distance of a lane that is blocked becomes
+/* Traces the lanes whose hit->distance is positive, up to that distance. Closest hit: `hit` gets
+ * the nearest triangle and its distance. Any hit: the distance of a lane that is blocked becomes
  * negative. `any_hit` must be a literal. */
 static inline void cs_traverse(CS_GLOBAL const cs_node *nodes,
                                CS_GLOBAL const cs_triangle *triangles, const cs_ray *ray,
@@ -140,7 +145,7 @@ static inline void cs_traverse(CS_GLOBAL const cs_node *nodes,
         if (!cs_any(walk.active)) continue;
         vfloat others = hit->distance;
         hit->distance = walk.active ? hit->distance : (vfloat)(-1.0f);
-        cs_walk_octant(nodes, triangles, ray, &walk, octant, any_hit, hit);
+        *hit = cs_walk_octant(nodes, triangles, *ray, walk, octant, any_hit, *hit);
         hit->distance = walk.active ? hit->distance : others;
     }
 }

@@ -4,8 +4,8 @@
  * camera, render, film. It is plain C and every function is described where it is declared.
  *
  * Conventions
- * - Functions that can fail return a clshear_status; results go to the trailing pointer and are left
- *   alone on failure. clshear_message() has the reason, in one line.
+ * - Functions that can fail return a clshear_status; results go to the trailing pointer and are
+ * left alone on failure. clshear_message() has the reason, in one line.
  * - Handles are freed by the matching _free, which accepts NULL. A scene and a film must be freed
  *   before their context.
  * - A handle may be used by one thread at a time. Contexts share nothing: two may live in one
@@ -55,7 +55,7 @@ typedef struct clshear_context clshear_context;
 typedef struct clshear_context_options {
     const char *device; /* number in the device list, or part of a name; NULL: the first device */
     int threads;        /* CPU threads of host and device; 0: all */
-    int packet;         /* samples traced together: 1, 4, 8 or 16; 0: 8 on CPUs, 1 on GPUs */
+    int packet;         /* samples traced together: 1, 4, 8 or 16; 0: 16 or 8 on CPUs, 1 on GPUs */
     void (*warn)(void *user, const char *line); /* told what was repaired or guessed; may be NULL */
     void *warn_user;
 } clshear_context_options;
@@ -109,19 +109,20 @@ typedef struct clshear_light {
 } clshear_light;
 
 typedef struct clshear_scene_info {
-    size_t triangles;         /* in the scene */
-    size_t degenerate;        /* dropped: no area */
-    size_t nodes;             /* of the hierarchy */
-    size_t references;        /* triangles in its leaves; spatial splits repeat some */
-    size_t device_bytes;      /* geometry on the device: nodes, triangles, faces, vertices */
-    size_t lights;            /* point and directional */
-    size_t emitters;          /* emissive triangles */
-    int file_camera;          /* 1 if the file has a camera */
-    double load_s, build_s;   /* time spent reading, and building the hierarchy */
+    size_t triangles;       /* in the scene */
+    size_t degenerate;      /* dropped: no area */
+    size_t nodes;           /* of the hierarchy */
+    size_t references;      /* triangles in its leaves; spatial splits repeat some */
+    size_t device_bytes;    /* geometry on the device: nodes, triangles, faces, vertices */
+    size_t lights;          /* point and directional */
+    size_t emitters;        /* emissive triangles */
+    int file_camera;        /* 1 if the file has a camera */
+    double load_s, build_s; /* time spent reading, and building the hierarchy */
 } clshear_scene_info;
 
-/* Reads OBJ, glTF 2.0, PLY, STL or whatever else Assimp knows, and builds the hierarchy. What can be
- * repaired (missing materials and textures, degenerate triangles) is told to the context's `warn`. */
+/* Reads OBJ, glTF 2.0, PLY, STL or whatever else Assimp knows, and builds the hierarchy. What can
+ * be repaired (missing materials and textures, degenerate triangles) is told to the context's
+ * `warn`. */
 CLSHEAR_API clshear_status clshear_scene_load(clshear_context *context, const char *path,
                                               clshear_scene **scene);
 
@@ -185,16 +186,16 @@ typedef enum clshear_shear {
 } clshear_shear;
 
 typedef struct clshear_progress {
-    double fraction;        /* done, 0 to 1 */
-    double samples_per_s;   /* so far */
-    double remaining_s;     /* estimate */
+    double fraction;      /* done, 0 to 1 */
+    double samples_per_s; /* so far */
+    double remaining_s;   /* estimate */
 } clshear_progress;
 
 typedef struct clshear_options {
     int width;
     int height;
-    int crop[4];    /* x0, x1, y0, y1: pixels x0 <= x < x1, y0 <= y < y1; all 0: the whole image */
-    uint32_t spp;   /* samples per pixel; rounded up to a multiple of `replicates` */
+    int crop[4];  /* x0, x1, y0, y1: pixels x0 <= x < x1, y0 <= y < y1; all 0: the whole image */
+    uint32_t spp; /* samples per pixel; rounded up to a multiple of `replicates` */
     uint32_t replicates; /* independent patterns per pixel, each of spp / replicates samples; two or
                             more give the variance of the result; 0: 2, or 1 for one sample */
     uint32_t seed;
@@ -222,22 +223,23 @@ typedef struct clshear_film_info {
     int width; /* of the crop */
     int height;
     size_t channels;
-    uint64_t samples;      /* traced, of all pixels */
-    uint64_t shadow_rays;  /* traced besides one camera ray for each sample */
-    double prepass_s;      /* depth of every pixel */
-    double kernel_s;       /* on the device */
-    double render_s;       /* all of clshear_render */
+    uint64_t samples;     /* traced, of all pixels */
+    uint64_t shadow_rays; /* traced besides one camera ray for each sample */
+    double prepass_s;     /* depth of every pixel */
+    double kernel_s;      /* on the device */
+    double render_s;      /* all of clshear_render */
 } clshear_film_info;
 
 CLSHEAR_API clshear_film_info clshear_film_describe(const clshear_film *film);
 
-/* Name of channel `index`, or NULL past the last one: R G B (mean radiance), Variance.R/G/B (of that
- * mean, from the replicates; absent with fewer than two), SampleVariance.R/G/B (of one sample), Z
- * (camera depth at the pixel's centre, infinite where nothing is seen), Shear (px), Samples. */
+/* Name of channel `index`, or NULL past the last one: R G B (mean radiance), Variance.R/G/B (of
+ * that mean, from the replicates; absent with fewer than two), SampleVariance.R/G/B (of one
+ * sample), Z (camera depth at the pixel's centre, infinite where nothing is seen), Shear (px),
+ * Samples. */
 CLSHEAR_API const char *clshear_film_channel_name(const clshear_film *film, size_t index);
 
-/* The pixels of a channel, row by row from the top, or NULL if there is no such channel. Owned by the
- * film. */
+/* The pixels of a channel, row by row from the top, or NULL if there is no such channel. Owned by
+ * the film. */
 CLSHEAR_API const float *clshear_film_channel(const clshear_film *film, const char *name);
 
 /* Adds a line of text to the metadata of written files; replaces one of that name. */

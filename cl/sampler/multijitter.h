@@ -56,7 +56,7 @@ static inline cs_grid cs_grid_of(u32 count)
     grid.inverse_columns = 1.0f / (f32)grid.columns;
     grid.count_domain = cs_domain_of(count);
     grid.column_domain = cs_domain_of(grid.columns);
-    grid.row_domain = cs_domain_of(grid.rows + 1u);
+    grid.row_domain = cs_domain_of(grid.extra > 0u ? grid.rows + 1u : grid.rows);
     grid.block_domain = cs_domain_of(grid.blocks);
     /* Jitter has so few bits that stratum + jitter is exact in a float, and the quotient by N stays
      * clear of the next stratum by two ulps: 21 bits for both together. */
@@ -85,23 +85,23 @@ typedef struct cs_cell {
 
 /* The partial row's point number e lies in the column where floor(column * extra / columns) steps
  * from e to e + 1. */
-static inline cs_cell cs_partial_row_cell(cs_grid grid, vuint point)
+static inline cs_cell cs_partial_row_cell(const cs_grid *grid, vuint point)
 {
     cs_cell cell;
-    u32 extra = grid.extra > 0u ? grid.extra : 1u;
-    cell.column = cs_divide((point + 1u) * grid.columns - 1u, extra, 1.0f / (f32)extra);
-    cell.row = (vuint)(grid.rows);
+    u32 extra = grid->extra > 0u ? grid->extra : 1u;
+    cell.column = cs_divide((point + 1u) * grid->columns - 1u, extra, 1.0f / (f32)extra);
+    cell.row = (vuint)(grid->rows);
     return cell;
 }
 
 /* Cell number `index` in row-major order. */
-static inline cs_cell cs_cell_of(cs_grid grid, vuint index)
+static inline cs_cell cs_cell_of(const cs_grid *grid, vuint index)
 {
     cs_cell cell;
-    cell.row = cs_divide(index, grid.columns, grid.inverse_columns);
-    cell.column = index - cell.row * grid.columns;
-    if (grid.extra == 0u) return cell;
-    u32 full = grid.rows * grid.columns;
+    cell.row = cs_divide(index, grid->columns, grid->inverse_columns);
+    cell.column = index - cell.row * grid->columns;
+    if (grid->extra == 0u) return cell;
+    u32 full = grid->rows * grid->columns;
     cs_cell partial = cs_partial_row_cell(grid, index >= full ? index - full : (vuint)(0u));
     cell.column = index >= full ? partial.column : cell.column;
     cell.row = index >= full ? partial.row : cell.row;
@@ -112,13 +112,13 @@ static inline cs_cell cs_cell_of(cs_grid grid, vuint index)
  * wherever the grid allows: neighbours on the film and on the lens, so that a packet of them traces
  * coherently. Pairs of rows are cut into blocks; what is left of a pair is a narrower block, what
  * is left of the rows is in row-major order. */
-static inline cs_cell cs_cell_in_block_order(cs_grid grid, vuint index)
+static inline cs_cell cs_cell_in_block_order(const cs_grid *grid, vuint index)
 {
-    u32 pair = 2u * grid.columns;
-    u32 paired = grid.rows / 2u * pair;
-    u32 tail = grid.columns % 4u;
+    u32 pair = 2u * grid->columns;
+    u32 paired = grid->rows / 2u * pair;
+    u32 tail = grid->columns % 4u;
     u32 blocked = pair - 2u * tail;
-    vuint pair_row = cs_divide(index, pair, 0.5f * grid.inverse_columns);
+    vuint pair_row = cs_divide(index, pair, 0.5f * grid->inverse_columns);
     vuint rest = index - pair_row * pair;
     vuint within = rest & 7u;
     cs_cell cell;
@@ -128,10 +128,10 @@ static inline cs_cell cs_cell_in_block_order(cs_grid grid, vuint index)
         vuint narrow = rest >= blocked ? rest - blocked : (vuint)(0u);
         vuint narrow_row = narrow >= tail ? (vuint)(1u) : (vuint)(0u);
         cell.column =
-            rest >= blocked ? grid.columns - tail + narrow - narrow_row * tail : cell.column;
+            rest >= blocked ? grid->columns - tail + narrow - narrow_row * tail : cell.column;
         cell.row = rest >= blocked ? 2u * pair_row + narrow_row : cell.row;
     }
-    if (paired == grid.count) return cell;
+    if (paired == grid->count) return cell;
     cs_cell last = cs_cell_of(grid, index);
     cell.column = index >= paired ? last.column : cell.column;
     cell.row = index >= paired ? last.row : cell.row;
@@ -139,9 +139,9 @@ static inline cs_cell cs_cell_in_block_order(cs_grid grid, vuint index)
 }
 
 /* Strata before `column`, beyond `rows` for each: floor(column * extra / columns). */
-static inline vuint cs_extra_before(cs_grid grid, vuint column)
+static inline vuint cs_extra_before(const cs_grid *grid, vuint column)
 {
-    return cs_divide(column * grid.extra, grid.columns, grid.inverse_columns);
+    return cs_divide(column * grid->extra, grid->columns, grid->inverse_columns);
 }
 
 typedef struct cs_pair {
@@ -149,32 +149,32 @@ typedef struct cs_pair {
     vfloat y;
 } cs_pair;
 
-static inline vfloat cs_in_stratum(cs_grid grid, vuint stratum, vuint bits16)
+static inline vfloat cs_in_stratum(const cs_grid *grid, vuint stratum, vuint bits16)
 {
-    vfloat jitter = (cs_to_vfloat(bits16 >> grid.jitter_shift) + 0.5f) * grid.jitter_scale;
-    return (cs_to_vfloat(stratum) + jitter) * grid.inverse_count;
+    vfloat jitter = (cs_to_vfloat(bits16 >> grid->jitter_shift) + 0.5f) * grid->jitter_scale;
+    return (cs_to_vfloat(stratum) + jitter) * grid->inverse_count;
 }
 
 /* The point of `cell`, in [0, 1)^2, of the pattern named by `key`. */
-static inline cs_pair cs_multijitter(cs_grid grid, cs_cell cell, u32 key)
+static inline cs_pair cs_multijitter(const cs_grid *grid, cs_cell cell, u32 key)
 {
     vuint column_key = cs_key_lanes(key, 2u * cell.column);
     vuint row_key = cs_key_lanes(key, 2u * cell.row + 1u);
     vuint column_rank = cell.column;
-    vuint row_size = (vuint)(grid.columns);
-    vuint column_size = (vuint)(grid.rows);
-    vuint x_stratum = cell.column * grid.rows;
-    if (grid.extra != 0u) {
+    vuint row_size = (vuint)(grid->columns);
+    vuint column_size = (vuint)(grid->rows);
+    vuint x_stratum = cell.column * grid->rows;
+    if (grid->extra != 0u) {
         vuint before = cs_extra_before(grid, cell.column);
         column_size += cs_extra_before(grid, cell.column + 1u) - before;
-        x_stratum += before + cs_mul_hi(cs_hash(key), grid.count);
-        column_rank = cell.row == grid.rows ? before : column_rank;
-        row_size = cell.row == grid.rows ? (vuint)(grid.extra) : row_size;
+        x_stratum += before + cs_mul_hi(cs_hash(key), grid->count);
+        column_rank = cell.row == grid->rows ? before : column_rank;
+        row_size = cell.row == grid->rows ? (vuint)(grid->extra) : row_size;
     }
-    x_stratum += cs_permute(cell.row, column_size, grid.row_domain, column_key);
-    x_stratum = x_stratum >= grid.count ? x_stratum - grid.count : x_stratum;
-    vuint y_stratum = cell.row * grid.columns +
-                      cs_permute(column_rank, row_size, grid.column_domain, row_key);
+    x_stratum += cs_permute(cell.row, column_size, grid->row_domain, column_key);
+    x_stratum = x_stratum >= grid->count ? x_stratum - grid->count : x_stratum;
+    vuint y_stratum =
+        cell.row * grid->columns + cs_permute(column_rank, row_size, grid->column_domain, row_key);
     vuint jitter = cs_hash_lanes(column_key ^ (row_key << 1));
     cs_pair point;
     point.x = cs_in_stratum(grid, x_stratum, jitter >> 16);

@@ -261,7 +261,8 @@ static clshear_status flatten_tree(const cs_scene *scene, build_node *root,
                        "the hierarchy is deeper than %d levels: the mesh has too many triangles in "
                        "one place",
                        MAX_DEPTH);
-    if (work.failed) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for the hierarchy");
+    if (work.failed)
+        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for the hierarchy");
     cs_array_trim(&bvh->nodes);
     cs_array_trim(&bvh->triangles);
     return CLSHEAR_OK;

@@ -26,8 +26,7 @@ static clshear_status attach_triangles(cs_accel *accel, cs_error *error)
                                scene->positions.items, 0, 3 * sizeof(float),
                                scene->positions.count);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                               scene->indices.items, 0, 3 * sizeof(uint32_t),
-                               scene->indices.count);
+                               scene->indices.items, 0, 3 * sizeof(uint32_t), scene->indices.count);
     rtcCommitGeometry(geometry);
     accel->traced = rtcNewScene(accel->device);
     rtcAttachGeometry(accel->traced, geometry);
@@ -109,8 +108,7 @@ static void depth_of_range(void *user, size_t begin, size_t end)
     }
 }
 
-void cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const int *window,
-                    float *depth)
+void cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const int *window, float *depth)
 {
     prepass work = {accel, camera, window, depth};
     size_t count = (size_t)(window[1] - window[0]) * (size_t)(window[3] - window[2]);

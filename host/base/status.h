@@ -16,18 +16,19 @@ typedef struct cs_error {
 clshear_status cs_fail(cs_error *error, clshear_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Both jump to the label `done`, where what was acquired is released; `status` is the function's. */
-#define CS_TRY(call)                                                                               \
-    do {                                                                                           \
-        status = (call);                                                                           \
-        if (status != CLSHEAR_OK) goto done;                                                       \
+/* Both jump to the label `done`, where what was acquired is released; `status` is the function's.
+ */
+#define CS_TRY(call)                         \
+    do {                                     \
+        status = (call);                     \
+        if (status != CLSHEAR_OK) goto done; \
     } while (0)
-#define CS_REQUIRE(condition, failure, ...)                                                        \
-    do {                                                                                           \
-        if (!(condition)) {                                                                        \
-            status = cs_fail(error, (failure), __VA_ARGS__);                                       \
-            goto done;                                                                             \
-        }                                                                                          \
+#define CS_REQUIRE(condition, failure, ...)                  \
+    do {                                                     \
+        if (!(condition)) {                                  \
+            status = cs_fail(error, (failure), __VA_ARGS__); \
+            goto done;                                       \
+        }                                                    \
     } while (0)
 
 /* Where warnings go. */

@@ -206,8 +206,7 @@ static const char *store_packet(cli_job *job, const char *value)
 {
     int good = read_ints(value, 1, 1, 16, &job->context.packet);
     int width = job->context.packet;
-    return good && (width == 1 || width == 4 || width == 8 || width == 16) ? NULL
-                                                                          : "1, 4, 8 or 16";
+    return good && (width == 1 || width == 4 || width == 8 || width == 16) ? NULL : "1, 4, 8 or 16";
 }
 
 static const char *store_quiet(cli_job *job, const char *value)

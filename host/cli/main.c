@@ -62,8 +62,7 @@ static int check_outputs(const cli_job *job)
             fprintf(stderr, "clshear: --out %s: must end in .exr, .png, .jpg or .tif\n", path);
             return CLI_USAGE;
         }
-        if (slash != NULL)
-            snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
+        if (slash != NULL) snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
         if (access(folder, W_OK) != 0) {
             fprintf(stderr, "clshear: --out %s: folder %s cannot be written: %s\n", path, folder,
                     strerror(errno));

@@ -30,8 +30,7 @@ int cli_interrupted(void)
 
 cli_progress cli_progress_start(int quiet)
 {
-    return (cli_progress){
-        .quiet = quiet, .on_terminal = isatty(STDERR_FILENO), .last_percent = -1};
+    return (cli_progress){.quiet = quiet, .on_terminal = isatty(STDERR_FILENO), .last_percent = -1};
 }
 
 int cli_progress_report(void *user, const clshear_progress *progress)

@@ -1,4 +1,5 @@
-/* An OpenCL device with the compiled kernels, its buffers and launches. No other floor sees CL/cl.h.
+/* An OpenCL device with the compiled kernels, its buffers and launches. No other floor sees
+ * CL/cl.h.
  */
 #ifndef CS_DEVICE_DEVICE_H
 #define CS_DEVICE_DEVICE_H
@@ -36,18 +37,17 @@ const char *cs_device_driver(const cs_device *device);
 int cs_device_packet(const cs_device *device);
 int cs_device_threads(const cs_device *device); /* its compute units */
 
-/* A buffer of `size` bytes, at least 4, that starts as `initial` or, where that is NULL, as zeros. */
+/* A buffer of `size` bytes, at least 4, that starts as `initial` or, where that is NULL, as zeros.
+ */
 clshear_status cs_buffer_create(cs_device *device, size_t size, const void *initial,
                                 cs_buffer **buffer, cs_error *error);
 clshear_status cs_buffer_read(const cs_buffer *buffer, size_t offset, size_t size, void *target,
                               cs_error *error);
-clshear_status cs_buffer_write(cs_buffer *buffer, size_t size, const void *source,
-                               cs_error *error);
+clshear_status cs_buffer_write(cs_buffer *buffer, size_t size, const void *source, cs_error *error);
 void cs_buffer_free(cs_buffer *buffer);
 
 /* Runs a kernel on `count` work-items (more are started, to fill the last work-group) and waits. */
 clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
-                             const cs_argument *arguments, size_t argument_count,
-                             cs_error *error);
+                             const cs_argument *arguments, size_t argument_count, cs_error *error);
 
 #endif

@@ -16,15 +16,24 @@ enum {
 static const char *code_name(cl_int code)
 {
     switch (code) {
-    case CL_DEVICE_NOT_AVAILABLE: return "device not available";
-    case CL_MEM_OBJECT_ALLOCATION_FAILURE: return "no device memory";
-    case CL_OUT_OF_RESOURCES: return "out of resources";
-    case CL_OUT_OF_HOST_MEMORY: return "out of host memory";
-    case CL_BUILD_PROGRAM_FAILURE: return "build failed";
-    case CL_INVALID_KERNEL_ARGS: return "invalid kernel arguments";
-    case CL_INVALID_WORK_GROUP_SIZE: return "invalid work-group size";
-    case CL_INVALID_BUFFER_SIZE: return "invalid buffer size";
-    default: return "see the OpenCL headers";
+    case CL_DEVICE_NOT_AVAILABLE:
+        return "device not available";
+    case CL_MEM_OBJECT_ALLOCATION_FAILURE:
+        return "no device memory";
+    case CL_OUT_OF_RESOURCES:
+        return "out of resources";
+    case CL_OUT_OF_HOST_MEMORY:
+        return "out of host memory";
+    case CL_BUILD_PROGRAM_FAILURE:
+        return "build failed";
+    case CL_INVALID_KERNEL_ARGS:
+        return "invalid kernel arguments";
+    case CL_INVALID_WORK_GROUP_SIZE:
+        return "invalid work-group size";
+    case CL_INVALID_BUFFER_SIZE:
+        return "invalid buffer size";
+    default:
+        return "see the OpenCL headers";
     }
 }
 
@@ -99,8 +108,8 @@ clshear_status cs_opencl_find(const char *wanted, cl_device_id *device, cs_error
             return CLSHEAR_OK;
         }
     }
-    return cs_fail(error, CLSHEAR_NO_DEVICE, "no OpenCL device \"%s\" among %u; see the device list",
-                   wanted, count);
+    return cs_fail(error, CLSHEAR_NO_DEVICE,
+                   "no OpenCL device \"%s\" among %u; see the device list", wanted, count);
 }
 
 clshear_status cs_device_list(void (*report)(void *user, int number, const char *name), void *user,

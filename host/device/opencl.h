@@ -8,13 +8,13 @@
 #include "base/status.h"
 
 /* Fails with the formatted message and the code's name unless `call` is CL_SUCCESS. */
-#define CS_OPENCL(call, ...)                                                                       \
-    do {                                                                                           \
-        cl_int opencl_code = (call);                                                               \
-        if (opencl_code != CL_SUCCESS) {                                                           \
-            status = cs_opencl_fail(error, opencl_code, __VA_ARGS__);                              \
-            goto done;                                                                             \
-        }                                                                                          \
+#define CS_OPENCL(call, ...)                                          \
+    do {                                                              \
+        cl_int opencl_code = (call);                                  \
+        if (opencl_code != CL_SUCCESS) {                              \
+            status = cs_opencl_fail(error, opencl_code, __VA_ARGS__); \
+            goto done;                                                \
+        }                                                             \
     } while (0)
 
 clshear_status cs_opencl_fail(cs_error *error, cl_int code, const char *format, ...)

@@ -12,10 +12,10 @@ typedef struct cs_channel {
 } cs_channel;
 
 struct clshear_film {
-    cs_error *error;      /* of the context */
-    cs_array channels;    /* cs_channel */
-    cs_array attributes;  /* cs_attribute */
-    int window[4];        /* x0, x1, y0, y1 in the full image */
+    cs_error *error;     /* of the context */
+    cs_array channels;   /* cs_channel */
+    cs_array attributes; /* cs_attribute */
+    int window[4];       /* x0, x1, y0, y1 in the full image */
     int full_width;
     int full_height;
     clshear_film_info info;

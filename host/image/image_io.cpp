@@ -23,8 +23,7 @@ using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
 /* Runs `work`, which returns a status, and turns exceptions into one. */
-template <typename Work>
-clshear_status guarded(const char *path, cs_error *error, Work work)
+template <typename Work> clshear_status guarded(const char *path, cs_error *error, Work work)
 {
     try {
         return work();
@@ -62,17 +61,20 @@ clshear_status read_texels(const char *path, const void *memory, size_t size, cs
     OIIO::Filesystem::IOMemReader reader(const_cast<void *>(memory), size);
     ImageBuf source(path, 0, 0, nullptr, nullptr, memory != nullptr ? &reader : nullptr);
     if (!source.read(0, 0, true, TypeDesc::FLOAT))
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path, first_line(source.geterror()).c_str());
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,
+                       first_line(source.geterror()).c_str());
     const ImageBuf rgba = linear_rgba(source);
     if (rgba.has_error())
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path, first_line(rgba.geterror()).c_str());
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,
+                       first_line(rgba.geterror()).c_str());
     const size_t width = static_cast<size_t>(rgba.spec().width);
     const size_t height = static_cast<size_t>(rgba.spec().height);
     auto *halves = static_cast<uint16_t *>(std::malloc(width * height * 4 * sizeof(uint16_t)));
     if (halves == nullptr) throw std::bad_alloc();
     if (!rgba.get_pixels(rgba.roi(), TypeDesc::HALF, halves)) {
         std::free(halves);
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path, first_line(rgba.geterror()).c_str());
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,
+                       first_line(rgba.geterror()).c_str());
     }
     texels->width = static_cast<uint32_t>(width);
     texels->height = static_cast<uint32_t>(height);
@@ -85,9 +87,15 @@ void set_attributes(const cs_picture *picture, ImageSpec &spec)
     for (size_t i = 0; i < picture->attribute_count; i++) {
         const cs_attribute &attribute = picture->attributes[i];
         switch (attribute.kind) {
-        case CS_ATTRIBUTE_TEXT: spec.attribute(attribute.name, attribute.text); break;
-        case CS_ATTRIBUTE_INT: spec.attribute(attribute.name, attribute.integer); break;
-        case CS_ATTRIBUTE_FLOAT: spec.attribute(attribute.name, attribute.numbers[0]); break;
+        case CS_ATTRIBUTE_TEXT:
+            spec.attribute(attribute.name, attribute.text);
+            break;
+        case CS_ATTRIBUTE_INT:
+            spec.attribute(attribute.name, attribute.integer);
+            break;
+        case CS_ATTRIBUTE_FLOAT:
+            spec.attribute(attribute.name, attribute.numbers[0]);
+            break;
         case CS_ATTRIBUTE_MATRIX:
             spec.attribute(attribute.name, OIIO::TypeMatrix, attribute.numbers);
             break;
@@ -110,7 +118,8 @@ ImageBuf interleaved(const cs_picture *picture, const std::vector<size_t> &chose
     set_attributes(picture, spec);
     ImageBuf buffer(spec);
     const size_t count = chosen.size();
-    const size_t pixels = static_cast<size_t>(picture->width) * static_cast<size_t>(picture->height);
+    const size_t pixels =
+        static_cast<size_t>(picture->width) * static_cast<size_t>(picture->height);
     auto *target = static_cast<float *>(buffer.localpixels());
     for (size_t c = 0; c < count; c++)
         for (size_t p = 0; p < pixels; p++)
@@ -157,8 +166,8 @@ clshear_status write_picture(const char *path, const cs_picture *picture, cs_err
     spec.set_format(is_exr ? TypeDesc::FLOAT : is_tiff ? TypeDesc::UINT16 : TypeDesc::UINT8);
     if (!is_exr) spec.attribute("oiio:ColorSpace", "sRGB");
     if (is_exr) spec.attribute("compression", "zip");
-    bool good = output->open(temporary, spec) &&
-                output->write_image(TypeDesc::FLOAT, buffer.localpixels());
+    bool good =
+        output->open(temporary, spec) && output->write_image(TypeDesc::FLOAT, buffer.localpixels());
     std::string reason = first_line(output->geterror());
     if (!output->close() && good) {
         good = false;

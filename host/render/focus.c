@@ -45,8 +45,8 @@ static clshear_status depth_at(const clshear_scene *scene, int width, int height
     return status;
 }
 
-clshear_status clshear_camera_focus(const clshear_scene *scene, int width, int height, int x,
-                                    int y, clshear_camera *camera)
+clshear_status clshear_camera_focus(const clshear_scene *scene, int width, int height, int x, int y,
+                                    clshear_camera *camera)
 {
     float depth;
     clshear_status status = depth_at(scene, width, height, x, y, camera, &depth);
@@ -80,12 +80,11 @@ clshear_status clshear_camera_complete(const clshear_scene *scene, int width, in
         clshear_status status =
             depth_at(scene, width, height, width / 2, height / 2, camera, &depth);
         if (status != CLSHEAR_OK) return status;
-        camera->focal_distance =
-            isfinite(depth) ? depth : depth_of_centre(&scene->scene, camera);
+        camera->focal_distance = isfinite(depth) ? depth : depth_of_centre(&scene->scene, camera);
     }
     if (!(camera->lens_radius >= 0.0f))
-        camera->lens_radius = 0.5f * blur_at_infinity * 2.0f * camera->focal_distance *
-                              tangent_of_half_fov(camera);
+        camera->lens_radius =
+            0.5f * blur_at_infinity * 2.0f * camera->focal_distance * tangent_of_half_fov(camera);
     return CLSHEAR_OK;
 }
 

@@ -61,7 +61,7 @@ static clshear_status sweep_pixels(cs_job *job, cs_frame *frame, cs_clockwork *c
         double samples_each = (double)(frame->last_block - frame->first_block) * CS_BLOCK;
         double affordable = clockwork->rate * launch_s / samples_each;
         size_t left = job->pixel_count - pixel;
-        size_t count = affordable >= (double)left    ? left
+        size_t count = affordable >= (double)left   ? left
                        : affordable < (double)least ? least
                                                     : (size_t)affordable;
         if (count > left) count = left;
@@ -78,8 +78,8 @@ static clshear_status sweep_pixels(cs_job *job, cs_frame *frame, cs_clockwork *c
  * interrupted picture should be even, but more where the image alone does not fill a launch. */
 static uint32_t blocks_of_sweep(const cs_job *job, const cs_clockwork *clockwork, uint32_t left)
 {
-    const double flushes = clockwork->rate * launch_s /
-                           ((double)job->pixel_count * CS_FLUSH_BLOCKS * CS_BLOCK);
+    const double flushes =
+        clockwork->rate * launch_s / ((double)job->pixel_count * CS_FLUSH_BLOCKS * CS_BLOCK);
     double blocks = flushes < 1.0 ? CS_FLUSH_BLOCKS : (double)(uint32_t)flushes * CS_FLUSH_BLOCKS;
     return blocks < (double)left ? (uint32_t)blocks : left;
 }
@@ -98,6 +98,7 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
         .crop_x = (uint32_t)job->window[0],
         .crop_y = (uint32_t)job->window[2],
         .crop_width = (uint32_t)(job->window[1] - job->window[0]),
+        .crop_height = (uint32_t)(job->window[3] - job->window[2]),
         .shear_mode = (uint32_t)job->options.shear,
         .lights = world->lights,
         .emitters = world->emitters,
@@ -105,8 +106,7 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
     for (frame.replicate = 0; frame.replicate < patterns; frame.replicate++) {
         for (uint32_t block = 0; block < job->grid.blocks; block = frame.last_block) {
             frame.first_block = block;
-            frame.last_block =
-                block + blocks_of_sweep(job, &clockwork, job->grid.blocks - block);
+            frame.last_block = block + blocks_of_sweep(job, &clockwork, job->grid.blocks - block);
             clshear_status status = sweep_pixels(job, &frame, &clockwork, error);
             if (status != CLSHEAR_OK) return status;
         }

@@ -88,8 +88,8 @@ static clshear_status prepare(cs_job *job, cs_error *error)
     job->prepass_s = cs_now_s() - start_s;
     CS_TRY(cs_buffer_create(device, job->pixel_count * sizeof *job->shear_px, job->shear_px,
                             &job->shears, error));
-    CS_TRY(cs_buffer_create(device, job->pixel_count * sizeof(cs_pixel), NULL, &job->pixels,
-                            error));
+    CS_TRY(
+        cs_buffer_create(device, job->pixel_count * sizeof(cs_pixel), NULL, &job->pixels, error));
 done:
     return status;
 }

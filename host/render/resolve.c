@@ -48,8 +48,7 @@ static void resolve_pixel(const cs_pixel *pixel, uint32_t pattern, size_t index,
     for (int c = 0; c < 3; c++) {
         double finished = (double)pixel->pattern_sum[c] + (double)pixel->pattern_carry[c];
         double pending = (double)pixel->sum[c] + (double)pixel->carry[c];
-        if (samples > 0.0)
-            all->mean[c][index] = (float)((finished * pattern + pending) / samples);
+        if (samples > 0.0) all->mean[c][index] = (float)((finished * pattern + pending) / samples);
         if (patterns > 1.0)
             all->variance[c][index] =
                 (float)((double)pixel->pattern_m2[c] / (patterns * (patterns - 1.0)));
@@ -130,9 +129,9 @@ static clshear_status describe(const cs_job *job, clshear_film *film)
     CS_TRY(clshear_film_annotate(film, "clshear.shear", shears[job->options.shear]));
     CS_TRY(clshear_film_annotate(film, "clshear.device", clshear_device_name(context)));
     CS_TRY(clshear_film_annotate(film, "clshear.driver", clshear_driver_name(context)));
-    CS_TRY(clshear_film_annotate(film, "clshear.aperture",
-                                 job->lens.aperture == CLSHEAR_APERTURE_SQUARE ? "square"
-                                                                               : "disk"));
+    CS_TRY(
+        clshear_film_annotate(film, "clshear.aperture",
+                              job->lens.aperture == CLSHEAR_APERTURE_SQUARE ? "square" : "disk"));
     CS_TRY(cs_film_set_int(film, "clshear.replicates", (int32_t)job->options.replicates));
     CS_TRY(cs_film_set_int(film, "clshear.packet", cs_device_packet(context->device)));
     CS_TRY(cs_film_set_int(film, "samplesPerPixel",

@@ -7,8 +7,8 @@ static clshear_status upload(cs_device_world *world, cs_device *device, cs_world
     cs_buffer_free(world->buffers[which]);
     world->buffers[which] = NULL;
     const void *items = array->count > 0 ? array->items : NULL;
-    return cs_buffer_create(device, array->count * array->item_size, items,
-                            &world->buffers[which], error);
+    return cs_buffer_create(device, array->count * array->item_size, items, &world->buffers[which],
+                            error);
 }
 
 static int any_face_is_described(const cs_scene *scene)
@@ -36,8 +36,7 @@ clshear_status cs_world_upload(cs_device_world *world, cs_device *device, const 
     CS_TRY(upload(world, device, CS_WORLD_TEXELS, &scene->texels, error));
     world->geometry_bytes = bvh->nodes.count * bvh->nodes.item_size +
                             bvh->triangles.count * bvh->triangles.item_size +
-                            faces->count * faces->item_size +
-                            vertices->count * vertices->item_size;
+                            faces->count * faces->item_size + vertices->count * vertices->item_size;
 done:
     return status;
 }

@@ -1,32 +1,60 @@
 #include "scene/camera.h"
 
 #include <assimp/camera.h>
+#include <assimp/cimport.h>
 #include <math.h>
 #include <string.h>
+
+#include "scene/node.h"
 
 static const float default_fov_deg = 40.0f;
 static const float degrees = CS_PI / 180.0f;
 
-void cs_camera_import(cs_scene *scene, const struct aiCamera *source)
+static int is_gltf(const struct aiScene *file)
 {
+    const struct aiMetadata *data = file->mMetaData;
+    for (unsigned i = 0; data != NULL && i < data->mNumProperties; i++)
+        if (strcmp(data->mKeys[i].data, "SourceAsset_Format") == 0)
+            return strstr(((const struct aiString *)data->mValues[i].mData)->data, "glTF") != NULL;
+    return 0;
+}
+
+/* Vertical field of view, radians. Assimp 5.2 multiplies glTF's vertical angle by the aspect ratio
+ * and calls that the horizontal one. */
+static float vertical_fov(const struct aiCamera *source, int gltf)
+{
+    float aspect = source->mAspect > 0.0f ? source->mAspect : 1.0f;
+    if (gltf) return source->mHorizontalFOV / aspect;
+    return 2.0f * atanf(tanf(0.5f * source->mHorizontalFOV) / aspect);
+}
+
+void cs_camera_import(cs_scene *scene, const struct aiScene *file)
+{
+    const struct aiCamera *source = file->mCameras[0];
     clshear_camera *camera = &scene->camera;
-    const struct aiVector3D *eye = &source->mPosition, *towards = &source->mLookAt;
-    const float values[3][3] = {{eye->x, eye->y, eye->z},
-                                {eye->x + towards->x, eye->y + towards->y, eye->z + towards->z},
-                                {source->mUp.x, source->mUp.y, source->mUp.z}};
-    memcpy(camera->eye, values[0], sizeof values[0]);
-    memcpy(camera->target, values[1], sizeof values[1]);
-    memcpy(camera->up, values[2], sizeof values[2]);
-    camera->fov_deg = source->mHorizontalFOV / degrees;
-    scene->camera_aspect = source->mAspect;
+    const struct aiMatrix4x4 matrix = cs_node_matrix(file, source->mName.data);
+    struct aiVector3D eye = source->mPosition, target = source->mLookAt, up = source->mUp, origin;
+    /* A glTF camera is at the origin of its node; Assimp 5.2 repeats the node's translation here. */
+    if (is_gltf(file)) eye = (struct aiVector3D){0, 0, 0};
+    aiVector3Add(&target, &eye);
+    aiVector3Add(&up, &eye);
+    aiTransformVecByMatrix4(&eye, &matrix);
+    aiTransformVecByMatrix4(&target, &matrix);
+    aiTransformVecByMatrix4(&up, &matrix);
+    origin = eye;
+    aiVector3Subtract(&up, &origin);
+    memcpy(camera->eye, &eye.x, sizeof camera->eye);
+    memcpy(camera->target, &target.x, sizeof camera->target);
+    memcpy(camera->up, &up.x, sizeof camera->up);
+    camera->fov_deg = vertical_fov(source, is_gltf(file)) / degrees;
     scene->has_camera = 1;
 }
 
-/* Files give the horizontal angle; the shorter axis is the vertical one of wide pictures. */
-static float shorter_fov_deg(float horizontal_deg, float aspect)
+/* The angle along the shorter axis: for upright pictures the horizontal one. */
+static float shorter_fov_deg(float vertical_deg, float aspect)
 {
-    if (aspect <= 1.0f) return horizontal_deg;
-    return 2.0f * atanf(tanf(0.5f * horizontal_deg * degrees) / aspect) / degrees;
+    if (aspect >= 1.0f) return vertical_deg;
+    return 2.0f * atanf(tanf(0.5f * vertical_deg * degrees) * aspect) / degrees;
 }
 
 clshear_camera cs_camera_of_scene(const cs_scene *scene, int width, int height)
@@ -37,8 +65,7 @@ clshear_camera cs_camera_of_scene(const cs_scene *scene, int width, int height)
     camera.focal_distance = 0.0f;
     camera.aperture = CLSHEAR_APERTURE_DISK;
     if (scene->has_camera) {
-        float file_aspect = scene->camera_aspect > 0.0f ? scene->camera_aspect : aspect;
-        camera.fov_deg = shorter_fov_deg(camera.fov_deg, file_aspect);
+        camera.fov_deg = shorter_fov_deg(camera.fov_deg, aspect);
         return camera;
     }
     float half[3];
@@ -84,7 +111,8 @@ clshear_status cs_camera_frame(const clshear_camera *camera, int width, int heig
         frame->eye[i] = camera->eye[i];
         frame->forward[i] = camera->target[i] - camera->eye[i];
         if (!isfinite(camera->eye[i]) || !isfinite(camera->target[i]) || !isfinite(up[i]))
-            return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "camera: eye, target and up must be finite");
+            return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                           "camera: eye, target and up must be finite");
     }
     if (!normalise(frame->forward))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "camera: eye and target are the same point");
@@ -100,8 +128,8 @@ clshear_status cs_camera_frame(const clshear_camera *camera, int width, int heig
     const float radius = camera->lens_radius > 0.0f ? camera->lens_radius : 0.0f;
     const int square = camera->aperture == CLSHEAR_APERTURE_SQUARE;
     frame->focal_distance = camera->focal_distance > 0.0f ? camera->focal_distance : 1.0f;
-    frame->pixel_width = 2.0f * frame->focal_distance * tanf(0.5f * camera->fov_deg * degrees) /
-                         (float)shorter;
+    frame->pixel_width =
+        2.0f * frame->focal_distance * tanf(0.5f * camera->fov_deg * degrees) / (float)shorter;
     frame->aperture = square ? CS_APERTURE_SQUARE : CS_APERTURE_DISK;
     frame->aperture_width = radius * (square ? 2.0f : sqrtf(CS_PI));
     frame->centre_px[0] = 0.5f * (float)width;

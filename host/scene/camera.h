@@ -2,13 +2,12 @@
 #ifndef CS_SCENE_CAMERA_H
 #define CS_SCENE_CAMERA_H
 
-
 #include "scene/scene.h"
 
-struct aiCamera;
+struct aiScene;
 
-/* Takes over the camera of a scene file. */
-void cs_camera_import(cs_scene *scene, const struct aiCamera *source);
+/* Takes over the first camera of a scene file. */
+void cs_camera_import(cs_scene *scene, const struct aiScene *file);
 
 /* The file's camera, or one that frames the bounding box, for an image of this size. */
 clshear_camera cs_camera_of_scene(const cs_scene *scene, int width, int height);

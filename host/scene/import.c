@@ -1,7 +1,6 @@
 #include "scene/import.h"
 
 #include <assimp/cimport.h>
-#include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -15,12 +14,23 @@
 
 #include "scene/camera.h"
 #include "scene/missing.h"
+#include "scene/node.h"
 #include "scene/texture.h"
 
 static const float mid_grey = 0.5f;
 
-/* Assimp gives a material it does not know this diffuse colour. */
+/* Assimp gives this diffuse colour to OBJ materials it knows nothing of. */
 static const float assimp_unknown = 0.6f;
+
+/* Whether the material is Assimp's stand-in for one that the file does not define. */
+static int is_stand_in(const struct aiMaterial *material, const float *colour, int missing)
+{
+    struct aiString name = {0};
+    aiGetMaterialString(material, "?mat.name", 0, 0, &name);
+    if (!missing && strcmp(name.data, "DefaultMaterial") != 0) return 0;
+    return colour[0] == assimp_unknown && colour[1] == assimp_unknown &&
+           colour[2] == assimp_unknown;
+}
 
 static void read_colour(const struct aiMaterial *material, const char *key, float *colour)
 {
@@ -41,10 +51,9 @@ static clshear_status add_material(cs_scene *scene, const struct aiScene *file,
     read_colour(source, "$clr.diffuse", look.diffuse);
     read_colour(source, "$clr.base", look.diffuse);
     read_colour(source, "$clr.emissive", look.emission);
-    if (materials_missing && look.diffuse[0] == assimp_unknown &&
-        look.diffuse[1] == assimp_unknown && look.diffuse[2] == assimp_unknown)
-        for (int c = 0; c < 3; c++)
-            look.diffuse[c] = mid_grey;
+    const int stand_in = is_stand_in(source, look.diffuse, materials_missing);
+    for (int c = 0; c < 3 && stand_in; c++)
+        look.diffuse[c] = mid_grey;
     struct aiString image;
     enum aiReturn found = aiGetMaterialTexture(source, aiTextureType_DIFFUSE, 0, &image, NULL, NULL,
                                                NULL, NULL, NULL, NULL);
@@ -67,43 +76,85 @@ static clshear_status add_material(cs_scene *scene, const struct aiScene *file,
     return CLSHEAR_OK;
 }
 
-static clshear_status add_mesh(cs_scene *scene, const struct aiMesh *source, const char *path,
-                               cs_error *error)
+/* What add_instance needs besides the mesh. */
+typedef struct importing {
+    cs_scene *scene;
+    const char *path;
+    cs_error *error;
+} importing;
+
+/* The triangles among the faces, as indices; points and lines have no area. */
+static size_t collect_triangles(const struct aiMesh *source, uint32_t *indices)
 {
-    clshear_status status = CLSHEAR_OK;
     size_t count = 0;
-    uint32_t *indices = malloc(sizeof(uint32_t) * 3 * ((size_t)source->mNumFaces + 1));
-    CS_REQUIRE(indices != NULL, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
     for (unsigned i = 0; i < source->mNumFaces; i++) {
         const struct aiFace *face = &source->mFaces[i];
-        if (face->mNumIndices != 3) continue; /* points and lines have no area */
+        if (face->mNumIndices != 3) continue;
         memcpy(indices + 3 * count, face->mIndices, 3 * sizeof(uint32_t));
         count++;
     }
+    return count;
+}
+
+/* Copies of positions and normals in world space. */
+static void transform(const struct aiMesh *source, const struct aiMatrix4x4 *matrix,
+                      struct aiVector3D *positions, struct aiVector3D *normals)
+{
+    struct aiMatrix3x3 turn;
+    aiMatrix3FromMatrix4(&turn, matrix);
+    aiMatrix3Inverse(&turn); /* normals transform by the inverse transpose */
+    aiTransposeMatrix3(&turn);
+    for (unsigned i = 0; i < source->mNumVertices; i++) {
+        positions[i] = source->mVertices[i];
+        aiTransformVecByMatrix4(&positions[i], matrix);
+        if (source->mNormals == NULL) continue;
+        normals[i] = source->mNormals[i];
+        aiTransformVecByMatrix3(&normals[i], &turn);
+    }
+}
+
+static clshear_status add_instance(void *user, const struct aiMesh *source,
+                                   const struct aiMatrix4x4 *matrix)
+{
+    const importing *work = user;
+    cs_error *error = work->error;
+    clshear_status status = CLSHEAR_OK;
+    const size_t vertices = (size_t)source->mNumVertices + 1;
+    uint32_t *indices = malloc(sizeof(uint32_t) * 3 * ((size_t)source->mNumFaces + 1));
+    struct aiVector3D *positions = malloc(vertices * sizeof *positions);
+    struct aiVector3D *normals = malloc(vertices * sizeof *normals);
+    CS_REQUIRE(indices != NULL && positions != NULL && normals != NULL, CLSHEAR_OUT_OF_MEMORY,
+               "%s: out of memory", work->path);
+    transform(source, matrix, positions, normals);
     clshear_mesh mesh = {
-        .positions = &source->mVertices[0].x,
-        .normals = source->mNormals != NULL ? &source->mNormals[0].x : NULL,
+        .positions = &positions[0].x,
+        .normals = source->mNormals != NULL ? &normals[0].x : NULL,
         .indices = indices,
         .vertex_count = source->mNumVertices,
-        .triangle_count = count,
+        .triangle_count = collect_triangles(source, indices),
     };
     const struct aiVector3D *texture = source->mTextureCoords[0];
-    CS_TRY(cs_scene_add_mesh(scene, &mesh, texture != NULL ? &texture[0].x : NULL,
-                             source->mMaterialIndex, path, error));
+    CS_TRY(cs_scene_add_mesh(work->scene, &mesh, texture != NULL ? &texture[0].x : NULL,
+                             source->mMaterialIndex, work->path, error));
 done:
     free(indices);
+    free(positions);
+    free(normals);
     return status;
 }
 
-static clshear_status add_light(cs_scene *scene, const struct aiLight *source, const char *path,
+static clshear_status add_light(cs_scene *scene, const struct aiScene *file,
+                                const struct aiLight *source, const char *path,
                                 const cs_log *log, cs_error *error)
 {
     clshear_light light = {.kind = CLSHEAR_LIGHT_POINT};
-    const struct aiVector3D *from = &source->mPosition;
+    struct aiMatrix4x4 matrix = cs_node_matrix(file, source->mName.data);
+    struct aiVector3D from = source->mPosition;
     float sign = 1.0f, fade = source->mAttenuationQuadratic;
     if (source->mType == aiLightSource_DIRECTIONAL) {
         light.kind = CLSHEAR_LIGHT_DIRECTIONAL;
-        from = &source->mDirection;
+        from = source->mDirection;
+        matrix.a4 = matrix.b4 = matrix.c4 = 0.0f; /* directions do not move */
         sign = -1.0f;
     } else if (source->mType == aiLightSource_SPOT) {
         cs_warn(log, "%s: spot light \"%s\" is taken as a point light", path, source->mName.data);
@@ -112,7 +163,8 @@ static clshear_status add_light(cs_scene *scene, const struct aiLight *source, c
                 source->mName.data);
         return CLSHEAR_OK;
     }
-    const float position[3] = {from->x, from->y, from->z};
+    aiTransformVecByMatrix4(&from, &matrix);
+    const float position[3] = {from.x, from.y, from.z};
     const float colour[3] = {source->mColorDiffuse.r, source->mColorDiffuse.g,
                              source->mColorDiffuse.b};
     if (light.kind == CLSHEAR_LIGHT_DIRECTIONAL || !(fade > 0.0f)) fade = 1.0f;
@@ -134,11 +186,11 @@ static clshear_status convert(cs_scene *scene, const struct aiScene *file, const
         CS_REQUIRE(grey != NULL, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
         *grey = (cs_material){.diffuse = {mid_grey, mid_grey, mid_grey}, .texture = CS_NO_TEXTURE};
     }
-    for (unsigned i = 0; i < file->mNumMeshes; i++)
-        CS_TRY(add_mesh(scene, file->mMeshes[i], path, error));
+    importing work = {scene, path, error};
+    CS_TRY(cs_node_visit_meshes(file, add_instance, &work));
     for (unsigned i = 0; i < file->mNumLights; i++)
-        CS_TRY(add_light(scene, file->mLights[i], path, log, error));
-    if (file->mNumCameras > 0) cs_camera_import(scene, file->mCameras[0]);
+        CS_TRY(add_light(scene, file, file->mLights[i], path, log, error));
+    if (file->mNumCameras > 0) cs_camera_import(scene, file);
     CS_TRY(cs_scene_finish(scene, path, error));
 done:
     return status;
@@ -153,8 +205,7 @@ static int has_suffix(const char *text, const char *suffix)
     return 1;
 }
 
-static int warn_of_missing_materials(const cs_missing *missing, const char *path,
-                                     const cs_log *log)
+static int warn_of_missing_materials(const cs_missing *missing, const char *path, const cs_log *log)
 {
     int count = 0;
     for (int i = 0; i < missing->count; i++) {
@@ -187,10 +238,7 @@ clshear_status cs_scene_import(const char *path, cs_scene *scene, const cs_log *
     cs_missing missing = {0};
     struct aiFileIO io = cs_recording_file_io(&missing);
     CS_TRY(check_readable(path, error));
-    file = aiImportFileEx(path,
-                          aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
-                              aiProcess_PreTransformVertices,
-                          &io);
+    file = aiImportFileEx(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices, &io);
     CS_REQUIRE(file != NULL, CLSHEAR_BAD_FILE, "%s: %.*s", path,
                (int)strcspn(aiGetErrorString(), "\n"), aiGetErrorString());
     int materials_missing = warn_of_missing_materials(&missing, path, log);

@@ -19,8 +19,7 @@ clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, c
     }
     cs_light *added = cs_array_extend(&scene->lights, 1);
     if (added == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    added->kind =
-        light->kind == CLSHEAR_LIGHT_DIRECTIONAL ? CS_LIGHT_DIRECTIONAL : CS_LIGHT_POINT;
+    added->kind = light->kind == CLSHEAR_LIGHT_DIRECTIONAL ? CS_LIGHT_DIRECTIONAL : CS_LIGHT_POINT;
     for (int i = 0; i < 3; i++) {
         added->vector[i] = light->vector[i] / length;
         added->colour[i] = light->colour[i];

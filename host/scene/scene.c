@@ -76,6 +76,7 @@ clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, cons
                                  uint32_t material, const char *name, cs_error *error)
 {
     const size_t first_vertex = scene->positions.count;
+    if (mesh->triangle_count == 0) return CLSHEAR_OK;
     clshear_status status = add_vertices(scene, mesh, texture, name, error);
     if (status != CLSHEAR_OK) return status;
     const size_t first = scene->indices.count;
@@ -86,16 +87,17 @@ clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, cons
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", name);
     const cs_material *look = (const cs_material *)scene->materials.items + material;
     const int textured = texture != NULL && look->texture != CS_NO_TEXTURE;
-    const uint8_t flag = (uint8_t)((mesh->normals != NULL ? CS_FACE_SMOOTH : 0) |
-                                   (textured ? CS_FACE_TEXTURED : 0));
+    const uint8_t flag =
+        (uint8_t)((mesh->normals != NULL ? CS_FACE_SMOOTH : 0) | (textured ? CS_FACE_TEXTURED : 0));
     size_t kept = 0;
     for (size_t i = 0; i < mesh->triangle_count; i++) {
         const uint32_t *corner = mesh->indices + 3 * i;
         for (int k = 0; k < 3; k++)
             if (corner[k] >= mesh->vertex_count)
-                return cs_fail(error, CLSHEAR_BAD_FILE,
-                               "%s: triangle %zu names vertex %u, but there are %zu; repair the mesh",
-                               name, i, corner[k], mesh->vertex_count);
+                return cs_fail(
+                    error, CLSHEAR_BAD_FILE,
+                    "%s: triangle %zu names vertex %u, but there are %zu; repair the mesh", name, i,
+                    corner[k], mesh->vertex_count);
         const float *p = mesh->positions;
         if (!has_area(p + 3 * corner[0], p + 3 * corner[1], p + 3 * corner[2])) continue;
         for (int k = 0; k < 3; k++)

@@ -19,8 +19,7 @@ typedef struct cs_scene {
     size_t degenerate;           /* triangles left out */
     float bounds[2][3];          /* low and high corner */
     int has_camera;
-    clshear_camera camera; /* of the file; its fov is horizontal until an image size is known */
-    float camera_aspect;   /* width / height; 0: not said */
+    clshear_camera camera; /* of the file; its fov is vertical until an image size is known */
 } cs_scene;
 
 void cs_scene_init(cs_scene *scene);

@@ -29,8 +29,7 @@ static const struct aiTexture *embedded_image(const struct aiScene *file, const 
     return NULL;
 }
 
-static clshear_status append(cs_scene *scene, const cs_texels *image, i32 *texture,
-                             cs_error *error)
+static clshear_status append(cs_scene *scene, const cs_texels *image, i32 *texture, cs_error *error)
 {
     size_t count = (size_t)image->width * image->height, first = scene->texels.count;
     if (first + count > UINT32_MAX)
@@ -41,8 +40,7 @@ static clshear_status append(cs_scene *scene, const cs_texels *image, i32 *textu
     if (texels == NULL || added == NULL)
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for textures");
     memcpy(texels, image->halves, count * scene->texels.item_size);
-    *added = (cs_texture){
-        .first = (uint32_t)first, .width = image->width, .height = image->height};
+    *added = (cs_texture){.first = (uint32_t)first, .width = image->width, .height = image->height};
     *texture = (i32)(scene->textures.count - 1);
     return CLSHEAR_OK;
 }

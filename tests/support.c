@@ -1,0 +1,68 @@
+#include "support.h"
+
+#include <stdio.h>
+
+static char warnings[8192];
+static char shown[8192];
+
+static void keep_warning(void *user, const char *line)
+{
+    (void)user;
+    size_t used = strlen(warnings);
+    snprintf(warnings + used, sizeof warnings - used, "%s\n", line);
+}
+
+clshear_context *test_context(void)
+{
+    clshear_context *context = NULL;
+    clshear_context_options options = clshear_context_defaults();
+    options.warn = keep_warning;
+    if (clshear_context_create(&options, &context) != CLSHEAR_OK)
+        fail_msg("%s", clshear_message(NULL));
+    return context;
+}
+
+void test_ok(const clshear_context *context, clshear_status status)
+{
+    if (status != CLSHEAR_OK) fail_msg("%s", clshear_message(context));
+}
+
+const char *test_path(const char *name)
+{
+    static char paths[4][1024];
+    static int next;
+    char *path = paths[next++ % 4];
+    snprintf(path, sizeof paths[0], "%s/%s", SCRATCH, name);
+    return path;
+}
+
+const char *test_file(const char *name, const char *text)
+{
+    const char *path = test_path(name);
+    FILE *stream = fopen(path, "wb");
+    assert_non_null(stream);
+    fputs(text, stream);
+    fclose(stream);
+    return path;
+}
+
+const char *test_warnings(void)
+{
+    memcpy(shown, warnings, sizeof shown);
+    warnings[0] = '\0';
+    return shown;
+}
+
+clshear_scene *test_floor(clshear_context *context, float half, float albedo)
+{
+    const float positions[12] = {-half, 0, -half, half, 0, -half, half, 0, half, -half, 0, half};
+    const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    const clshear_mesh mesh = {.positions = positions,
+                               .indices = indices,
+                               .vertex_count = 4,
+                               .triangle_count = 2,
+                               .diffuse = {albedo, albedo, albedo}};
+    clshear_scene *scene = NULL;
+    test_ok(context, clshear_scene_create(context, &mesh, 1, &scene));
+    return scene;
+}

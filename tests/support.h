@@ -1,0 +1,34 @@
+/* What the test programs share. Includes cmocka with what it needs. */
+#ifndef CS_TESTS_SUPPORT_H
+#define CS_TESTS_SUPPORT_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "clshear.h"
+
+/* A context on the first device; fails the test if there is none. */
+clshear_context *test_context(void);
+
+/* Fails the test, with the context's message, unless `status` is CLSHEAR_OK. */
+void test_ok(const clshear_context *context, clshear_status status);
+
+/* Path of a file in the scratch folder; valid for the next few calls. */
+const char *test_path(const char *name);
+
+/* Writes a text file into the scratch folder and returns its path. */
+const char *test_file(const char *name, const char *text);
+
+/* Warnings of contexts made by test_context since the last call, joined; owned by the support. */
+const char *test_warnings(void);
+
+/* A horizontal square of half width `half` at height 0, one triangle pair. */
+clshear_scene *test_floor(clshear_context *context, float half, float albedo);
+
+#endif

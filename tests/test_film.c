@@ -1,0 +1,118 @@
+/* Pictures and their metadata, as other programs read them: looked at with oiiotool. */
+#include "support.h"
+
+#include <stdio.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "film/film.h"
+
+static cs_error error;
+
+static clshear_film *make_film(void)
+{
+    const int window[4] = {2, 5, 1, 3};
+    clshear_film *film = NULL;
+    assert_int_equal(cs_film_create(window, 8, 6, &error, &film), CLSHEAR_OK);
+    const char *const names[] = {"R", "G", "B", "Variance.R", "Z"};
+    for (int i = 0; i < 5; i++) {
+        float *pixels = cs_film_add_channel(film, names[i]);
+        for (int p = 0; p < 6; p++)
+            pixels[p] = 0.1f * (float)p + (float)i;
+    }
+    return film;
+}
+
+/* What a command prints. */
+static const char *output_of(const char *format, const char *path)
+{
+    static char text[16384];
+    char command[2048];
+    snprintf(command, sizeof command, format, path);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    text[fread(text, 1, sizeof text - 1, pipe)] = '\0';
+    pclose(pipe);
+    return text;
+}
+
+static int exists(const char *path)
+{
+    return access(path, F_OK) == 0;
+}
+
+static void exr_has_channels_windows_and_metadata(void **state)
+{
+    (void)state;
+    clshear_film *film = make_film();
+    const char *path = test_path("film.exr");
+    const float matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1};
+    assert_int_equal(clshear_film_annotate(film, "Software", "first"), CLSHEAR_OK);
+    assert_int_equal(clshear_film_annotate(film, "Software", "clshear test"), CLSHEAR_OK);
+    assert_int_equal(cs_film_set_int(film, "samplesPerPixel", 42), CLSHEAR_OK);
+    assert_int_equal(cs_film_set_float(film, "renderTimeSeconds", 1.5f), CLSHEAR_OK);
+    assert_int_equal(cs_film_set_matrix(film, "worldtocamera", matrix), CLSHEAR_OK);
+    assert_int_equal(clshear_film_write(film, path), CLSHEAR_OK);
+    const char *text = output_of("oiiotool --info -v '%s'", path);
+    assert_non_null(strstr(text, "3 x    2, 5 channel, float openexr"));
+    assert_non_null(strstr(text, "channel list: R, G, B, Z, Variance.R"));
+    assert_non_null(strstr(text, "pixel data origin: x=2, y=1"));
+    assert_non_null(strstr(text, "full/display size: 8 x 6"));
+    assert_non_null(strstr(text, "Software: \"clshear test\""));
+    assert_non_null(strstr(text, "samplesPerPixel: 42"));
+    assert_non_null(strstr(text, "renderTimeSeconds: 1.5"));
+    assert_non_null(strstr(text, "worldToCamera: 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1"));
+    clshear_film_free(film);
+}
+
+static void pictures_are_srgb(void **state)
+{
+    (void)state;
+    const int window[4] = {0, 2, 0, 1};
+    clshear_film *film = NULL;
+    assert_int_equal(cs_film_create(window, 2, 1, &error, &film), CLSHEAR_OK);
+    const char *const names[] = {"R", "G", "B"};
+    for (int c = 0; c < 3; c++) {
+        float *pixels = cs_film_add_channel(film, names[c]);
+        pixels[0] = 0.2159f; /* sRGB 0.5020, 128 of 255 */
+        pixels[1] = 7.0f;    /* white and beyond */
+    }
+    const char *const files[] = {"film.png", "film.tif", "film.jpg"};
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(clshear_film_write(film, test_path(files[i])), CLSHEAR_OK);
+    const char *text = output_of("oiiotool --dumpdata '%s'", test_path("film.png"));
+    assert_non_null(strstr(text, "Pixel (0, 0): 128 128 128"));
+    assert_non_null(strstr(text, "Pixel (1, 0): 255 255 255"));
+    clshear_film_free(film);
+}
+
+static void failures_leave_files_alone(void **state)
+{
+    (void)state;
+    clshear_film *film = make_film();
+    const char *kept = test_file("kept.xyz", "precious");
+    assert_int_equal(clshear_film_write(film, kept), CLSHEAR_BAD_FILE);
+    assert_non_null(strstr(error.message, "kept.xyz"));
+    assert_string_equal(output_of("cat '%s'", kept), "precious");
+    const char *nowhere = test_path("no/such/folder/a.exr");
+    assert_int_equal(clshear_film_write(film, nowhere), CLSHEAR_BAD_FILE);
+    assert_non_null(strstr(error.message, "a.exr"));
+    assert_false(exists(nowhere));
+    /* A folder in the way of the final name: written, but it cannot be moved there. */
+    const char *folder = test_path("folder.exr");
+    mkdir(folder, 0777);
+    assert_int_equal(clshear_film_write(film, folder), CLSHEAR_BAD_FILE);
+    assert_string_equal(output_of("ls '%s'*.part* 2>/dev/null", folder), "");
+    rmdir(folder);
+    clshear_film_free(film);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exr_has_channels_windows_and_metadata),
+        cmocka_unit_test(pictures_are_srgb),
+        cmocka_unit_test(failures_leave_files_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,222 @@
+/* Radiance against closed forms. */
+#include "support.h"
+
+#include <math.h>
+
+static const double pi = 3.14159265358979;
+
+typedef struct fixture {
+    clshear_context *context;
+    clshear_scene *floor;
+} fixture;
+
+static int set_up(void **state)
+{
+    fixture *made = calloc(1, sizeof *made);
+    made->context = test_context();
+    made->floor = test_floor(made->context, 1000.0f, 0.6f);
+    *state = made;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    fixture *made = *state;
+    clshear_scene_free(made->floor);
+    clshear_context_free(made->context);
+    free(made);
+    return 0;
+}
+
+/* Straight down on the plane from height 3. */
+static clshear_camera looking_down(float lens_radius, float focal_distance,
+                                   clshear_aperture aperture)
+{
+    return (clshear_camera){.eye = {0.2f, 3.0f, -0.1f},
+                            .target = {0.2f, 0.0f, -0.1f},
+                            .up = {0, 0, -1},
+                            .fov_deg = 60.0f,
+                            .lens_radius = lens_radius,
+                            .focal_distance = focal_distance,
+                            .aperture = aperture};
+}
+
+static const float light_position[3] = {0.7f, 1.5f, 0.4f};
+static const float intensity = 5.0f;
+
+/* Radiance of the plane at (x, z) under the point light: albedo / pi * I cos / r^2. */
+static double plane_radiance(double x, double z)
+{
+    double dx = light_position[0] - x, dy = light_position[1], dz = light_position[2] - z;
+    double square = dx * dx + dy * dy + dz * dz;
+    return 0.6 / pi * intensity * dy / (square * sqrt(square));
+}
+
+/* Mean over pixel (px, py) and the lens, by midpoint quadrature of the thin lens: a lens point l and
+ * a point f of the focal plane see the plane point l + (f - l) * depth / focal distance. */
+static double expected_pixel(const clshear_camera *camera, int size, int px, int py)
+{
+    enum {
+        STEPS = 12
+    };
+    const double depth = 3.0, focus = camera->focal_distance, radius = camera->lens_radius;
+    const double width = 2.0 * focus * tan(0.5 * camera->fov_deg * pi / 180.0) / size;
+    double sum = 0.0, weight = 0.0;
+    for (int i = 0; i < STEPS * STEPS * STEPS * STEPS; i++) {
+        double c[4];
+        for (int k = 0, rest = i; k < 4; k++, rest /= STEPS)
+            c[k] = (rest % STEPS + 0.5) / STEPS;
+        double u = (2.0 * c[2] - 1.0) * radius, v = (2.0 * c[3] - 1.0) * radius;
+        if (camera->aperture == CLSHEAR_APERTURE_DISK && u * u + v * v > radius * radius) continue;
+        double fx = (px + c[0] - 0.5 * size) * width, fz = (py + c[1] - 0.5 * size) * width;
+        double x = camera->eye[0] + u + (fx - u) * depth / focus;
+        double z = camera->eye[2] + v + (fz - v) * depth / focus;
+        sum += plane_radiance(x, z);
+        weight += 1.0;
+    }
+    return sum / weight;
+}
+
+static clshear_film *render(fixture *made, clshear_scene *scene, const clshear_camera *camera,
+                            int size, clshear_shear shear)
+{
+    clshear_film *film = NULL;
+    clshear_options options = clshear_options_defaults();
+    options.width = options.height = size;
+    options.spp = 4096;
+    options.replicates = 16;
+    options.shear = shear;
+    test_ok(made->context, clshear_render(scene, camera, &options, &film));
+    return film;
+}
+
+/* In focus, out of focus in front and behind, pinhole; both apertures, all shears. 12 x 12 pixels;
+ * 6 standard errors plus 0.2 % for the quadrature; the standard error from 16 replicates has 15
+ * degrees of freedom, so the false-alarm rate is 2e-5 a pixel, far less with the allowance. */
+static void point_light_over_a_plane(void **state)
+{
+    fixture *made = *state;
+    const float lenses[][2] = {{0.0f, 3.0f}, {0.3f, 3.0f}, {0.3f, 2.0f}, {0.2f, 5.0f}};
+    const int size = 12;
+    const clshear_light light = {.kind = CLSHEAR_LIGHT_POINT,
+                                 .vector = {0.7f, 1.5f, 0.4f},
+                                 .colour = {5.0f, 5.0f, 5.0f}};
+    test_ok(made->context, clshear_scene_add_light(made->floor, &light));
+    for (int k = 0; k < 4; k++)
+        for (int variant = 0; variant < 6; variant++) {
+            clshear_camera camera =
+                looking_down(lenses[k][0], lenses[k][1], (clshear_aperture)(variant % 2));
+            clshear_film *film =
+                render(made, made->floor, &camera, size, (clshear_shear)(variant / 2));
+            const float *red = clshear_film_channel(film, "R");
+            const float *variance = clshear_film_channel(film, "Variance.R");
+            for (int p = 0; p < size * size; p += 5) {
+                double truth = expected_pixel(&camera, size, p % size, p / size);
+                double error = sqrt((double)variance[p]);
+                assert_true(fabs(red[p] - truth) < 6.0 * error + 0.002 * truth);
+            }
+            clshear_film_free(film);
+        }
+}
+
+/* Directional light: the same everywhere, albedo / pi * E * cos. */
+static void directional_light(void **state)
+{
+    fixture *made = *state;
+    clshear_scene *floor = test_floor(made->context, 10.0f, 0.5f);
+    const clshear_light light = {.kind = CLSHEAR_LIGHT_DIRECTIONAL,
+                                 .vector = {3.0f, 4.0f, 0.0f},
+                                 .colour = {1.0f, 2.0f, 3.0f}};
+    test_ok(made->context, clshear_scene_add_light(floor, &light));
+    clshear_camera camera = looking_down(0.1f, 2.0f, CLSHEAR_APERTURE_DISK);
+    clshear_film *film = render(made, floor, &camera, 4, CLSHEAR_SHEAR_EQUAL_AREA);
+    const char *const names[3] = {"R", "G", "B"};
+    for (int c = 0; c < 3; c++)
+        for (int p = 0; p < 16; p++)
+            assert_true(fabs(clshear_film_channel(film, names[c])[p] -
+                             0.5 / pi * (c + 1) * 0.8) < 1e-5);
+    clshear_film_free(film);
+    clshear_scene_free(floor);
+}
+
+/* A square emitter above the floor: seen from below its centre, the form factor of a parallel
+ * rectangle (Howell, catalogue C-11) gives the reflected radiance albedo * L * F. */
+static void area_light_over_a_plane(void **state)
+{
+    fixture *made = *state;
+    const float floor_y[12] = {-50, 0, -50, 50, 0, -50, 50, 0, 50, -50, 0, 50};
+    const float panel[12] = {-1, 2, -1, 1, 2, -1, 1, 2, 1, -1, 2, 1};
+    const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    const clshear_mesh meshes[2] = {
+        {.positions = floor_y, .indices = indices, .vertex_count = 4, .triangle_count = 2,
+         .diffuse = {0.5f, 0.5f, 0.5f}},
+        {.positions = panel, .indices = indices, .vertex_count = 4, .triangle_count = 2,
+         .emission = {3.0f, 3.0f, 3.0f}}};
+    clshear_scene *scene = NULL;
+    test_ok(made->context, clshear_scene_create(made->context, meshes, 2, &scene));
+    assert_int_equal(clshear_scene_describe(scene).emitters, 2);
+    /* A narrow view along the floor, below the panel, at the point under its centre. */
+    clshear_camera camera = {.eye = {4.0f, 0.5f, 0},
+                             .target = {0, 0, 0},
+                             .up = {0, 1, 0},
+                             .fov_deg = 0.2f,
+                             .lens_radius = 0.0f,
+                             .focal_distance = 4.0f};
+    clshear_film *film = render(made, scene, &camera, 3, CLSHEAR_SHEAR_EQUAL_AREA);
+    const double x = 0.5, root = sqrt(1.0 + x * x); /* half side / height, both ways */
+    const double factor = 4.0 / (2.0 * pi) * 2.0 * x / root * atan(x / root);
+    double error = sqrt((double)clshear_film_channel(film, "Variance.R")[4]);
+    double value = clshear_film_channel(film, "R")[4];
+    assert_true(fabs(value - 0.5 * 3.0 * factor) < 6.0 * error + 1e-3);
+    assert_true(error < 0.01);
+    clshear_film_free(film);
+    /* Seen directly, the panel shows its own radiance and reflects nothing. */
+    camera.eye[0] = 0.3f, camera.eye[1] = 1.0f, camera.target[0] = 0.3f, camera.target[1] = 2.0f;
+    camera.up[1] = 0.0f, camera.up[2] = 1.0f;
+    film = render(made, scene, &camera, 3, CLSHEAR_SHEAR_EQUAL_AREA);
+    assert_true(fabs(clshear_film_channel(film, "G")[4] - 3.0f) < 1e-5f);
+    clshear_film_free(film);
+    clshear_scene_free(scene);
+}
+
+/* Nothing hides behind a thin wall, and surfaces do not shadow themselves: a plane lit at grazing
+ * incidence far from the origin has neither black nor bright pixels. */
+static void no_acne_far_from_the_origin(void **state)
+{
+    fixture *made = *state;
+    const float base = 5000.0f;
+    const float positions[12] = {base - 50, base, base - 50, base + 50, base, base - 50,
+                                 base + 50, base, base + 50, base - 50, base, base + 50};
+    const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    const clshear_mesh mesh = {.positions = positions, .indices = indices, .vertex_count = 4,
+                               .triangle_count = 2, .diffuse = {1.0f, 1.0f, 1.0f}};
+    clshear_scene *scene = NULL;
+    test_ok(made->context, clshear_scene_create(made->context, &mesh, 1, &scene));
+    const clshear_light light = {.kind = CLSHEAR_LIGHT_DIRECTIONAL,
+                                 .vector = {1.0f, 0.05f, 0.0f},
+                                 .colour = {1.0f, 1.0f, 1.0f}};
+    test_ok(made->context, clshear_scene_add_light(scene, &light));
+    clshear_camera camera = {.eye = {base, base + 5, base + 8},
+                             .target = {base, base, base},
+                             .up = {0, 1, 0},
+                             .fov_deg = 40.0f,
+                             .lens_radius = 0.2f,
+                             .focal_distance = 9.0f};
+    clshear_film *film = render(made, scene, &camera, 8, CLSHEAR_SHEAR_EQUAL_AREA);
+    const double truth = 0.05 / sqrt(1.0 + 0.05 * 0.05) / pi;
+    for (int p = 0; p < 64; p++)
+        assert_true(fabs(clshear_film_channel(film, "R")[p] - truth) < 1e-3 * truth);
+    clshear_film_free(film);
+    clshear_scene_free(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(point_light_over_a_plane),
+        cmocka_unit_test(directional_light),
+        cmocka_unit_test(area_light_over_a_plane),
+        cmocka_unit_test(no_acne_far_from_the_origin),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

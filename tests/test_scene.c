@@ -1,0 +1,297 @@
+/* Scene files: what is read, what is repaired, what is refused. */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+
+typedef struct fixture {
+    clshear_context *context;
+} fixture;
+
+static int set_up(void **state)
+{
+    fixture *made = calloc(1, sizeof *made);
+    made->context = test_context();
+    *state = made;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    fixture *made = *state;
+    clshear_context_free(made->context);
+    free(made);
+    return 0;
+}
+
+static clshear_scene *load(fixture *made, const char *path)
+{
+    clshear_scene *scene = NULL;
+    test_warnings();
+    test_ok(made->context, clshear_scene_load(made->context, path, &scene));
+    return scene;
+}
+
+static void refuse(fixture *made, const char *path)
+{
+    clshear_scene *scene = NULL;
+    const char *name = strrchr(path, '/') + 1;
+    assert_int_equal(clshear_scene_load(made->context, path, &scene), CLSHEAR_BAD_FILE);
+    assert_null(scene);
+    if (strstr(clshear_message(made->context), name) == NULL)
+        fail_msg("\"%s\" does not name %s", clshear_message(made->context), name);
+    assert_null(strchr(clshear_message(made->context), '\n'));
+}
+
+/* Colour in the middle of a square of half width 1 in the plane z = 0, lit head-on so that radiance
+ * is albedo: distance 1, intensity pi. */
+static void look_at(fixture *made, clshear_scene *scene, float x, float y, float *colour)
+{
+    const float pi = 3.14159265f;
+    const clshear_light light = {.vector = {x, y, 1.0f}, .colour = {pi, pi, pi}};
+    const clshear_camera camera = {.eye = {x, y, 2}, .target = {x, y, 0}, .up = {0, 1, 0},
+                                   .fov_deg = 0.1f, .focal_distance = 2.0f};
+    clshear_options options = clshear_options_defaults();
+    clshear_film *film = NULL;
+    options.width = options.height = 1;
+    options.spp = 4;
+    test_ok(made->context, clshear_scene_add_light(scene, &light));
+    test_ok(made->context, clshear_render(scene, &camera, &options, &film));
+    colour[0] = *clshear_film_channel(film, "R");
+    colour[1] = *clshear_film_channel(film, "G");
+    colour[2] = *clshear_film_channel(film, "B");
+    clshear_film_free(film);
+}
+
+static void expect_colour(fixture *made, clshear_scene *scene, float x, float y, float r, float g,
+                          float b)
+{
+    float colour[3];
+    look_at(made, scene, x, y, colour);
+    if (fabsf(colour[0] - r) + fabsf(colour[1] - g) + fabsf(colour[2] - b) > 0.01f)
+        fail_msg("colour %g %g %g, not %g %g %g", (double)colour[0], (double)colour[1],
+                 (double)colour[2], (double)r, (double)g, (double)b);
+}
+
+#define SQUARE "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
+
+static void obj_polygons_and_negative_indices(void **state)
+{
+    fixture *made = *state;
+    const char *path = test_file("polygons.obj", SQUARE "v 0 1.5 0\nf 1 2 3 5 4\n"
+                                                        "v 2 -1 0\nv 4 -1 0\nv 4 1 0\nv 2 1 0\n"
+                                                        "f -4 -3 -2 -1\n");
+    clshear_scene *scene = load(made, path);
+    assert_int_equal(clshear_scene_describe(scene).triangles, 3 + 2);
+    expect_colour(made, scene, 3.0f, 0.0f, 0.5f, 0.5f, 0.5f);
+    clshear_scene_free(scene);
+}
+
+static void several_material_files(void **state)
+{
+    fixture *made = *state;
+    test_file("red.mtl", "newmtl red\nKd 0.8 0.1 0.1\n");
+    test_file("blue.mtl", "newmtl blue\nKd 0.1 0.2 0.9\n");
+    const char *path = test_file("materials.obj",
+                                 "mtllib red.mtl\nmtllib blue.mtl\n" SQUARE
+                                 "v 2 -1 0\nv 4 -1 0\nv 4 1 0\nv 2 1 0\n"
+                                 "usemtl red\nf 1 2 3 4\nusemtl blue\nf 5 6 7 8\n");
+    clshear_scene *scene = load(made, path);
+    assert_string_equal(test_warnings(), "");
+    expect_colour(made, scene, 0, 0, 0.8f, 0.1f, 0.1f);
+    clshear_scene_free(scene);
+    scene = load(made, path);
+    expect_colour(made, scene, 3, 0, 0.1f, 0.2f, 0.9f);
+    clshear_scene_free(scene);
+}
+
+static void emission_is_seen(void **state)
+{
+    fixture *made = *state;
+    test_file("glow.mtl", "newmtl glow\nKd 0 0 0\nKe 2 3 4\n");
+    clshear_scene *scene =
+        load(made, test_file("glow.obj", "mtllib glow.mtl\n" SQUARE "usemtl glow\nf 1 2 3 4\n"));
+    assert_int_equal(clshear_scene_describe(scene).emitters, 2);
+    expect_colour(made, scene, 0, 0, 2.0f, 3.0f, 4.0f);
+    clshear_scene_free(scene);
+}
+
+/* A 2 x 2 picture: the lower left texel is the last row's first one. */
+static void write_picture(const char *name)
+{
+    FILE *stream = fopen(test_path(name), "wb");
+    assert_non_null(stream);
+    const unsigned char pixels[12] = {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255};
+    fputs("P6\n2 2\n255\n", stream);
+    fwrite(pixels, 1, sizeof pixels, stream);
+    fclose(stream);
+}
+
+static void textures_are_bilinear_and_upright(void **state)
+{
+    fixture *made = *state;
+    write_picture("four.ppm");
+    test_file("textured.mtl", "newmtl t\nKd 1 1 1\nmap_Kd four.ppm\n");
+    const char *path = test_file("textured.obj",
+                                 "mtllib textured.mtl\n" SQUARE
+                                 "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl t\n"
+                                 "f 1/1 2/2 3/3 4/4\n");
+    const float expected[][5] = {{-0.5f, -0.5f, 0, 0, 1}, /* centres of the texels */
+                                 {0.5f, -0.5f, 1, 1, 1},
+                                 {-0.5f, 0.5f, 1, 0, 0},
+                                 {0.5f, 0.5f, 0, 1, 0},
+                                 {0.0f, 0.5f, 0.5f, 0.5f, 0}, /* between red and green */
+                                 {0.0f, 0.0f, 0.5f, 0.5f, 0.5f}};
+    for (int i = 0; i < 6; i++) {
+        clshear_scene *scene = load(made, path);
+        expect_colour(made, scene, expected[i][0], expected[i][1], expected[i][2], expected[i][3],
+                      expected[i][4]);
+        clshear_scene_free(scene);
+    }
+}
+
+/* A tilted vertex normal darkens a surface that is itself head-on: cos 60 degrees. */
+static void smooth_normals_shade(void **state)
+{
+    fixture *made = *state;
+    clshear_scene *scene = load(
+        made, test_file("smooth.obj", SQUARE "vn 0.8660254 0 0.5\nf 1//1 2//1 3//1 4//1\n"));
+    expect_colour(made, scene, 0, 0, 0.25f, 0.25f, 0.25f);
+    clshear_scene_free(scene);
+}
+
+static void missing_parts_become_grey(void **state)
+{
+    fixture *made = *state;
+    clshear_scene *scene = load(
+        made, test_file("bare.obj", "mtllib nowhere.mtl\n" SQUARE "usemtl lost\nf 1 2 3 4\n"));
+    assert_non_null(strstr(test_warnings(), "nowhere.mtl"));
+    expect_colour(made, scene, 0, 0, 0.5f, 0.5f, 0.5f);
+    clshear_scene_free(scene);
+    test_file("nomap.mtl", "newmtl t\nKd 1 0 0\nmap_Kd nomap.png\n");
+    scene = load(made, test_file("nomap.obj", "mtllib nomap.mtl\n" SQUARE
+                                              "vt 0 0\nusemtl t\nf 1/1 2/1 3/1 4/1\n"));
+    assert_non_null(strstr(test_warnings(), "nomap.png"));
+    expect_colour(made, scene, 0, 0, 0.5f, 0.5f, 0.5f);
+    clshear_scene_free(scene);
+}
+
+static void degenerate_triangles_are_dropped(void **state)
+{
+    fixture *made = *state;
+    clshear_scene *scene =
+        load(made, test_file("thin.obj", SQUARE "f 1 2 3\nf 1 1 2\nf 1 2 2\nv 0 -1 0\nf 1 2 5\n"));
+    assert_int_equal(clshear_scene_describe(scene).triangles, 1);
+    assert_int_equal(clshear_scene_describe(scene).degenerate, 3);
+    assert_non_null(strstr(test_warnings(), "3 triangles without area"));
+    clshear_scene_free(scene);
+}
+
+static void other_formats(void **state)
+{
+    fixture *made = *state;
+    clshear_scene *scene = load(
+        made, test_file("square.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                                      "property float y\nproperty float z\nelement face 1\n"
+                                      "property list uchar int vertex_indices\nend_header\n"
+                                      "-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n4 0 1 2 3\n"));
+    assert_int_equal(clshear_scene_describe(scene).triangles, 2);
+    clshear_scene_free(scene);
+    scene = load(made, test_file("one.stl", "solid one\nfacet normal 0 0 1\nouter loop\n"
+                                            "vertex -1 -1 0\nvertex 1 -1 0\nvertex 0 1 0\n"
+                                            "endloop\nendfacet\nendsolid one\n"));
+    assert_int_equal(clshear_scene_describe(scene).triangles, 1);
+    clshear_scene_free(scene);
+}
+
+/* A glTF triangle with a camera and a point light; the buffer is embedded in base 64. */
+static void gltf_with_camera_and_light(void **state)
+{
+    fixture *made = *state;
+    clshear_scene *scene = load(
+        made,
+        test_file(
+            "scene.gltf",
+            "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1,2]}],"
+            "\"extensionsUsed\":[\"KHR_lights_punctual\"],"
+            "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\","
+            "\"color\":[1,0.5,0.25],\"intensity\":8}]}},"
+            "\"nodes\":[{\"mesh\":0},{\"camera\":0,\"translation\":[0.25,0.25,3]},"
+            "{\"translation\":[0,0,2],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}],"
+            "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.7,"
+            "\"aspectRatio\":1.5,\"znear\":0.1}}],"
+            "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.2,0.4,0.6,1]}}],"
+            "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+            "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,"
+            "\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}],"
+            "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+            "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+            "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}"));
+    clshear_scene_info info = clshear_scene_describe(scene);
+    assert_int_equal(info.triangles, 1);
+    assert_int_equal(info.lights, 1);
+    assert_int_equal(info.file_camera, 1);
+    clshear_camera camera;
+    test_ok(made->context, clshear_scene_camera(scene, 300, 200, &camera));
+    assert_true(fabsf(camera.eye[0] - 0.25f) < 1e-5f && fabsf(camera.eye[2] - 3.0f) < 1e-5f);
+    assert_true(fabsf(camera.target[2] - 2.0f) < 1e-4f && camera.up[1] > 0.99f);
+    assert_true(fabsf(camera.fov_deg - 0.7f * 57.29578f) < 0.01f);
+    /* Head-on below the light: albedo / pi * intensity / 2^2. */
+    clshear_options options = clshear_options_defaults();
+    clshear_film *film = NULL;
+    options.width = options.height = 1;
+    const clshear_camera close = {.eye = {0.02f, 0.02f, 1}, .target = {0.02f, 0.02f, 0},
+                                  .up = {0, 1, 0}, .fov_deg = 0.1f, .focal_distance = 1.0f};
+    test_ok(made->context, clshear_render(scene, &close, &options, &film));
+    assert_true(fabsf(*clshear_film_channel(film, "R") / (0.2f / 3.14159265f * 2.0f) - 1) < 0.01f);
+    assert_true(fabsf(*clshear_film_channel(film, "B") / (0.6f / 3.14159265f * 0.5f) - 1) < 0.01f);
+    clshear_film_free(film);
+    clshear_scene_free(scene);
+}
+
+static void bad_files_are_refused(void **state)
+{
+    fixture *made = *state;
+    refuse(made, test_path("not_there.obj"));
+    refuse(made, SCENES);
+    refuse(made, test_file("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    refuse(made, test_file("infinite.obj", "v 1e39 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    refuse(made, test_file("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"));
+    refuse(made, test_file("none.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"));
+    refuse(made, test_file("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\nl 1 2\n"));
+    refuse(made, test_file("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"));
+    refuse(made, test_file("empty.obj", ""));
+    refuse(made, test_file("prose.txt", "This is not a scene.\n"));
+    refuse(made, test_file("broken.gltf", "{\"asset\":"));
+}
+
+static void bad_meshes_are_refused(void **state)
+{
+    fixture *made = *state;
+    clshear_scene *scene = NULL;
+    const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const uint32_t outside[3] = {0, 1, 3};
+    const clshear_mesh mesh = {.positions = positions, .indices = outside, .vertex_count = 3,
+                               .triangle_count = 1};
+    assert_int_equal(clshear_scene_create(made->context, &mesh, 1, &scene), CLSHEAR_BAD_FILE);
+    assert_int_equal(clshear_scene_create(made->context, NULL, 0, &scene), CLSHEAR_BAD_FILE);
+    assert_null(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(obj_polygons_and_negative_indices),
+        cmocka_unit_test(several_material_files),
+        cmocka_unit_test(emission_is_seen),
+        cmocka_unit_test(textures_are_bilinear_and_upright),
+        cmocka_unit_test(smooth_normals_shade),
+        cmocka_unit_test(missing_parts_become_grey),
+        cmocka_unit_test(degenerate_triangles_are_dropped),
+        cmocka_unit_test(other_formats),
+        cmocka_unit_test(gltf_with_camera_and_light),
+        cmocka_unit_test(bad_files_are_refused),
+        cmocka_unit_test(bad_meshes_are_refused),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

@@ -1,0 +1,249 @@
+/* The shears keep measure and do what they are for. */
+#include "support.h"
+
+#include <math.h>
+
+#include "hash.h"
+#include "lens.h"
+#include "shear.h"
+
+static const f32 shears[] = {0.0f, 1e-6f, 0.3f, -0.3f, 1.0f, -1.0f, 2.0f, -2.0f, 8.5f, -8.5f, 60.0f};
+enum {
+    SHEARS = sizeof shears / sizeof *shears,
+    MODES = 3,
+    APERTURES = 2
+};
+
+static f32 uniform(u32 index, u32 dimension)
+{
+    return (f32)(cs_key(cs_key(77, index), dimension) >> 8) * (1.0f / 16777216.0f);
+}
+
+static cs_film_lens random_point(u32 i, u32 mode, u32 aperture, f32 shear)
+{
+    return cs_shear(uniform(i, 0), uniform(i, 1), uniform(i, 2), uniform(i, 3), mode, aperture,
+                    shear);
+}
+
+/* Points are in the pixel and on the lens. */
+static void points_are_inside(void **state)
+{
+    (void)state;
+    const f32 ends[] = {0.0f, 1e-7f, 0.5f, 0.99999994f};
+    for (u32 mode = 0; mode < MODES; mode++)
+        for (u32 aperture = 0; aperture < APERTURES; aperture++)
+            for (int k = 0; k < SHEARS; k++)
+                for (u32 i = 0; i < 2256; i++) {
+                    cs_film_lens p =
+                        i < 256 ? cs_shear(ends[i & 3], ends[i >> 2 & 3], ends[i >> 4 & 3],
+                                           ends[i >> 6], mode, aperture, shears[k])
+                                : random_point(i, mode, aperture, shears[k]);
+                    assert_true(p.x >= 0.0f && p.x < 1.0f && p.y >= 0.0f && p.y < 1.0f);
+                    f32 radius = sqrtf(p.u * p.u + p.v * p.v);
+                    if (aperture == CS_APERTURE_DISK)
+                        assert_true(radius <= CS_DISK_RADIUS * 1.00001f);
+                    else
+                        assert_true(fabsf(p.u) <= 0.50001f && fabsf(p.v) <= 0.50001f);
+                }
+}
+
+/* Nine integrands whose means over pixel x aperture are known: moments of each coordinate, mixed
+ * ones, and a half plane across the fibres. */
+enum {
+    INTEGRANDS = 9
+};
+
+static void integrands(const cs_film_lens *p, double *values)
+{
+    double x = p->x - 0.5, y = p->y - 0.5, u = p->u, v = p->v;
+    const double all[INTEGRANDS] = {x, y * y, u, v, u * u, v * v, u * u * v * v, x * u, x * x * v * v};
+    memcpy(values, all, sizeof all);
+}
+
+/* Second moments: 1/12 for the square; for the disk R^2/4 = 1/(4 pi), and E[u^2 v^2] = R^4/24. */
+static void truths(u32 aperture, double *values)
+{
+    const double pi = 3.14159265358979, square = 1.0 / 12.0;
+    double second = aperture == CS_APERTURE_DISK ? 1.0 / (4.0 * pi) : square;
+    double mixed = aperture == CS_APERTURE_DISK ? 1.0 / (24.0 * pi * pi) : square * square;
+    const double all[INTEGRANDS] = {0, square, 0, 0, second, second, mixed, 0, square * second};
+    memcpy(values, all, sizeof all);
+}
+
+/* Measure is kept: means of 200 000 independent points, |z| < 5.5. There are 594 comparisons; the
+ * false-alarm rate of each is 4e-8, of all 2e-5. */
+static void measure_is_kept(void **state)
+{
+    (void)state;
+    const u32 count = 200000;
+    for (u32 mode = 0; mode < MODES; mode++)
+        for (u32 aperture = 0; aperture < APERTURES; aperture++)
+            for (int k = 0; k < SHEARS; k++) {
+                double sum[INTEGRANDS] = {0}, squares[INTEGRANDS] = {0};
+                double value[INTEGRANDS], truth[INTEGRANDS];
+                for (u32 i = 0; i < count; i++) {
+                    cs_film_lens p =
+                        random_point(i + count * (u32)k, mode, aperture, shears[k]);
+                    integrands(&p, value);
+                    for (int f = 0; f < INTEGRANDS; f++) {
+                        sum[f] += value[f];
+                        squares[f] += value[f] * value[f];
+                    }
+                }
+                truths(aperture, truth);
+                for (int f = 0; f < INTEGRANDS; f++) {
+                    double mean = sum[f] / count;
+                    double error = sqrt((squares[f] / count - mean * mean) / count);
+                    assert_true(fabs(mean - truth[f]) < 5.5 * error);
+                }
+            }
+}
+
+/* The joint distribution is uniform, not only its moments: chi-square of (x, u) on 8 x 8 cells of
+ * equal measure (u through the aperture's own distribution), 63 degrees of freedom; 140 is 6.9
+ * standard deviations up, false alarms below 1e-7. */
+static void film_and_lens_stay_independent(void **state)
+{
+    (void)state;
+    const u32 count = 64000;
+    for (u32 mode = 0; mode < MODES; mode++)
+        for (u32 aperture = 0; aperture < APERTURES; aperture++)
+            for (int k = 0; k < SHEARS; k++) {
+                u32 hits[64] = {0};
+                double chi = 0.0;
+                for (u32 i = 0; i < count; i++) {
+                    cs_film_lens p = random_point(i + 7777777u, mode, aperture, shears[k]);
+                    f32 rank = aperture == CS_APERTURE_DISK ? cs_disk_cdf(p.u) : p.u + 0.5f;
+                    u32 column = (u32)(p.x * 8.0f), row = (u32)(rank * 7.99999f);
+                    hits[row * 8 + column]++;
+                }
+                for (int i = 0; i < 64; i++)
+                    chi += pow(hits[i] - count / 64.0, 2) / (count / 64.0);
+                assert_true(chi < 140.0);
+            }
+}
+
+/* After the equal-area shear the fibre coordinate depends on the first pair alone: t_x on a; t_y on
+ * b, for the disk at given u. */
+static void first_pair_fixes_the_fibre(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SHEARS; k++) {
+        const f32 s = shears[k], tolerance = 2e-5f * (1.0f + fabsf(s));
+        for (u32 i = 0; i < 500; i++)
+            for (u32 aperture = 0; aperture < APERTURES; aperture++) {
+                f32 a = uniform(i, 0), b = uniform(i, 1);
+                cs_film_lens p = cs_shear(a, b, uniform(i, 2), uniform(i, 3), CS_SHEAR_EQUAL_AREA,
+                                          aperture, s);
+                cs_film_lens q = cs_shear(a, b, uniform(i, 4), uniform(i, 5), CS_SHEAR_EQUAL_AREA,
+                                          aperture, s);
+                assert_true(fabsf((p.x + s * p.u) - (q.x + s * q.u)) < tolerance);
+                if (aperture == CS_APERTURE_SQUARE)
+                    assert_true(fabsf((p.y + s * p.v) - (q.y + s * q.v)) < tolerance);
+                cs_film_lens r = cs_shear(a, b, uniform(i, 2), uniform(i, 5), CS_SHEAR_EQUAL_AREA,
+                                          aperture, s);
+                assert_true(fabsf((p.y + s * p.v) - (r.y + s * r.v)) < tolerance);
+            }
+    }
+}
+
+/* The fibre coordinate grows with the first pair, without jumps: no seams. */
+static void equal_area_has_no_seams(void **state)
+{
+    (void)state;
+    for (u32 aperture = 0; aperture < APERTURES; aperture++)
+        for (int k = 0; k < SHEARS; k++) {
+            const f32 s = shears[k], span = 1.0f + fabsf(s) * 1.2f;
+            f32 before = -INFINITY;
+            for (u32 i = 0; i < 4096; i++) {
+                cs_film_lens p = cs_shear(((f32)i + 0.5f) / 4096.0f, 0.5f, 0.3f, 0.7f,
+                                          CS_SHEAR_EQUAL_AREA, aperture, s);
+                f32 t = p.x + s * p.u;
+                assert_true(t > before - 1e-5f * span);
+                if (i > 0) assert_true(t - before < 0.05f * span);
+                before = t;
+            }
+        }
+}
+
+/* The toroidal shear undoes the slope: modulo the wrap, x + s u is the first pair. */
+static void toroidal_slides_along_fibres(void **state)
+{
+    (void)state;
+    for (u32 i = 0; i < 1000; i++) {
+        const f32 s = 0.8f;
+        f32 a = uniform(i, 0), c = uniform(i, 2);
+        cs_film_lens p =
+            cs_shear(a, 0.5f, c, 0.5f, CS_SHEAR_TOROIDAL, CS_APERTURE_SQUARE, s);
+        f32 t = p.x + s * p.u;
+        f32 wrapped = t - a - roundf(t - a);
+        assert_true(fabsf(wrapped) < 1e-5f);
+        assert_true(p.u == c - 0.5f);
+    }
+}
+
+/* Inverse and distribution of the disk's marginal agree, and the fibre quantile inverts its
+ * distribution (checked by numerical integration of the pixel). */
+static void disk_functions_invert(void **state)
+{
+    (void)state;
+    for (u32 i = 1; i < 4000; i++) {
+        f32 mass = (f32)i / 4000.0f;
+        assert_true(fabsf(cs_disk_cdf(cs_disk_quantile(mass)) - mass) < 1e-6f);
+    }
+    const f32 blurs[] = {1e-5f, 0.01f, 0.4f, 1.0f, 3.0f, 5.9f, 6.1f, 20.0f};
+    for (size_t k = 0; k < sizeof blurs / sizeof *blurs; k++)
+        for (u32 i = 1; i < 40; i++) {
+            f32 mass = (f32)i / 40.0f, t = cs_disk_fibre(mass, blurs[k]);
+            double sum = 0.0;
+            for (int j = 0; j < 4000; j++)
+                sum += cs_disk_cdf((f32)((t - (j + 0.5) / 4000.0 + 0.5) / blurs[k]));
+            assert_true(fabs(sum / 4000.0 - mass) < 3e-4);
+        }
+}
+
+/* The thin lens in words: all rays of a raster point meet on the focal plane, and a point at depth z
+ * seen through (x, u) appears, through the lens centre, at x + shear * u. */
+static void lens_agrees_with_shear(void **state)
+{
+    (void)state;
+    const cs_camera camera = {.eye = {1, 2, 3},
+                              .right = {1, 0, 0},
+                              .down = {0, -1, 0},
+                              .forward = {0, 0, -1},
+                              .focal_distance = 4.0f,
+                              .pixel_width = 0.01f,
+                              .aperture_width = 0.3f,
+                              .centre_px = {256, 256}};
+    const f32 depths[] = {0.7f, 2.0f, 4.0f, 9.0f, 50.0f};
+    for (int k = 0; k < 5; k++)
+        for (u32 i = 0; i < 200; i++) {
+            f32 x = 512.0f * uniform(i, 0), y = 512.0f * uniform(i, 1);
+            f32 u = uniform(i, 2) - 0.5f, v = uniform(i, 3) - 0.5f, z = depths[k];
+            cs_ray ray = cs_lens_ray(camera, x, y, u, v);
+            f32 right = ray.origin[0] + z * ray.direction[0] - camera.eye[0];
+            f32 down = camera.eye[1] - ray.origin[1] - z * ray.direction[1];
+            f32 scale = camera.focal_distance / z / camera.pixel_width;
+            f32 shear = cs_shear_of_depth(camera, z);
+            assert_true(fabsf(256.0f + right * scale - (x + shear * u)) < 2e-3f);
+            assert_true(fabsf(256.0f + down * scale - (y + shear * v)) < 2e-3f);
+            assert_true(fabsf(ray.origin[2] + z * ray.direction[2] - (camera.eye[2] - z)) < 1e-4f);
+        }
+    assert_true(cs_shear_of_depth(camera, 2.0f) > 0.0f);
+    assert_true(cs_shear_of_depth(camera, 9.0f) < 0.0f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points_are_inside),
+        cmocka_unit_test(measure_is_kept),
+        cmocka_unit_test(film_and_lens_stay_independent),
+        cmocka_unit_test(first_pair_fixes_the_fibre),
+        cmocka_unit_test(equal_area_has_no_seams),
+        cmocka_unit_test(toroidal_slides_along_fibres),
+        cmocka_unit_test(disk_functions_invert),
+        cmocka_unit_test(lens_agrees_with_shear),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

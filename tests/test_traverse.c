@@ -1,0 +1,240 @@
+/* The flattened hierarchy and its traversal, against Embree. */
+#include "support.h"
+
+#include <math.h>
+
+#include "accel/accel.h"
+#include "device/device.h"
+#include "hash.h"
+#include "meshes.h"
+
+enum {
+    RAYS = 1 << 16
+};
+
+static cs_error error;
+
+typedef struct fixture {
+    cs_scene scene;
+    cs_accel *accel;
+    cs_flat_bvh bvh;
+} fixture;
+
+static void build(fixture *made, const char *mesh, size_t triangles)
+{
+    memset(made, 0, sizeof *made);
+    cs_scene_init(&made->scene);
+    assert_int_equal(bench_make_mesh(mesh, triangles, &made->scene, &error), CLSHEAR_OK);
+    assert_int_equal(cs_accel_create(&made->scene, 0, &made->accel, &error), CLSHEAR_OK);
+    assert_int_equal(cs_accel_build_bvh(made->accel, &made->bvh, &error), CLSHEAR_OK);
+}
+
+static void destroy(fixture *made)
+{
+    cs_flat_bvh_free(&made->bvh);
+    cs_accel_free(made->accel);
+    cs_scene_free(&made->scene);
+}
+
+/* Depth, which Embree traces, of the camera rays of one pinhole picture; and the same from the
+ * kernel, which must agree but for rays that graze an edge. */
+static void trace_device(const fixture *made, int packet, int any_hit, const float *rays,
+                         float *distances)
+{
+    cs_device *device = NULL;
+    cs_buffer *buffers[6] = {0};
+    const uint32_t count = RAYS;
+    const size_t plane = RAYS * sizeof(float);
+    assert_int_equal(cs_device_open(NULL, 0, packet, &device, &error), CLSHEAR_OK);
+    const void *sources[6] = {rays, rays + 3 * RAYS, distances, NULL, made->bvh.nodes.items,
+                              made->bvh.triangles.items};
+    const size_t sizes[6] = {3 * plane, 3 * plane, plane, plane,
+                             made->bvh.nodes.count * sizeof(cs_node),
+                             made->bvh.triangles.count * sizeof(cs_triangle)};
+    cs_argument arguments[8] = {{.value = &count, .size = 4}, {.value = &any_hit, .size = 4}};
+    for (int i = 0; i < 6; i++) {
+        assert_int_equal(cs_buffer_create(device, sizes[i], sources[i], &buffers[i], &error),
+                         CLSHEAR_OK);
+        arguments[2 + i].buffer = buffers[i];
+    }
+    assert_int_equal(cs_device_run(device, CS_KERNEL_TRACE, RAYS / (size_t)packet, arguments, 8,
+                                   &error),
+                     CLSHEAR_OK);
+    assert_int_equal(cs_buffer_read(buffers[2], 0, plane, distances, &error), CLSHEAR_OK);
+    for (int i = 0; i < 6; i++)
+        cs_buffer_free(buffers[i]);
+    cs_device_close(device);
+}
+
+/* Nearest hit by testing every triangle in double precision. */
+static double nearest_by_hand(const cs_scene *scene, const double *o, const double *d)
+{
+    const uint32_t(*indices)[3] = scene->indices.items;
+    const float(*positions)[3] = scene->positions.items;
+    double nearest = INFINITY;
+    for (size_t i = 0; i < scene->indices.count; i++) {
+        double v[3][3], e1[3], e2[3], n[3], c[3], q[3];
+        for (int k = 0; k < 3; k++)
+            for (int axis = 0; axis < 3; axis++)
+                v[k][axis] = (double)positions[indices[i][k]][axis];
+        for (int axis = 0; axis < 3; axis++) {
+            e1[axis] = v[1][axis] - v[0][axis];
+            e2[axis] = v[2][axis] - v[0][axis];
+            c[axis] = v[0][axis] - o[axis];
+        }
+        for (int a = 0; a < 3; a++) {
+            int b = (a + 1) % 3, k = (a + 2) % 3;
+            n[a] = e1[b] * e2[k] - e1[k] * e2[b];
+            q[a] = c[b] * d[k] - c[k] * d[b];
+        }
+        double along = n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
+        double u = (q[0] * e2[0] + q[1] * e2[1] + q[2] * e2[2]) / along;
+        double w = -(q[0] * e1[0] + q[1] * e1[1] + q[2] * e1[2]) / along;
+        double t = (n[0] * c[0] + n[1] * c[1] + n[2] * c[2]) / along;
+        if (u >= 0 && w >= 0 && u + w <= 1 && t > 0 && t < nearest) nearest = t;
+    }
+    return nearest;
+}
+
+static void make_random_rays(float *rays, float reach, float *distances)
+{
+    for (u32 i = 0; i < RAYS; i++) {
+        for (u32 axis = 0; axis < 3; axis++) {
+            rays[axis * RAYS + i] = (f32)(cs_key(i, axis) >> 8) * (1.0f / 16777216.0f);
+            rays[(3 + axis) * RAYS + i] =
+                (f32)(cs_key(i, 3 + axis) >> 8) * (2.0f / 16777216.0f) - 1.0f;
+        }
+        distances[i] = reach;
+    }
+}
+
+/* All packet widths, closest hit and any hit, against the triangles tested one by one. Rays that
+ * pass an edge within rounding may differ: 1 in 10 000 is allowed. */
+static void hits_equal_brute_force(void **state)
+{
+    (void)state;
+    const int widths[] = {1, 4, 8, 16};
+    float *rays = malloc(6 * RAYS * sizeof *rays), *found = malloc(RAYS * sizeof *found);
+    fixture made;
+    build(&made, "box", 0);
+    double *truth = malloc(RAYS * sizeof *truth);
+    make_random_rays(rays, INFINITY, found);
+    for (u32 i = 0; i < RAYS; i++) {
+        double o[3], d[3];
+        for (u32 axis = 0; axis < 3; axis++) {
+            o[axis] = (double)rays[axis * RAYS + i];
+            d[axis] = (double)rays[(3 + axis) * RAYS + i];
+        }
+        truth[i] = nearest_by_hand(&made.scene, o, d);
+    }
+    for (int w = 0; w < 4; w++) {
+        u32 wrong = 0, blocked_wrong = 0;
+        make_random_rays(rays, INFINITY, found);
+        trace_device(&made, widths[w], 0, rays, found);
+        for (u32 i = 0; i < RAYS; i++)
+            wrong += isfinite(truth[i]) ? !(fabs(found[i] - truth[i]) < 1e-4 * (truth[i] + 0.01))
+                                        : isfinite(found[i]);
+        make_random_rays(rays, 0.4f, found);
+        trace_device(&made, widths[w], 1, rays, found);
+        for (u32 i = 0; i < RAYS; i++)
+            blocked_wrong += (found[i] < 0.0f) != (truth[i] < (double)0.4f);
+        assert_true(wrong <= RAYS / 10000);
+        assert_true(blocked_wrong <= RAYS / 10000);
+    }
+    destroy(&made);
+    free(rays);
+    free(found);
+    free(truth);
+}
+
+/* Camera rays into a mesh of many triangles: the kernel's distance is Embree's depth. */
+static void hits_equal_embree(void **state)
+{
+    (void)state;
+    const char *const meshes[] = {"spheres", "terrain"};
+    const cs_camera camera = {.eye = {0.5f, 0.5f, 2.2f},
+                              .right = {1, 0, 0},
+                              .down = {0, -1, 0},
+                              .forward = {0, 0, -1},
+                              .focal_distance = 1.0f,
+                              .pixel_width = 0.8f / 256.0f,
+                              .centre_px = {128, 128}};
+    const int window[4] = {0, 256, 0, 256};
+    float *rays = malloc(6 * RAYS * sizeof *rays);
+    float *depth = malloc(RAYS * sizeof *depth), *found = malloc(RAYS * sizeof *found);
+    for (int k = 0; k < 2; k++) {
+        fixture made;
+        u32 wrong = 0, seen = 0;
+        build(&made, meshes[k], 60000);
+        cs_accel_depth(made.accel, &camera, window, depth);
+        for (u32 i = 0; i < RAYS; i++) {
+            const float direction[3] = {((f32)(i % 256) + 0.5f - 128.0f) * camera.pixel_width,
+                                        -((f32)(i / 256) + 0.5f - 128.0f) * camera.pixel_width,
+                                        -1.0f};
+            for (u32 axis = 0; axis < 3; axis++) {
+                rays[axis * RAYS + i] = camera.eye[axis];
+                rays[(3 + axis) * RAYS + i] = direction[axis];
+            }
+            found[i] = INFINITY;
+        }
+        trace_device(&made, 8, 0, rays, found);
+        for (u32 i = 0; i < RAYS; i++) {
+            seen += isfinite(depth[i]);
+            wrong += found[i] != depth[i] && !(fabsf(found[i] - depth[i]) < 1e-4f * depth[i]);
+        }
+        assert_true(seen > RAYS / 2);
+        assert_true(wrong <= RAYS / 10000);
+        assert_true(made.bvh.depth < CS_STACK);
+        destroy(&made);
+    }
+    free(rays);
+    free(depth);
+    free(found);
+}
+
+/* Every triangle is in a leaf, every node is reached once, children lie inside their boxes. */
+static u32 check_subtree(const cs_flat_bvh *bvh, u32 reference, const float (*box)[2],
+                         unsigned char *seen)
+{
+    const cs_node *nodes = bvh->nodes.items;
+    const cs_triangle *triangles = bvh->triangles.items;
+    if (reference & CS_LEAF) {
+        u32 first = reference & ((1u << CS_LEAF_SHIFT) - 1u), last = first + (reference >> 27 & 7u);
+        for (u32 i = first; i <= last; i++)
+            seen[triangles[i].face] = 1;
+        return 0;
+    }
+    u32 count = 1;
+    for (int side = 0; side < 2; side++) {
+        const float(*inner)[2] = nodes[reference].bounds[side];
+        for (int axis = 0; axis < 3 && box != NULL; axis++)
+            assert_true(inner[axis][0] >= box[axis][0] - 1e-5f &&
+                        inner[axis][1] <= box[axis][1] + 1e-5f);
+        count += check_subtree(bvh, nodes[reference].child[side], inner, seen);
+    }
+    return count;
+}
+
+static void hierarchy_is_complete(void **state)
+{
+    (void)state;
+    fixture made;
+    build(&made, "spheres", 20000);
+    unsigned char *seen = calloc(made.scene.indices.count, 1);
+    u32 count = check_subtree(&made.bvh, 0, NULL, seen);
+    assert_int_equal(count, made.bvh.nodes.count);
+    for (size_t i = 0; i < made.scene.indices.count; i++)
+        assert_true(seen[i]);
+    free(seen);
+    destroy(&made);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hits_equal_brute_force),
+        cmocka_unit_test(hits_equal_embree),
+        cmocka_unit_test(hierarchy_is_complete),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
