@@ -23,12 +23,12 @@ static void open_scene(fixture *made, int threads, int packet)
         fail_msg("%s", clshear_message(NULL));
     test_ok(made->context,
             clshear_scene_load(made->context, SCENES "/cornell.obj", &made->scene));
-    const clshear_light light = {.vector = {240, 480, -40}, .colour = {3e5f, 3e5f, 2.5e5f}};
+    const clshear_light light = {.vector = {278, 430, -20}, .colour = {2.3e5f, 2.2e5f, 1.9e5f}};
     test_ok(made->context, clshear_scene_add_light(made->scene, &light));
-    made->camera = (clshear_camera){.eye = {274.8f, 273, 800},
-                                    .target = {274.8f, 273, 0},
+    made->camera = (clshear_camera){.eye = {276.4f, 274.4f, 800},
+                                    .target = {276.4f, 274.4f, 0},
                                     .up = {0, 1, 0},
-                                    .fov_deg = 39.3f,
+                                    .fov_deg = 36.0f,
                                     .lens_radius = 25.0f,
                                     .focal_distance = 930.0f};
 }

@@ -313,6 +313,7 @@ void cli_print_help(FILE *stream)
         fprintf(stream, "  %-24s %s\n", left, flag->help);
     }
     fputs("\nWithout --out, writes the scene's name with .exr in the current folder.\n"
-          "Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted (picture so far kept).\n",
+          "Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted (what was\n"
+          "rendered so far is written).\n",
           stream);
 }

@@ -1,0 +1,151 @@
+#!/bin/bash
+# The program as a person drives it: flags, errors, exit codes, files, pipes and Ctrl-C.
+set -u
+program=$1 root=$2 scratch=$3
+rm -rf "$scratch"
+mkdir -p "$scratch"
+cd "$scratch" || exit 1
+cornell=$root/scenes/cornell.obj
+small="--width 32 --height 32 --spp 16"
+failures=0
+
+wrong() {
+    echo "FAILED: $1"
+    failures=$((failures + 1))
+}
+
+# expect CODE WORDS -- ARGUMENTS: exit code, and words in what is printed (both streams).
+expect() {
+    local code=$1 words=$2
+    shift 3
+    output=$("$program" "$@" 2>&1 </dev/null)
+    local got=$?
+    [ $got -eq "$code" ] || wrong "clshear $*: exit $got, not $code: $output"
+    case "$output" in
+    *"$words"*) ;;
+    *) wrong "clshear $*: no \"$words\" in: $output" ;;
+    esac
+}
+
+# The same for usage errors and failures: one line only, and no picture.
+refuse() {
+    rm -f refused.exr
+    expect "$@" --out refused.exr
+    [ "$(echo "$output" | wc -l)" -eq 1 ] || wrong "more than one line: $output"
+    [ ! -e refused.exr ] || wrong "a picture was written: ${*:4}"
+}
+
+# Help, version, devices.
+expect 0 "usage: clshear SCENE" -- --help
+[ "$(echo "$output" | awk '{ if (length > 80) print }' | wc -l)" -eq 0 ] || wrong "help wider than 80"
+expect 0 "clshear 0." -- --version
+expect 0 "0: " -- --list-devices
+
+# Wrong usage: 2.
+refuse 2 "no scene given" --
+refuse 2 "did you mean --fov?" -- "$cornell" --fvo 30
+refuse 2 "did you mean --spp?" -- "$cornell" --sp 30
+refuse 2 "unknown flag --zzzzzzzzzz" -- "$cornell" --zzzzzzzzzz
+refuse 2 "--spp 0: must be a whole number" -- "$cornell" --spp 0
+refuse 2 "--spp 1e99: must be" -- "$cornell" --spp 1e99
+refuse 2 "--spp -4: must be" -- "$cornell" --spp -4
+refuse 2 "--eye 1,2: must be three numbers" -- "$cornell" --eye 1,2
+refuse 2 "--eye 1,2,nan: must be" -- "$cornell" --eye 1,2,nan
+refuse 2 "--fov 180: must be" -- "$cornell" --fov 180
+refuse 2 "--shear sideways: must be equal-area" -- "$cornell" --shear sideways
+refuse 2 "--packet 3: must be" -- "$cornell" --packet 3
+refuse 2 "--quiet takes no value" -- "$cornell" --quiet=yes
+refuse 2 "more than one scene" -- "$cornell" "$cornell"
+expect 2 "--out needs a value" -- "$cornell" --out
+expect 2 "picture.bmp: must end in" -- "$cornell" --out picture.bmp
+
+# Failures: 1.
+refuse 1 "nowhere.obj: cannot be opened: No such file" -- nowhere.obj
+refuse 1 "no OpenCL device \"toaster\"" -- "$cornell" --quiet --device toaster
+refuse 1 "crop 0,99,0,9" -- "$cornell" --quiet --width 32 --height 32 --crop 0,99,0,9
+refuse 1 "pixel 40,2 is outside" -- "$cornell" --quiet --width 32 --height 32 --focus-pixel 40,2
+refuse 1 "replicates" -- "$cornell" --quiet --spp 2 --replicates 3
+expect 1 "folder no/such/ cannot be written" -- "$cornell" --out no/such/folder.exr
+output=$(OCL_ICD_VENDORS=/nonexistent "$program" "$cornell" --quiet --out refused.exr 2>&1)
+case $?$output in 1*"no OpenCL device found; install"*) ;; *) wrong "no driver: $output" ;; esac
+
+# Renders. Settings beside the scene are read and said; the command line wins.
+# shellcheck disable=SC2086
+{
+    expect 0 "settings from $root/scenes/cornell.flags" -- "$cornell" $small --out a.exr --out a.png
+    expect 0 "" -- "$cornell" $small --quiet
+    [ -z "$output" ] || wrong "--quiet printed: $output"
+    [ -s cornell.exr ] || wrong "no default output"
+    expect 0 "rays " -- "$cornell" $small --stats --out b.exr
+    cmp -s <(oiiotool --dumpdata a.exr | tail -n +2) <(oiiotool --dumpdata b.exr | tail -n +2) ||
+        wrong "two runs differ"
+    expect 0 "" -- "$cornell" $small --quiet --threads 1 --out c.exr
+    cmp -s <(oiiotool --dumpdata a.exr | tail -n +2) <(oiiotool --dumpdata c.exr | tail -n +2) ||
+        wrong "one thread differs from two"
+    echo "--lens-radius 1 # tiny" >mine.flags
+    expect 0 "settings from mine.flags" -- "$cornell" $small --settings mine.flags --out d.exr
+    case $(oiiotool --info -v d.exr) in *"clshear.lensRadius: 1"*) ;; *) wrong "settings unused" ;; esac
+    expect 0 "" -- "$cornell" $small --settings mine.flags --aperture-radius=2.5 --out d.exr
+    case $(oiiotool --info -v d.exr) in *"clshear.lensRadius: 2.5"*) ;; *) wrong "line lost" ;; esac
+    echo "--lens-raduis 1" >mine.flags
+    refuse 2 "mine.flags:1: unknown flag --lens-raduis; did you mean --lens-radius?" -- \
+        "$cornell" --settings mine.flags
+    refuse 1 "gone.flags: cannot be read" -- "$cornell" --settings gone.flags
+}
+
+# A scene without camera, lens and light says what was chosen.
+cat >bare.obj <<'END'
+v -1 -1 0
+v 1 -1 0
+v 1 1 0
+v -1 1 0
+f 1 2 3 4
+END
+# shellcheck disable=SC2086
+{
+    expect 0 "no lens given, a moderate blur: --lens-radius" -- bare.obj $small --out e.exr
+    case $output in *"focused on the middle pixel, --focal-distance"*) ;; *) wrong "focus unsaid" ;; esac
+    expect 0 "" -- bare.obj $small --fstop 2.8 --unit 0.01 --focus-pixel 16,16 --out f.exr
+}
+
+# Metadata reproduces the image.
+info=$(oiiotool --info -v a.exr)
+for word in 'Software: "clshear' 'clshear.cmdline: "' 'clshear.seed: "0"' 'clshear.sampler: "mj"' \
+    'clshear.shear: "equal-area"' 'clshear.replicates: 2' 'samplesPerPixel: 16' \
+    'renderTimeSeconds: ' 'worldToCamera: ' 'clshear.focalDistance: 930' 'clshear.device: "' \
+    'clshear.driver: "' 'Variance.R' 'SampleVariance.B' 'Samples' 'Shear'; do
+    case $info in *"$word"*) ;; *) wrong "no $word in the metadata" ;; esac
+done
+case $info in *"float openexr"*) ;; *) wrong "not float32" ;; esac
+
+# Progress: a line per 10 % in a pipe, the last one 100 %.
+output=$("$program" "$cornell" --width 64 --height 64 --spp 256 --out g.exr 2>&1 >/dev/null)
+[ "$(echo "$output" | grep -c ' %')" -le 11 ] || wrong "too many lines of progress"
+case $output in *"100 %"*) ;; *) wrong "never at 100 %: $output" ;; esac
+
+# Ctrl-C: what was done is written, with true counts, and the exit code says so.
+rm -f h.exr
+"$program" "$cornell" --spp 200000 --width 64 --height 64 --out h.exr 2>h.txt &
+child=$!
+for _ in $(seq 300); do grep -q ' %' h.txt 2>/dev/null && break; sleep 0.1; done
+kill -INT $child
+wait $child
+[ $? -eq 130 ] || wrong "interrupted: exit code"
+grep -q "h.exr holds the samples so far" h.txt || wrong "interrupted: $(cat h.txt)"
+[ -s h.exr ] || wrong "interrupted: no picture"
+oiiotool --info h.exr | grep -q "64 x   64, 9 channel" || wrong "interrupted: bad file"
+
+# A full disk: one line, exit 1, the old picture untouched and nothing left behind.
+echo old >kept.exr
+(
+    ulimit -f 2048 # enough for compiled kernels, too little for the picture
+    trap '' XFSZ
+    "$program" "$cornell" --spp 4 --quiet --out kept.exr >full.txt 2>&1
+)
+[ $? -eq 1 ] || wrong "full disk: exit code"
+grep -q "kept.exr: cannot be written" full.txt || wrong "full disk: $(cat full.txt)"
+[ "$(cat kept.exr)" = old ] || wrong "full disk: the old file is gone"
+[ -z "$(ls ./*.part* 2>/dev/null)" ] || wrong "full disk: rest left behind"
+
+[ $failures -eq 0 ] && echo "all as expected"
+exit $((failures > 0))
