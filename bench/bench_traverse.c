@@ -3,9 +3,9 @@
  *   bench_traverse [--mesh box|spheres|terrain] [--triangles N] [--spp N] [--size PX] [--rounds N]
  *                  [--threads N] [--packet W] [--lens R]
  *
- * Camera rays are drawn by the renderer's sampler, sheared and sent through its lens; shadow rays go
- * from what they hit to a point light. Rounds are interleaved, Embree then kernel, and the medians
- * of the rounds are compared. Prints a table; exits with 1 if the hits disagree. */
+ * Camera rays are drawn by the renderer's sampler, sheared and sent through its lens; shadow rays
+ * go from what they hit to a point light. Rounds are interleaved, Embree then kernel, and the
+ * medians of the rounds are compared. Prints a table; exits with 1 if the hits disagree. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -65,15 +65,24 @@ static settings read_settings(int argc, char **argv)
     settings set = {"spheres", 250000, 64, 256, 7, 0, 0, 0.05};
     for (int i = 1; i + 1 < argc; i += 2) {
         const char *value = argv[i + 1];
-        if (strcmp(argv[i], "--mesh") == 0) set.mesh = value;
-        else if (strcmp(argv[i], "--triangles") == 0) set.triangles = strtoul(value, NULL, 10);
-        else if (strcmp(argv[i], "--spp") == 0) set.spp = atoi(value);
-        else if (strcmp(argv[i], "--size") == 0) set.size = atoi(value);
-        else if (strcmp(argv[i], "--rounds") == 0) set.rounds = atoi(value);
-        else if (strcmp(argv[i], "--threads") == 0) set.threads = atoi(value);
-        else if (strcmp(argv[i], "--packet") == 0) set.packet = atoi(value);
-        else if (strcmp(argv[i], "--lens") == 0) set.lens = atof(value);
-        else fprintf(stderr, "bench_traverse: unknown flag %s\n", argv[i]), exit(2);
+        if (strcmp(argv[i], "--mesh") == 0)
+            set.mesh = value;
+        else if (strcmp(argv[i], "--triangles") == 0)
+            set.triangles = strtoul(value, NULL, 10);
+        else if (strcmp(argv[i], "--spp") == 0)
+            set.spp = atoi(value);
+        else if (strcmp(argv[i], "--size") == 0)
+            set.size = atoi(value);
+        else if (strcmp(argv[i], "--rounds") == 0)
+            set.rounds = atoi(value);
+        else if (strcmp(argv[i], "--threads") == 0)
+            set.threads = atoi(value);
+        else if (strcmp(argv[i], "--packet") == 0)
+            set.packet = atoi(value);
+        else if (strcmp(argv[i], "--lens") == 0)
+            set.lens = atof(value);
+        else
+            fprintf(stderr, "bench_traverse: unknown flag %s\n", argv[i]), exit(2);
     }
     if (set.rounds > MAX_ROUNDS) set.rounds = MAX_ROUNDS;
     return set;
@@ -151,11 +160,14 @@ static double time_kernel(bench *state, int any_hit)
 {
     const ray_planes *rays = &state->rays;
     uint32_t count = (uint32_t)rays->count;
-    const cs_argument arguments[] = {
-        {.value = &count, .size = sizeof count}, {.value = &any_hit, .size = sizeof any_hit},
-        {.buffer = state->origins},              {.buffer = state->directions},
-        {.buffer = state->distances},            {.buffer = state->hits},
-        {.buffer = state->nodes},                {.buffer = state->triangles}};
+    const cs_argument arguments[] = {{.value = &count, .size = sizeof count},
+                                     {.value = &any_hit, .size = sizeof any_hit},
+                                     {.buffer = state->origins},
+                                     {.buffer = state->directions},
+                                     {.buffer = state->distances},
+                                     {.buffer = state->hits},
+                                     {.buffer = state->nodes},
+                                     {.buffer = state->triangles}};
     must(state, cs_buffer_write(state->distances, rays->count * sizeof(float), rays->reach,
                                 &state->error));
     double start_s = cs_now_s();
@@ -229,9 +241,10 @@ static outcome compare(bench *state, int any_hit)
     double mrays = 1e-6 * (double)rays_with_reach(&state->rays);
     outcome result = {{median(times[0], rounds), median(times[1], rounds)},
                       median(times[2], rounds)};
-    printf("%-8s  Embree 1 %7.2f (medium) %7.2f (high)   kernel %7.2f Mrays/s   ratio %.2f / %.2f\n",
-           any_hit ? "shadow" : "primary", mrays / result.embree_s[0], mrays / result.embree_s[1],
-           mrays / result.kernel_s, median(ratios[0], rounds), median(ratios[1], rounds));
+    printf(
+        "%-8s  Embree 1 %7.2f (medium) %7.2f (high)   kernel %7.2f Mrays/s   ratio %.2f / %.2f\n",
+        any_hit ? "shadow" : "primary", mrays / result.embree_s[0], mrays / result.embree_s[1],
+        mrays / result.kernel_s, median(ratios[0], rounds), median(ratios[1], rounds));
     return result;
 }
 

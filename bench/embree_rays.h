@@ -20,8 +20,10 @@ typedef struct embree_scene embree_scene;
 embree_scene *embree_scene_create(const cs_scene *scene, int high_quality, int threads);
 void embree_scene_free(embree_scene *scene);
 
-/* rtcIntersect1 on every ray: distances (the reach where nothing is hit) and faces (or CS_NO_HIT). */
-void embree_closest(const embree_scene *scene, const ray_planes *rays, float *distances, int *faces);
+/* rtcIntersect1 on every ray: distances (the reach where nothing is hit) and faces (or CS_NO_HIT).
+ */
+void embree_closest(const embree_scene *scene, const ray_planes *rays, float *distances,
+                    int *faces);
 
 /* rtcOccluded1 on every ray: distances become -1 where something is in the way. */
 void embree_blocked(const embree_scene *scene, const ray_planes *rays, float *distances);

@@ -12,8 +12,8 @@ typedef struct cs_place {
     f32 shear; /* of its tuples, pixels */
 } cs_place;
 
-/* Draws and traces the packet that begins at place `start` of the pixel's order; returns the lanes in
- * use: those before `end` that are samples of the pattern. */
+/* Draws and traces the packet that begins at place `start` of the pixel's order; returns the lanes
+ * in use: those before `end` that are samples of the pattern. */
 static inline vint cs_sample_packet(const cs_frame *frame, const cs_world *world,
                                     const cs_place *place, u32 start, u32 end,
                                     cs_radiance *radiance)

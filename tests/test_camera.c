@@ -12,8 +12,7 @@ static int set_up(void **state)
 {
     fixture *made = calloc(1, sizeof *made);
     made->context = test_context();
-    test_ok(made->context,
-            clshear_scene_load(made->context, SCENES "/cornell.obj", &made->scene));
+    test_ok(made->context, clshear_scene_load(made->context, SCENES "/cornell.obj", &made->scene));
     *state = made;
     return 0;
 }
@@ -52,8 +51,8 @@ static void framing_shows_the_open_side(void **state)
 static void focus_goes_to_what_a_pixel_sees(void **state)
 {
     fixture *made = *state;
-    clshear_camera camera = {.eye = {274.8f, 273, 800}, .target = {274.8f, 273, 0},
-                             .up = {0, 1, 0}, .fov_deg = 39.3f};
+    clshear_camera camera = {
+        .eye = {274.8f, 273, 800}, .target = {274.8f, 273, 0}, .up = {0, 1, 0}, .fov_deg = 39.3f};
     test_ok(made->context, clshear_camera_focus(made->scene, 512, 512, 256, 140, &camera));
     assert_true(fabsf(camera.focal_distance - 1359.2f) < 0.1f); /* the back wall */
     camera.target[0] = 5000.0f;

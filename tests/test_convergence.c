@@ -1,13 +1,13 @@
 /* The convergence regression: the reason this program exists.
  *
- * Two pixels of scenes/cornell.obj, as its settings file has camera, lens and light. Variance of one
- * pattern of N samples is measured with REPLICATES independent patterns, for N = 64 ... 4096, and a
- * line is fitted to its logarithm.
+ * Two pixels of scenes/cornell.obj, as its settings file has camera, lens and light. Variance of
+ * one pattern of N samples is measured with REPLICATES independent patterns, for N = 64 ... 4096,
+ * and a line is fitted to its logarithm.
  *
  * Errors: the relative standard error of a variance from R = 512 replicates of near-normal means is
  * sqrt(2 / 511) = 0.063; heavier tails, which edges have, double it at most. The slope over four
- * points spaced by log 4 then has the standard error 0.063 / (log 4 * sqrt(5)) = 0.020, or 0.040 with
- * heavy tails. Seeds are fixed, so a false alarm means a change of code, not of luck. */
+ * points spaced by log 4 then has the standard error 0.063 / (log 4 * sqrt(5)) = 0.020, or 0.040
+ * with heavy tails. Seeds are fixed, so a false alarm means a change of code, not of luck. */
 #include "support.h"
 
 #include <math.h>
@@ -36,10 +36,8 @@ static int set_up(void **state)
 {
     fixture *made = calloc(1, sizeof *made);
     made->context = test_context();
-    test_ok(made->context,
-            clshear_scene_load(made->context, SCENES "/cornell.obj", &made->scene));
-    const clshear_light light = {.vector = {278, 430, -20},
-                                 .colour = {230000, 215000, 185000}};
+    test_ok(made->context, clshear_scene_load(made->context, SCENES "/cornell.obj", &made->scene));
+    const clshear_light light = {.vector = {278, 430, -20}, .colour = {230000, 215000, 185000}};
     test_ok(made->context, clshear_scene_add_light(made->scene, &light));
     made->camera = (clshear_camera){.eye = {276.4f, 274.4f, 800},
                                     .target = {276.4f, 274.4f, 0},

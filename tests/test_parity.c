@@ -21,15 +21,15 @@ static void run_points(cs_device *device, const cs_frame *frame, u32 pixel, f32 
 {
     cs_buffer *buffer = NULL;
     const size_t size = frame->grid.count * VALUES * sizeof(float);
-    const size_t packets = (frame->grid.count + (u32)cs_device_packet(device) - 1) /
-                           (u32)cs_device_packet(device);
+    const size_t packets =
+        (frame->grid.count + (u32)cs_device_packet(device) - 1) / (u32)cs_device_packet(device);
     assert_int_equal(cs_buffer_create(device, size, NULL, &buffer, &error), CLSHEAR_OK);
     const cs_argument arguments[] = {{.value = frame, .size = sizeof *frame},
                                      {.value = &pixel, .size = sizeof pixel},
                                      {.value = &shear, .size = sizeof shear},
                                      {.buffer = buffer}};
-    assert_int_equal(
-        cs_device_run(device, CS_KERNEL_POINTS, packets, arguments, 4, &error), CLSHEAR_OK);
+    assert_int_equal(cs_device_run(device, CS_KERNEL_POINTS, packets, arguments, 4, &error),
+                     CLSHEAR_OK);
     assert_int_equal(cs_buffer_read(buffer, 0, size, points, &error), CLSHEAR_OK);
     cs_buffer_free(buffer);
 }

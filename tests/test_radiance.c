@@ -52,8 +52,8 @@ static double plane_radiance(double x, double z)
     return 0.6 / pi * intensity * dy / (square * sqrt(square));
 }
 
-/* Mean over pixel (px, py) and the lens, by midpoint quadrature of the thin lens: a lens point l and
- * a point f of the focal plane see the plane point l + (f - l) * depth / focal distance. */
+/* Mean over pixel (px, py) and the lens, by midpoint quadrature of the thin lens: a lens point l
+ * and a point f of the focal plane see the plane point l + (f - l) * depth / focal distance. */
 static double expected_pixel(const clshear_camera *camera, int size, int px, int py)
 {
     enum {
@@ -98,9 +98,8 @@ static void point_light_over_a_plane(void **state)
     fixture *made = *state;
     const float lenses[][2] = {{0.0f, 3.0f}, {0.3f, 3.0f}, {0.3f, 2.0f}, {0.2f, 5.0f}};
     const int size = 12;
-    const clshear_light light = {.kind = CLSHEAR_LIGHT_POINT,
-                                 .vector = {0.7f, 1.5f, 0.4f},
-                                 .colour = {5.0f, 5.0f, 5.0f}};
+    const clshear_light light = {
+        .kind = CLSHEAR_LIGHT_POINT, .vector = {0.7f, 1.5f, 0.4f}, .colour = {5.0f, 5.0f, 5.0f}};
     test_ok(made->context, clshear_scene_add_light(made->floor, &light));
     for (int k = 0; k < 4; k++)
         for (int variant = 0; variant < 6; variant++) {
@@ -133,8 +132,8 @@ static void directional_light(void **state)
     const char *const names[3] = {"R", "G", "B"};
     for (int c = 0; c < 3; c++)
         for (int p = 0; p < 16; p++)
-            assert_true(fabs(clshear_film_channel(film, names[c])[p] -
-                             0.5 / pi * (c + 1) * 0.8) < 1e-5);
+            assert_true(fabs(clshear_film_channel(film, names[c])[p] - 0.5 / pi * (c + 1) * 0.8) <
+                        1e-5);
     clshear_film_free(film);
     clshear_scene_free(floor);
 }
@@ -147,11 +146,16 @@ static void area_light_over_a_plane(void **state)
     const float floor_y[12] = {-50, 0, -50, 50, 0, -50, 50, 0, 50, -50, 0, 50};
     const float panel[12] = {-1, 2, -1, 1, 2, -1, 1, 2, 1, -1, 2, 1};
     const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
-    const clshear_mesh meshes[2] = {
-        {.positions = floor_y, .indices = indices, .vertex_count = 4, .triangle_count = 2,
-         .diffuse = {0.5f, 0.5f, 0.5f}},
-        {.positions = panel, .indices = indices, .vertex_count = 4, .triangle_count = 2,
-         .emission = {3.0f, 3.0f, 3.0f}}};
+    const clshear_mesh meshes[2] = {{.positions = floor_y,
+                                     .indices = indices,
+                                     .vertex_count = 4,
+                                     .triangle_count = 2,
+                                     .diffuse = {0.5f, 0.5f, 0.5f}},
+                                    {.positions = panel,
+                                     .indices = indices,
+                                     .vertex_count = 4,
+                                     .triangle_count = 2,
+                                     .emission = {3.0f, 3.0f, 3.0f}}};
     clshear_scene *scene = NULL;
     test_ok(made->context, clshear_scene_create(made->context, meshes, 2, &scene));
     assert_int_equal(clshear_scene_describe(scene).emitters, 2);
@@ -188,8 +192,11 @@ static void no_acne_far_from_the_origin(void **state)
     const float positions[12] = {base - 50, base, base - 50, base + 50, base, base - 50,
                                  base + 50, base, base + 50, base - 50, base, base + 50};
     const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
-    const clshear_mesh mesh = {.positions = positions, .indices = indices, .vertex_count = 4,
-                               .triangle_count = 2, .diffuse = {1.0f, 1.0f, 1.0f}};
+    const clshear_mesh mesh = {.positions = positions,
+                               .indices = indices,
+                               .vertex_count = 4,
+                               .triangle_count = 2,
+                               .diffuse = {1.0f, 1.0f, 1.0f}};
     clshear_scene *scene = NULL;
     test_ok(made->context, clshear_scene_create(made->context, &mesh, 1, &scene));
     const clshear_light light = {.kind = CLSHEAR_LIGHT_DIRECTIONAL,

@@ -40,8 +40,7 @@ static void every_coordinate_is_stratified(void **state)
                 const cs_grid grid = cs_grid_of(n);
                 u32 *x = malloc(n * sizeof *x), *y = malloc(n * sizeof *y);
                 for (u32 i = 0; i < n; i++) {
-                    cs_pair point =
-                        cs_draw_pair(&grid, cs_pattern_key(3, 17, replicate), pair, i);
+                    cs_pair point = cs_draw_pair(&grid, cs_pattern_key(3, 17, replicate), pair, i);
                     assert_true(point.x >= 0.0f && point.x < 1.0f);
                     assert_true(point.y >= 0.0f && point.y < 1.0f);
                     x[i] = stratum(point.x, n);
@@ -66,8 +65,8 @@ static void every_pair_is_stratified(void **state)
             u32 *cell = malloc(n * sizeof *cell);
             for (u32 i = 0; i < n; i++) {
                 cs_pair point = cs_draw_pair(&grid, cs_pattern_key(0, 5, 1), pair, i);
-                cell[i] = stratum(point.y, grid.rows) * grid.columns +
-                          stratum(point.x, grid.columns);
+                cell[i] =
+                    stratum(point.y, grid.rows) * grid.columns + stratum(point.x, grid.columns);
             }
             assert_true(each_once(cell, n));
             free(cell);

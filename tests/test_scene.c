@@ -49,8 +49,11 @@ static void look_at(fixture *made, clshear_scene *scene, float x, float y, float
 {
     const float pi = 3.14159265f;
     const clshear_light light = {.vector = {x, y, 1.0f}, .colour = {pi, pi, pi}};
-    const clshear_camera camera = {.eye = {x, y, 2}, .target = {x, y, 0}, .up = {0, 1, 0},
-                                   .fov_deg = 0.1f, .focal_distance = 2.0f};
+    const clshear_camera camera = {.eye = {x, y, 2},
+                                   .target = {x, y, 0},
+                                   .up = {0, 1, 0},
+                                   .fov_deg = 0.1f,
+                                   .focal_distance = 2.0f};
     clshear_options options = clshear_options_defaults();
     clshear_film *film = NULL;
     options.width = options.height = 1;
@@ -92,10 +95,10 @@ static void several_material_files(void **state)
     fixture *made = *state;
     test_file("red.mtl", "newmtl red\nKd 0.8 0.1 0.1\n");
     test_file("blue.mtl", "newmtl blue\nKd 0.1 0.2 0.9\n");
-    const char *path = test_file("materials.obj",
-                                 "mtllib red.mtl\nmtllib blue.mtl\n" SQUARE
-                                 "v 2 -1 0\nv 4 -1 0\nv 4 1 0\nv 2 1 0\n"
-                                 "usemtl red\nf 1 2 3 4\nusemtl blue\nf 5 6 7 8\n");
+    const char *path =
+        test_file("materials.obj", "mtllib red.mtl\nmtllib blue.mtl\n" SQUARE
+                                   "v 2 -1 0\nv 4 -1 0\nv 4 1 0\nv 2 1 0\n"
+                                   "usemtl red\nf 1 2 3 4\nusemtl blue\nf 5 6 7 8\n");
     clshear_scene *scene = load(made, path);
     assert_string_equal(test_warnings(), "");
     expect_colour(made, scene, 0, 0, 0.8f, 0.1f, 0.1f);
@@ -132,16 +135,14 @@ static void textures_are_bilinear_and_upright(void **state)
     fixture *made = *state;
     write_picture("four.ppm");
     test_file("textured.mtl", "newmtl t\nKd 1 1 1\nmap_Kd four.ppm\n");
-    const char *path = test_file("textured.obj",
-                                 "mtllib textured.mtl\n" SQUARE
-                                 "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl t\n"
-                                 "f 1/1 2/2 3/3 4/4\n");
-    const float expected[][5] = {{-0.5f, -0.5f, 0, 0, 1}, /* centres of the texels */
-                                 {0.5f, -0.5f, 1, 1, 1},
-                                 {-0.5f, 0.5f, 1, 0, 0},
-                                 {0.5f, 0.5f, 0, 1, 0},
-                                 {0.0f, 0.5f, 0.5f, 0.5f, 0}, /* between red and green */
-                                 {0.0f, 0.0f, 0.5f, 0.5f, 0.5f}};
+    const char *path = test_file("textured.obj", "mtllib textured.mtl\n" SQUARE
+                                                 "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl t\n"
+                                                 "f 1/1 2/2 3/3 4/4\n");
+    const float expected[][5] = {
+        {-0.5f, -0.5f, 0, 0, 1}, /* centres of the texels */
+        {0.5f, -0.5f, 1, 1, 1},        {-0.5f, 0.5f, 1, 0, 0},
+        {0.5f, 0.5f, 0, 1, 0},         {0.0f, 0.5f, 0.5f, 0.5f, 0}, /* between red and green */
+        {0.0f, 0.0f, 0.5f, 0.5f, 0.5f}};
     for (int i = 0; i < 6; i++) {
         clshear_scene *scene = load(made, path);
         expect_colour(made, scene, expected[i][0], expected[i][1], expected[i][2], expected[i][3],
@@ -154,8 +155,8 @@ static void textures_are_bilinear_and_upright(void **state)
 static void smooth_normals_shade(void **state)
 {
     fixture *made = *state;
-    clshear_scene *scene = load(
-        made, test_file("smooth.obj", SQUARE "vn 0.8660254 0 0.5\nf 1//1 2//1 3//1 4//1\n"));
+    clshear_scene *scene =
+        load(made, test_file("smooth.obj", SQUARE "vn 0.8660254 0 0.5\nf 1//1 2//1 3//1 4//1\n"));
     expect_colour(made, scene, 0, 0, 0.25f, 0.25f, 0.25f);
     clshear_scene_free(scene);
 }
@@ -163,8 +164,8 @@ static void smooth_normals_shade(void **state)
 static void missing_parts_become_grey(void **state)
 {
     fixture *made = *state;
-    clshear_scene *scene = load(
-        made, test_file("bare.obj", "mtllib nowhere.mtl\n" SQUARE "usemtl lost\nf 1 2 3 4\n"));
+    clshear_scene *scene =
+        load(made, test_file("bare.obj", "mtllib nowhere.mtl\n" SQUARE "usemtl lost\nf 1 2 3 4\n"));
     assert_non_null(strstr(test_warnings(), "nowhere.mtl"));
     expect_colour(made, scene, 0, 0, 0.5f, 0.5f, 0.5f);
     clshear_scene_free(scene);
@@ -240,8 +241,11 @@ static void gltf_with_camera_and_light(void **state)
     clshear_options options = clshear_options_defaults();
     clshear_film *film = NULL;
     options.width = options.height = 1;
-    const clshear_camera close = {.eye = {0.02f, 0.02f, 1}, .target = {0.02f, 0.02f, 0},
-                                  .up = {0, 1, 0}, .fov_deg = 0.1f, .focal_distance = 1.0f};
+    const clshear_camera close = {.eye = {0.02f, 0.02f, 1},
+                                  .target = {0.02f, 0.02f, 0},
+                                  .up = {0, 1, 0},
+                                  .fov_deg = 0.1f,
+                                  .focal_distance = 1.0f};
     test_ok(made->context, clshear_render(scene, &close, &options, &film));
     assert_true(fabsf(*clshear_film_channel(film, "R") / (0.2f / 3.14159265f * 2.0f) - 1) < 0.01f);
     assert_true(fabsf(*clshear_film_channel(film, "B") / (0.6f / 3.14159265f * 0.5f) - 1) < 0.01f);
@@ -271,8 +275,8 @@ static void bad_meshes_are_refused(void **state)
     clshear_scene *scene = NULL;
     const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     const uint32_t outside[3] = {0, 1, 3};
-    const clshear_mesh mesh = {.positions = positions, .indices = outside, .vertex_count = 3,
-                               .triangle_count = 1};
+    const clshear_mesh mesh = {
+        .positions = positions, .indices = outside, .vertex_count = 3, .triangle_count = 1};
     assert_int_equal(clshear_scene_create(made->context, &mesh, 1, &scene), CLSHEAR_BAD_FILE);
     assert_int_equal(clshear_scene_create(made->context, NULL, 0, &scene), CLSHEAR_BAD_FILE);
     assert_null(scene);

@@ -7,7 +7,8 @@
 #include "lens.h"
 #include "shear.h"
 
-static const f32 shears[] = {0.0f, 1e-6f, 0.3f, -0.3f, 1.0f, -1.0f, 2.0f, -2.0f, 8.5f, -8.5f, 60.0f};
+static const f32 shears[] = {0.0f, 1e-6f, 0.3f, -0.3f, 1.0f, -1.0f,
+                             2.0f, -2.0f, 8.5f, -8.5f, 60.0f};
 enum {
     SHEARS = sizeof shears / sizeof *shears,
     MODES = 3,
@@ -34,10 +35,10 @@ static void points_are_inside(void **state)
         for (u32 aperture = 0; aperture < APERTURES; aperture++)
             for (int k = 0; k < SHEARS; k++)
                 for (u32 i = 0; i < 2256; i++) {
-                    cs_film_lens p =
-                        i < 256 ? cs_shear(ends[i & 3], ends[i >> 2 & 3], ends[i >> 4 & 3],
-                                           ends[i >> 6], mode, aperture, shears[k])
-                                : random_point(i, mode, aperture, shears[k]);
+                    cs_film_lens p = i < 256
+                                         ? cs_shear(ends[i & 3], ends[i >> 2 & 3], ends[i >> 4 & 3],
+                                                    ends[i >> 6], mode, aperture, shears[k])
+                                         : random_point(i, mode, aperture, shears[k]);
                     assert_true(p.x >= 0.0f && p.x < 1.0f && p.y >= 0.0f && p.y < 1.0f);
                     f32 radius = sqrtf(p.u * p.u + p.v * p.v);
                     if (aperture == CS_APERTURE_DISK)
@@ -56,7 +57,8 @@ enum {
 static void integrands(const cs_film_lens *p, double *values)
 {
     double x = p->x - 0.5, y = p->y - 0.5, u = p->u, v = p->v;
-    const double all[INTEGRANDS] = {x, y * y, u, v, u * u, v * v, u * u * v * v, x * u, x * x * v * v};
+    const double all[INTEGRANDS] = {x,     y * y,        u, v, u * u, v * v, u * u * v * v,
+                                    x * u, x * x * v * v};
     memcpy(values, all, sizeof all);
 }
 
@@ -82,8 +84,7 @@ static void measure_is_kept(void **state)
                 double sum[INTEGRANDS] = {0}, squares[INTEGRANDS] = {0};
                 double value[INTEGRANDS], truth[INTEGRANDS];
                 for (u32 i = 0; i < count; i++) {
-                    cs_film_lens p =
-                        random_point(i + count * (u32)k, mode, aperture, shears[k]);
+                    cs_film_lens p = random_point(i + count * (u32)k, mode, aperture, shears[k]);
                     integrands(&p, value);
                     for (int f = 0; f < INTEGRANDS; f++) {
                         sum[f] += value[f];
@@ -133,15 +134,15 @@ static void first_pair_fixes_the_fibre(void **state)
         for (u32 i = 0; i < 500; i++)
             for (u32 aperture = 0; aperture < APERTURES; aperture++) {
                 f32 a = uniform(i, 0), b = uniform(i, 1);
-                cs_film_lens p = cs_shear(a, b, uniform(i, 2), uniform(i, 3), CS_SHEAR_EQUAL_AREA,
-                                          aperture, s);
-                cs_film_lens q = cs_shear(a, b, uniform(i, 4), uniform(i, 5), CS_SHEAR_EQUAL_AREA,
-                                          aperture, s);
+                cs_film_lens p =
+                    cs_shear(a, b, uniform(i, 2), uniform(i, 3), CS_SHEAR_EQUAL_AREA, aperture, s);
+                cs_film_lens q =
+                    cs_shear(a, b, uniform(i, 4), uniform(i, 5), CS_SHEAR_EQUAL_AREA, aperture, s);
                 assert_true(fabsf((p.x + s * p.u) - (q.x + s * q.u)) < tolerance);
                 if (aperture == CS_APERTURE_SQUARE)
                     assert_true(fabsf((p.y + s * p.v) - (q.y + s * q.v)) < tolerance);
-                cs_film_lens r = cs_shear(a, b, uniform(i, 2), uniform(i, 5), CS_SHEAR_EQUAL_AREA,
-                                          aperture, s);
+                cs_film_lens r =
+                    cs_shear(a, b, uniform(i, 2), uniform(i, 5), CS_SHEAR_EQUAL_AREA, aperture, s);
                 assert_true(fabsf((p.y + s * p.v) - (r.y + s * r.v)) < tolerance);
             }
     }
@@ -173,8 +174,7 @@ static void toroidal_slides_along_fibres(void **state)
     for (u32 i = 0; i < 1000; i++) {
         const f32 s = 0.8f;
         f32 a = uniform(i, 0), c = uniform(i, 2);
-        cs_film_lens p =
-            cs_shear(a, 0.5f, c, 0.5f, CS_SHEAR_TOROIDAL, CS_APERTURE_SQUARE, s);
+        cs_film_lens p = cs_shear(a, 0.5f, c, 0.5f, CS_SHEAR_TOROIDAL, CS_APERTURE_SQUARE, s);
         f32 t = p.x + s * p.u;
         f32 wrapped = t - a - roundf(t - a);
         assert_true(fabsf(wrapped) < 1e-5f);
@@ -202,8 +202,8 @@ static void disk_functions_invert(void **state)
         }
 }
 
-/* The thin lens in words: all rays of a raster point meet on the focal plane, and a point at depth z
- * seen through (x, u) appears, through the lens centre, at x + shear * u. */
+/* The thin lens in words: all rays of a raster point meet on the focal plane, and a point at depth
+ * z seen through (x, u) appears, through the lens centre, at x + shear * u. */
 static void lens_agrees_with_shear(void **state)
 {
     (void)state;

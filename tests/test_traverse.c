@@ -46,9 +46,12 @@ static void trace_device(const fixture *made, int packet, int any_hit, const flo
     const uint32_t count = RAYS;
     const size_t plane = RAYS * sizeof(float);
     assert_int_equal(cs_device_open(NULL, 0, packet, &device, &error), CLSHEAR_OK);
-    const void *sources[6] = {rays, rays + 3 * RAYS, distances, NULL, made->bvh.nodes.items,
-                              made->bvh.triangles.items};
-    const size_t sizes[6] = {3 * plane, 3 * plane, plane, plane,
+    const void *sources[6] = {rays, rays + 3 * RAYS,       distances,
+                              NULL, made->bvh.nodes.items, made->bvh.triangles.items};
+    const size_t sizes[6] = {3 * plane,
+                             3 * plane,
+                             plane,
+                             plane,
                              made->bvh.nodes.count * sizeof(cs_node),
                              made->bvh.triangles.count * sizeof(cs_triangle)};
     cs_argument arguments[8] = {{.value = &count, .size = 4}, {.value = &any_hit, .size = 4}};
@@ -57,9 +60,9 @@ static void trace_device(const fixture *made, int packet, int any_hit, const flo
                          CLSHEAR_OK);
         arguments[2 + i].buffer = buffers[i];
     }
-    assert_int_equal(cs_device_run(device, CS_KERNEL_TRACE, RAYS / (size_t)packet, arguments, 8,
-                                   &error),
-                     CLSHEAR_OK);
+    assert_int_equal(
+        cs_device_run(device, CS_KERNEL_TRACE, RAYS / (size_t)packet, arguments, 8, &error),
+        CLSHEAR_OK);
     assert_int_equal(cs_buffer_read(buffers[2], 0, plane, distances, &error), CLSHEAR_OK);
     for (int i = 0; i < 6; i++)
         cs_buffer_free(buffers[i]);

@@ -101,8 +101,9 @@ static void depth_of_range(void *user, size_t begin, size_t end)
     const prepass *work = user;
     const size_t width = (size_t)(work->window[1] - work->window[0]);
     for (size_t i = begin; i < end; i++) {
-        float x = (float)((size_t)work->window[0] + i % width) + 0.5f;
-        float y = (float)((size_t)work->window[2] + i / width) + 0.5f;
+        const size_t column = (size_t)work->window[0] + i % width;
+        const size_t row = (size_t)work->window[2] + i / width;
+        float x = (float)column + 0.5f, y = (float)row + 0.5f;
         cs_ray ray = cs_lens_ray(*work->camera, x, y, 0.0f, 0.0f);
         work->depth[i] = depth_along(work->accel->traced, &ray);
     }

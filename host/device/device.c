@@ -60,8 +60,8 @@ static clshear_status create_kernels(cs_device *device, cs_error *error)
     return CLSHEAR_OK;
 }
 
-/* Packets of 8 even on narrower units: they share the walk. 16 where a register holds them: measured
- * 1.3 to 1.5 times faster than 8 there (docs/performance.md). */
+/* Packets of 8 even on narrower units: they share the walk. 16 where a register holds them:
+ * measured 1.3 to 1.5 times faster than 8 there (docs/performance.md). */
 static int cpu_packet(cl_device_id id)
 {
     cl_uint native = 8;

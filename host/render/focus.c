@@ -48,7 +48,7 @@ static clshear_status depth_at(const clshear_scene *scene, int width, int height
 clshear_status clshear_camera_focus(const clshear_scene *scene, int width, int height, int x, int y,
                                     clshear_camera *camera)
 {
-    float depth;
+    float depth = INFINITY;
     clshear_status status = depth_at(scene, width, height, x, y, camera, &depth);
     if (status != CLSHEAR_OK) return status;
     if (!isfinite(depth))
@@ -76,7 +76,7 @@ clshear_status clshear_camera_complete(const clshear_scene *scene, int width, in
                                        clshear_camera *camera)
 {
     if (!(camera->focal_distance > 0.0f)) {
-        float depth;
+        float depth = INFINITY;
         clshear_status status =
             depth_at(scene, width, height, width / 2, height / 2, camera, &depth);
         if (status != CLSHEAR_OK) return status;

@@ -34,7 +34,8 @@ void cs_camera_import(cs_scene *scene, const struct aiScene *file)
     clshear_camera *camera = &scene->camera;
     const struct aiMatrix4x4 matrix = cs_node_matrix(file, source->mName.data);
     struct aiVector3D eye = source->mPosition, target = source->mLookAt, up = source->mUp, origin;
-    /* A glTF camera is at the origin of its node; Assimp 5.2 repeats the node's translation here. */
+    /* A glTF camera is at the origin of its node; Assimp 5.2 repeats the node's translation here.
+     */
     if (is_gltf(file)) eye = (struct aiVector3D){0, 0, 0};
     aiVector3Add(&target, &eye);
     aiVector3Add(&up, &eye);

@@ -144,8 +144,8 @@ done:
 }
 
 static clshear_status add_light(cs_scene *scene, const struct aiScene *file,
-                                const struct aiLight *source, const char *path,
-                                const cs_log *log, cs_error *error)
+                                const struct aiLight *source, const char *path, const cs_log *log,
+                                cs_error *error)
 {
     clshear_light light = {.kind = CLSHEAR_LIGHT_POINT};
     struct aiMatrix4x4 matrix = cs_node_matrix(file, source->mName.data);

@@ -52,8 +52,7 @@ static clshear_status visit_node(const walk *work, const struct aiNode *node,
 }
 
 clshear_status cs_node_visit_meshes(const struct aiScene *file,
-                                    clshear_status (*visit)(void *user,
-                                                            const struct aiMesh *mesh,
+                                    clshear_status (*visit)(void *user, const struct aiMesh *mesh,
                                                             const struct aiMatrix4x4 *matrix),
                                     void *user)
 {

@@ -12,8 +12,7 @@ struct aiMatrix4x4 cs_node_matrix(const struct aiScene *file, const char *name);
 /* Calls `visit` for every mesh of every node, with the node's transformation to the world. Stops at
  * the first failure and returns it. */
 clshear_status cs_node_visit_meshes(const struct aiScene *file,
-                                    clshear_status (*visit)(void *user,
-                                                            const struct aiMesh *mesh,
+                                    clshear_status (*visit)(void *user, const struct aiMesh *mesh,
                                                             const struct aiMatrix4x4 *matrix),
                                     void *user);
 
