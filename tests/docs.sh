@@ -1,0 +1,30 @@
+#!/bin/bash
+# The documents tell the truth: every indented command that starts with build/ runs as printed, the C
+# program in the README compiles and runs, and every link leads somewhere.
+set -eu
+root=$1 build=$2 scratch=$3
+rm -rf "$scratch"
+mkdir -p "$scratch"
+ln -s "$build" "$scratch/build"
+ln -s "$root/scenes" "$scratch/scenes"
+cd "$scratch"
+
+grep -h '^    build/' "$root"/README.md "$root"/docs/*.md "$root"/scenes/README.md | while read -r command; do
+    echo "+ $command"
+    # A picture of documentation size is not what is tested here.
+    case $command in *bench*) bash -c "$command" ;; *) bash -c "$command --spp 8 --quiet" ;; esac
+done
+
+awk '/^```c$/ { inside = 1; next } /^```/ { inside = 0 } inside' "$root/README.md" >readme.c
+cc -std=c17 -Wall -Wextra -Werror -I "$root/include" readme.c -o readme -L "$build" -lclshear \
+    -Wl,-rpath,"$build"
+./readme
+
+for document in "$root"/README.md "$root"/docs/*.md "$root"/scenes/README.md; do
+    folder=$(dirname "$document")
+    grep -o '](\([^)#]*\))' "$document" | tr -d '()]' | while read -r link; do
+        case $link in http*) continue ;; esac
+        [ -e "$folder/$link" ] || { echo "$document: nothing at $link"; exit 1; }
+    done
+done
+echo "documents checked"
