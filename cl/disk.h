@@ -1,7 +1,8 @@
 /* The disk of area 1 and its marginal, for round apertures. Shared.
  *
  * The coordinate u of a uniform point of the disk of radius R = 1 / sqrt(pi) has the semicircle
- * distribution. Polynomials below are Chebyshev fits; their errors are absolute. */
+ * distribution. Polynomials below are Chebyshev fits; their errors are absolute. The area of the
+ * disk is the unit of areas. */
 #ifndef CS_DISK_H
 #define CS_DISK_H
 
@@ -9,39 +10,37 @@
 
 #define CS_DISK_RADIUS 0.564189584f
 
+/* Area between an arc of the circle and its chord, from sine and 1 - cosine of half the angle it
+ * spans (at most half the circle): (angle - sine cosine) / pi, error 2e-8, relative error 2e-6 for
+ * short arcs. */
+static inline vfloat cs_disk_segment(vfloat sine, vfloat versine)
+{
+    vfloat above = (0.0459059872f * versine - 0.287248532f) * versine + 0.424413944f;
+    vfloat below = (0.142940408f * versine - 0.776797601f) * versine + 1.0f;
+    return sine * versine * above / below;
+}
+
 typedef struct cs_half_circle {
     vfloat distance; /* |u| / R, at most 1 */
     vfloat height;   /* sqrt(1 - distance^2) */
-    vfloat angle;    /* acos(distance) */
+    vfloat tail;     /* P(U > |u|) */
 } cs_half_circle;
 
-/* acos(z) = sqrt(1 - z) * polynomial (form of Abramowitz & Stegun 4.4.46), error 1e-7. */
 static inline cs_half_circle cs_half_circle_at(vfloat u)
 {
     cs_half_circle at;
-    vfloat z = cs_min(cs_abs(u) * (1.0f / CS_DISK_RADIUS), (vfloat)(1.0f));
-    vfloat root = cs_sqrt(1.0f - z);
-    vfloat p = (vfloat)(-0.0012236934f);
-    p = p * z + 0.006510858f;
-    p = p * z - 0.0168304377f;
-    p = p * z + 0.0306826362f;
-    p = p * z - 0.0500848688f;
-    p = p * z + 0.0889598178f;
-    p = p * z - 0.21459706f;
-    p = p * z + 1.57079626f;
-    at.distance = z;
-    at.height = root * cs_sqrt(1.0f + z);
-    at.angle = root * p;
+    at.distance = cs_min(cs_abs(u) * (1.0f / CS_DISK_RADIUS), (vfloat)(1.0f));
+    at.height = cs_sqrt((1.0f - at.distance) * (1.0f + at.distance));
+    at.tail = cs_disk_segment(at.height, 1.0f - at.distance);
     return at;
 }
 
 static inline vfloat cs_half_circle_cdf(cs_half_circle at, vfloat u)
 {
-    vfloat tail = (at.angle - at.distance * at.height) * CS_INVERSE_PI;
-    return u < 0.0f ? tail : 1.0f - tail;
+    return u < 0.0f ? at.tail : 1.0f - at.tail;
 }
 
-/* P(U < u): 1/2 + (z sqrt(1 - z^2) + asin z) / pi with z = u / R. */
+/* P(U < u). */
 static inline vfloat cs_disk_cdf(vfloat u)
 {
     return cs_half_circle_cdf(cs_half_circle_at(u), u);
@@ -51,9 +50,8 @@ static inline vfloat cs_disk_cdf(vfloat u)
  * and zero outside the disk, so differences of it lose no digits when the disk is small. */
 static inline vfloat cs_half_circle_excess(cs_half_circle at)
 {
-    vfloat h = at.height;
-    return (CS_DISK_RADIUS * CS_INVERSE_PI) *
-           (h - h * h * h * (1.0f / 3.0f) - at.distance * at.angle);
+    vfloat cube = at.height * at.height * at.height;
+    return CS_DISK_RADIUS * ((2.0f / 3.0f * CS_INVERSE_PI) * cube - at.distance * at.tail);
 }
 
 /* x^(1/3) for x in [0, 1], relative error 1e-7: an exponent-halving guess and two Halley steps. */
@@ -86,44 +84,55 @@ static inline vfloat cs_disk_quantile(vfloat mass)
     return mass < 0.5f ? -u : u;
 }
 
-/* First guess for cs_disk_fibre, for mass in [0, 1/2]: the trapezoid of a square aperture with the
- * disk's variance, or for wide blurs, where the pixel matters little, the disk itself. */
-static inline vfloat cs_disk_fibre_guess(vfloat mass, f32 blur)
+/* For mass in [0, 1/2], the t <= 0 with P(X + side * Y < t) = mass, X and Y uniform in [-1/2, 1/2]:
+ * a first guess for the fibres of round lenses. */
+static inline vfloat cs_trapezoid_fibre(vfloat mass, vfloat side)
 {
-    if (blur > 6.0f) return blur * cs_disk_quantile(mass);
-    f32 side = 0.9772f * blur; /* sqrt(3) R blur */
-    f32 narrow = side < 1.0f ? side : 1.0f;
-    f32 wide = side < 1.0f ? 1.0f : side;
-    f32 ramp = 0.5f * narrow / wide;
+    vfloat narrow = cs_min(side, (vfloat)(1.0f));
+    vfloat wide = cs_max(side, (vfloat)(1.0f));
     vfloat rising = cs_sqrt(2.0f * narrow * wide * mass);
-    vfloat flat = narrow + (mass - ramp) * wide;
-    return (mass < ramp ? rising : flat) - 0.5f * (1.0f + side);
+    vfloat flat = 0.5f * narrow + mass * wide;
+    return (2.0f * mass * wide < narrow ? rising : flat) - 0.5f * (1.0f + side);
+}
+
+/* Halley's step from t towards F(t) = mass, given value = F(t), density = F'(t), slope = F''(t); to
+ * be subtracted from t. It solves sqrt(F) = sqrt(mass), which is nearly linear in the tails too. */
+static inline vfloat cs_root_step(vfloat mass_root, vfloat value, vfloat density, vfloat slope)
+{
+    value = cs_max(value, (vfloat)(1e-12f));
+    density = cs_max(density, (vfloat)(1e-6f));
+    vfloat root = cs_sqrt(value);
+    vfloat excess = root - mass_root;
+    vfloat square = density * density;
+    vfloat divisor = square * (2.0f * root + excess) - 2.0f * value * excess * slope;
+    return 4.0f * value * excess * density / cs_max(divisor, root * square);
 }
 
 /* The t with P(X + blur * U < t) = across, X uniform in [-1/2, 1/2] and U the disk's marginal.
  *
  * F(t) = clamp(t + 1/2, 0, 1) + blur * (E((t + 1/2) / blur) - E((t - 1/2) / blur)), E the excess
- * above. Newton on sqrt(F), which is nearly linear in the tails too; three steps leave an error
- * of F below 4e-7, and below 4e-8 * blur for very wide blurs. */
+ * above. The guess is a square aperture with the disk's variance, or for wide blurs, where the
+ * pixel matters little, the disk itself. Two steps leave an error of F below 3e-7, and
+ * below 6e-8 * blur for wide blurs. */
 static inline vfloat cs_disk_fibre(vfloat across, f32 blur)
 {
     vfloat mass = cs_max(cs_min(across, 1.0f - across), (vfloat)(1e-9f));
     vfloat root = cs_sqrt(mass);
-    vfloat t = cs_disk_fibre_guess(mass, blur);
+    vfloat t = blur > 6.0f ? blur * cs_disk_quantile(mass)
+                           : cs_trapezoid_fibre(mass, (vfloat)(0.9772f * blur));
     f32 inverse = 1.0f / blur;
     f32 least = -0.5f - blur * CS_DISK_RADIUS;
-    for (int step = 0; step < 3; step++) {
+    for (int step = 0; step < 2; step++) {
         vfloat right = (t + 0.5f) * inverse;
         vfloat left = (t - 0.5f) * inverse;
         cs_half_circle at_right = cs_half_circle_at(right);
         cs_half_circle at_left = cs_half_circle_at(left);
-        vfloat linear = cs_min(cs_max(t + 0.5f, (vfloat)(0.0f)), (vfloat)(1.0f));
         vfloat excess = cs_half_circle_excess(at_right) - cs_half_circle_excess(at_left);
-        vfloat value = cs_max(linear + blur * excess, (vfloat)(1e-12f));
-        vfloat density = cs_half_circle_cdf(at_right, right) - cs_half_circle_cdf(at_left, left);
-        vfloat value_root = cs_sqrt(value);
-        t -= 2.0f * value_root * (value_root - root) / cs_max(density, (vfloat)(1e-6f));
-        t = cs_min(cs_max(t, (vfloat)(least)), (vfloat)(0.0f));
+        vfloat value = cs_max(t + 0.5f, (vfloat)(0.0f)) + blur * excess;
+        vfloat density = cs_half_circle_cdf(at_right, right) - at_left.tail;
+        vfloat slope = (2.0f * CS_DISK_RADIUS) * inverse * (at_right.height - at_left.height);
+        t -= cs_root_step(root, value, density, slope);
+        t = cs_clamp(t, (vfloat)(least), (vfloat)(0.0f));
     }
     return across > 0.5f ? -t : t;
 }

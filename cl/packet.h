@@ -87,6 +87,11 @@ static inline int cs_any(i32 mask)
 #define cs_min(a, b) ((a) < (b) ? (a) : (b))
 #define cs_max(a, b) ((a) > (b) ? (a) : (b))
 
+static inline vfloat cs_clamp(vfloat value, vfloat low, vfloat high)
+{
+    return cs_min(cs_max(value, low), high);
+}
+
 #ifdef CS_DEVICE
 
 typedef union cs_float_lanes {

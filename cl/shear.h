@@ -13,7 +13,7 @@
 #ifndef CS_SHEAR_H
 #define CS_SHEAR_H
 
-#include "disk.h"
+#include "disk_fibre.h"
 #include "packet.h"
 #include "shared.h"
 
@@ -57,11 +57,6 @@ static inline vfloat cs_trapezoid(vfloat across, vfloat along, vfloat blur, vflo
 /* Blurs below this are in focus: the pixel's own width hides them, and the maps divide by them. */
 #define CS_LEAST_BLUR 1e-5f
 
-static inline vfloat cs_clamp(vfloat value, vfloat low, vfloat high)
-{
-    return cs_min(cs_max(value, low), high);
-}
-
 static inline cs_film_lens cs_equal_area_square(vfloat a, vfloat b, vfloat c, vfloat d, f32 shear)
 {
     vfloat blur = (vfloat)(shear < 0.0f ? -shear : shear);
@@ -73,28 +68,45 @@ static inline cs_film_lens cs_equal_area_square(vfloat a, vfloat b, vfloat c, vf
     return point;
 }
 
-/* The disk is not separable; condition in the order t_x, u | t_x, t_y | u, (y, v) | t_y, u. */
+/* The disk is not separable: Rosenblatt's transform in the order t_x, t_y | t_x, u | t, v | t, u.
+ * t_y and u are solved for in mirror images with b <= 1/2 and c <= 1/2. */
 static inline cs_film_lens cs_equal_area_disk(vfloat a, vfloat b, vfloat c, vfloat d, f32 shear)
 {
     f32 blur = shear < 0.0f ? -shear : shear;
     blur = blur < CS_LEAST_BLUR ? CS_LEAST_BLUR : blur;
     f32 sign = shear < 0.0f ? -1.0f : 1.0f;
+    f32 inverse = 1.0f / blur;
+    vint mirror_y = b > 0.5f;
+    vint mirror_x = c > 0.5f;
 
-    vfloat t = cs_disk_fibre(a, blur); /* centred: x - 1/2 + blur * u */
-    vfloat low = cs_max((t - 0.5f) * (1.0f / blur), (vfloat)(-CS_DISK_RADIUS));
-    vfloat high = cs_min((t + 0.5f) * (1.0f / blur), (vfloat)(CS_DISK_RADIUS));
-    vfloat mass_low = cs_disk_cdf(low);
-    vfloat mass_high = cs_disk_cdf(high);
-    vfloat u = cs_disk_quantile(mass_low + (mass_high - mass_low) * c);
-    u = cs_clamp(u, low, high);
+    vfloat t_x = cs_disk_fibre(a, blur); /* centred: x - 1/2 + blur * u */
+    vfloat low = cs_max((t_x - 0.5f) * inverse, (vfloat)(-CS_DISK_RADIUS));
+    vfloat high = cs_min((t_x + 0.5f) * inverse, (vfloat)(CS_DISK_RADIUS));
+    cs_disk_window window;
+    window.blur = blur;
+    window.slab = cs_disk_slab_of(low, high);
+    vfloat half_slab = cs_max(cs_disk_half_slab(window.slab), (vfloat)(1e-12f));
+    vfloat below = cs_max(mirror_y ? 1.0f - b : b, (vfloat)(1e-9f));
+    vfloat t_y = cs_disk_slab_fibre(below, window.slab, half_slab, blur);
+    window.bottom = (t_y - 0.5f) * inverse;
+    window.top = (t_y + 0.5f) * inverse;
+    vfloat area = cs_disk_window_area(window, half_slab);
 
-    vfloat chord = 2.0f * cs_sqrt(cs_max(CS_DISK_RADIUS * CS_DISK_RADIUS - u * u, (vfloat)(0.0f)));
+    vfloat reach = cs_disk_chord(cs_min(window.top, (vfloat)(0.0f)));
+    window.slab = cs_disk_slab_of(cs_max(mirror_x ? -high : low, -reach),
+                                  cs_min(mirror_x ? -low : high, reach));
+    vfloat u = cs_disk_window_place(mirror_x ? 1.0f - c : c, window, area);
+    vfloat chord = cs_disk_chord(u);
+    u = mirror_x ? -u : u;
+    vfloat least = cs_max(-chord, window.bottom);
+    vfloat v = least + cs_disk_window_height(window, chord) * (mirror_y ? 1.0f - d : d);
+    vfloat y = t_y - blur * v;
+
     cs_film_lens point;
-    vfloat blur_y = cs_max(blur * chord, (vfloat)(CS_LEAST_BLUR));
-    vfloat v = cs_trapezoid(b, d, blur_y, &point.y) - 0.5f;
-    point.x = t - blur * u + 0.5f;
+    point.x = t_x - blur * u + 0.5f;
+    point.y = (mirror_y ? -y : y) + 0.5f;
     point.u = sign * u;
-    point.v = sign * v * chord;
+    point.v = sign * (mirror_y ? -v : v);
     return point;
 }
 

@@ -14,7 +14,7 @@ set(floor_host/cli 7)
 
 # Inside cl/, file by file.
 set(kernel_floors
-    dialect.h 0 shared.h 1 packet.h 1 stats.h 2 hash.h 2 disk.h 2 sampler/multijitter.h 3
+    dialect.h 0 shared.h 1 packet.h 1 stats.h 2 hash.h 2 disk.h 2 disk_fibre.h 3 sampler/multijitter.h 3
     sampler/sampler.h 4 shear.h 4 lens.h 4 frame.h 5 traverse.h 5 shade.h 6 gather.h 3
     render.cl 7 trace.cl 7 points.cl 7)
 while(kernel_floors)
