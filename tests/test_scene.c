@@ -90,22 +90,28 @@ static void obj_polygons_and_negative_indices(void **state)
     clshear_scene_free(scene);
 }
 
+/* As several statements, and as several names in one. */
 static void several_material_files(void **state)
 {
     fixture *made = *state;
+    const char *const statements[] = {"mtllib red.mtl\nmtllib blue.mtl\n",
+                                      "mtllib red.mtl blue.mtl\n"};
     test_file("red.mtl", "newmtl red\nKd 0.8 0.1 0.1\n");
     test_file("blue.mtl", "newmtl blue\nKd 0.1 0.2 0.9\n");
-    const char *path =
-        test_file("materials.obj", "mtllib red.mtl\nmtllib blue.mtl\n" SQUARE
-                                   "v 2 -1 0\nv 4 -1 0\nv 4 1 0\nv 2 1 0\n"
-                                   "usemtl red\nf 1 2 3 4\nusemtl blue\nf 5 6 7 8\n");
-    clshear_scene *scene = load(made, path);
-    assert_string_equal(test_warnings(), "");
-    expect_colour(made, scene, 0, 0, 0.8f, 0.1f, 0.1f);
-    clshear_scene_free(scene);
-    scene = load(made, path);
-    expect_colour(made, scene, 3, 0, 0.1f, 0.2f, 0.9f);
-    clshear_scene_free(scene);
+    for (int k = 0; k < 2; k++) {
+        char text[512];
+        snprintf(text, sizeof text, "%s%s", statements[k],
+                 SQUARE "v 2 -1 0\nv 4 -1 0\nv 4 1 0\nv 2 1 0\n"
+                        "usemtl red\nf 1 2 3 4\nusemtl blue\nf 5 6 7 8\n");
+        const char *path = test_file("materials.obj", text);
+        clshear_scene *scene = load(made, path);
+        assert_string_equal(test_warnings(), "");
+        expect_colour(made, scene, 0, 0, 0.8f, 0.1f, 0.1f);
+        clshear_scene_free(scene);
+        scene = load(made, path);
+        expect_colour(made, scene, 3, 0, 0.1f, 0.2f, 0.9f);
+        clshear_scene_free(scene);
+    }
 }
 
 static void emission_is_seen(void **state)

@@ -53,15 +53,60 @@ static void remember(cs_missing *missing, const char *path)
     snprintf(missing->paths[missing->count++], CS_MISSING_PATH, "%s", path);
 }
 
+/* Appends a file's bytes to `target`; 0 if it cannot be read. */
+static int append_file(const char *path, FILE *target)
+{
+    char bytes[4096];
+    size_t count;
+    FILE *stream = fopen(path, "rb");
+    if (stream == NULL) return 0;
+    while ((count = fread(bytes, 1, sizeof bytes, stream)) > 0)
+        fwrite(bytes, 1, count, target);
+    fputc('\n', target);
+    fclose(stream);
+    return 1;
+}
+
+/* `mtllib a.mtl b.mtl` names several files, which Assimp asks for as one, "FOLDER/a.mtl b.mtl": the
+ * files one after another; NULL if there are none. */
+static FILE *open_several(cs_missing *missing, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash != NULL ? slash + 1 : path;
+    const size_t folder = (size_t)(name - path);
+    int found = 0;
+    if (strchr(name, ' ') == NULL || strstr(name, ".mtl") == NULL) return NULL;
+    FILE *joined = tmpfile();
+    while (joined != NULL && *name != '\0') {
+        char one[CS_MISSING_PATH];
+        size_t length = strcspn(name, " \t");
+        snprintf(one, sizeof one, "%.*s%.*s", (int)folder, path, (int)length, name);
+        if (append_file(one, joined))
+            found++;
+        else if (length > 0)
+            remember(missing, one);
+        name += length;
+        name += strspn(name, " \t");
+    }
+    if (joined != NULL && found == 0) {
+        fclose(joined);
+        return NULL;
+    }
+    if (joined != NULL) rewind(joined);
+    return joined;
+}
+
 static struct aiFile *open_file(struct aiFileIO *io, const char *path, const char *mode)
 {
     (void)mode; /* importing only reads */
     struct aiFile *file = calloc(1, sizeof *file);
+    cs_missing *missing = (cs_missing *)(void *)io->UserData;
     FILE *stream = fopen(path, "rb");
+    if (stream == NULL) stream = open_several(missing, path);
     if (file == NULL || stream == NULL) {
         if (stream != NULL) fclose(stream);
         free(file);
-        remember((cs_missing *)(void *)io->UserData, path);
+        remember(missing, path);
         return NULL;
     }
     file->ReadProc = read_items;
