@@ -66,3 +66,18 @@ clshear_scene *test_floor(clshear_context *context, float half, float albedo)
     test_ok(context, clshear_scene_create(context, &mesh, 1, &scene));
     return scene;
 }
+
+clshear_scene *test_cornell(clshear_context *context, clshear_camera *camera)
+{
+    clshear_scene *scene = NULL;
+    const clshear_light light = {.vector = {278, 430, -20}, .colour = {230000, 215000, 185000}};
+    test_ok(context, clshear_scene_load(context, SCENES "/cornell.obj", &scene));
+    test_ok(context, clshear_scene_add_light(scene, &light));
+    *camera = (clshear_camera){.eye = {276.4f, 274.4f, 800},
+                               .target = {276.4f, 274.4f, 0},
+                               .up = {0, 1, 0},
+                               .fov_deg = 36.0f,
+                               .lens_radius = 25.0f,
+                               .focal_distance = 930.0f};
+    return scene;
+}

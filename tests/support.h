@@ -31,4 +31,8 @@ const char *test_warnings(void);
 /* A horizontal square of half width `half` at height 0, one triangle pair. */
 clshear_scene *test_floor(clshear_context *context, float half, float albedo);
 
+/* scenes/cornell.obj with the light of its settings file, and the camera of that file but for the
+ * aperture, which is a disk. */
+clshear_scene *test_cornell(clshear_context *context, clshear_camera *camera);
+
 #endif

@@ -37,15 +37,7 @@ static int set_up(void **state)
 {
     fixture *made = calloc(1, sizeof *made);
     made->context = test_context();
-    test_ok(made->context, clshear_scene_load(made->context, SCENES "/cornell.obj", &made->scene));
-    const clshear_light light = {.vector = {278, 430, -20}, .colour = {230000, 215000, 185000}};
-    test_ok(made->context, clshear_scene_add_light(made->scene, &light));
-    made->camera = (clshear_camera){.eye = {276.4f, 274.4f, 800},
-                                    .target = {276.4f, 274.4f, 0},
-                                    .up = {0, 1, 0},
-                                    .fov_deg = 36.0f,
-                                    .lens_radius = 25.0f,
-                                    .focal_distance = 930.0f};
+    made->scene = test_cornell(made->context, &made->camera);
     *state = made;
     return 0;
 }

@@ -21,15 +21,7 @@ static void open_scene(fixture *made, int threads, int packet)
     options.packet = packet;
     if (clshear_context_create(&options, &made->context) != CLSHEAR_OK)
         fail_msg("%s", clshear_message(NULL));
-    test_ok(made->context, clshear_scene_load(made->context, SCENES "/cornell.obj", &made->scene));
-    const clshear_light light = {.vector = {278, 430, -20}, .colour = {2.3e5f, 2.2e5f, 1.9e5f}};
-    test_ok(made->context, clshear_scene_add_light(made->scene, &light));
-    made->camera = (clshear_camera){.eye = {276.4f, 274.4f, 800},
-                                    .target = {276.4f, 274.4f, 0},
-                                    .up = {0, 1, 0},
-                                    .fov_deg = 36.0f,
-                                    .lens_radius = 25.0f,
-                                    .focal_distance = 930.0f};
+    made->scene = test_cornell(made->context, &made->camera);
 }
 
 static void close_scene(fixture *made)
