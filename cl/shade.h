@@ -41,8 +41,9 @@ static inline float3 cs_texel(const cs_world *world, u32 texture, f32 s, f32 t)
     f32 row = (1.0f - (t - floor(t))) * (f32)image->height - 0.5f;
     f32 left = floor(column), top = floor(row);
     f32 across = column - left, down = row - top;
-    u32 x0 = left < 0.0f ? image->width - 1u : (u32)left;
-    u32 y0 = top < 0.0f ? image->height - 1u : (u32)top;
+    /* Rounding may reach the far edge; the least of both also bounds what huge coordinates give. */
+    u32 x0 = left >= 0.0f ? min((u32)left, image->width - 1u) : image->width - 1u;
+    u32 y0 = top >= 0.0f ? min((u32)top, image->height - 1u) : image->height - 1u;
     u32 x1 = x0 + 1u < image->width ? x0 + 1u : 0u;
     u32 y1 = y0 + 1u < image->height ? y0 + 1u : 0u;
     size_t above = (size_t)image->first + (size_t)y0 * image->width;

@@ -57,11 +57,12 @@ refuse 2 "--packet 3: must be" -- "$cornell" --packet 3
 refuse 2 "--quiet takes no value" -- "$cornell" --quiet=yes
 refuse 2 "more than one scene" -- "$cornell" "$cornell"
 expect 2 "--out needs a value" -- "$cornell" --out
-expect 2 "picture.bmp: must end in" -- "$cornell" --out picture.bmp
+expect 2 "picture.bmp: must be a name that ends in" -- "$cornell" --out picture.bmp
 
 # Failures: 1.
 refuse 1 "nowhere.obj: cannot be opened: No such file" -- nowhere.obj
 refuse 1 "no OpenCL device \"toaster\"" -- "$cornell" --quiet --device toaster
+refuse 2 "--crop 0,0,0,0: must be x0,x1,y0,y1" -- "$cornell" --crop 0,0,0,0
 refuse 1 "crop 0,99,0,9" -- "$cornell" --quiet --width 32 --height 32 --crop 0,99,0,9
 refuse 1 "pixel 40,2 is outside" -- "$cornell" --quiet --width 32 --height 32 --focus-pixel 40,2
 refuse 1 "replicates" -- "$cornell" --quiet --spp 2 --replicates 3
@@ -104,9 +105,29 @@ END
 # shellcheck disable=SC2086
 {
     expect 0 "no lens given, a moderate blur: --lens-radius" -- bare.obj $small --out e.exr
-    case $output in *"focused on the middle pixel, --focal-distance"*) ;; *) wrong "focus unsaid" ;; esac
+    case $output in *"focused on the middle of the picture, --focal-distance"*) ;; *) wrong "focus unsaid" ;; esac
     expect 0 "" -- bare.obj $small --fstop 2.8 --unit 0.01 --focus-pixel 16,16 --out f.exr
 }
+
+# What the settings file says of the lens gives way to either way of saying it.
+# shellcheck disable=SC2086
+{
+    expect 0 "" -- "$cornell" $small --quiet --fstop 2 --unit 0.001 --out i.exr
+    case $(oiiotool --info -v i.exr) in *"clshear.lensRadius: 25"*) wrong "--fstop unused" ;; esac
+    echo "--focus-pixel 3,3" >mine.flags
+    expect 0 "" -- bare.obj $small --quiet --settings mine.flags --focal-distance 2 --out j.exr
+    case $(oiiotool --info -v j.exr) in *"clshear.focalDistance: 2"*) ;; *) wrong "focus unused" ;; esac
+}
+
+# Scenes without anything but triangles are seen and lit, flat ones too.
+sed 's/^v \(.*\) \(.*\) 0/v \1 0 \2/' bare.obj >floor.obj
+for scene in bare.obj floor.obj; do
+    # shellcheck disable=SC2086
+    expect 0 "no light given" -- $scene $small --out k.exr
+    oiiotool --stats k.exr | awk '/Stats Avg/ { exit !($3 > 0.01) }' || wrong "$scene is dark"
+done
+mkdir -p folder.exr
+expect 1 "folder.exr: is a folder" -- bare.obj --out folder.exr
 
 # Metadata reproduces the image.
 info=$(oiiotool --info -v a.exr)

@@ -157,6 +157,37 @@ static void textures_are_bilinear_and_upright(void **state)
     }
 }
 
+/* Files named by URI, as glTF does it. */
+static void texture_names_are_decoded(void **state)
+{
+    fixture *made = *state;
+    write_picture("my four.ppm");
+    test_file("spaced.mtl", "newmtl t\nKd 1 1 1\nmap_Kd my%20four.ppm\n");
+    clshear_scene *scene =
+        load(made, test_file("spaced.obj", "mtllib spaced.mtl\n" SQUARE
+                                           "vt 0.25 0.25\nusemtl t\nf 1/1 2/1 3/1 4/1\n"));
+    assert_string_equal(test_warnings(), "");
+    expect_colour(made, scene, 0.3f, 0.1f, 0, 0, 1);
+    clshear_scene_free(scene);
+}
+
+/* Texture coordinates beyond all measure are looked up somewhere, not outside the image. */
+static void wild_texture_coordinates_are_safe(void **state)
+{
+    fixture *made = *state;
+    float colour[3];
+    write_picture("four.ppm");
+    test_file("wild.mtl", "newmtl t\nKd 1 1 1\nmap_Kd four.ppm\n");
+    clshear_scene *scene =
+        load(made, test_file("wild.obj", "mtllib wild.mtl\n" SQUARE
+                                         "vt 3e38 3e38\nvt -3e38 0\nvt nan 1\nvt 0.99999999 1\n"
+                                         "usemtl t\nf 1/1 2/2 3/3 4/4\n"));
+    look_at(made, scene, 0.1f, 0.2f, colour);
+    for (int c = 0; c < 3; c++)
+        assert_true(colour[c] >= 0.0f && colour[c] <= 1.01f);
+    clshear_scene_free(scene);
+}
+
 /* A tilted vertex normal darkens a surface that is itself head-on: cos 60 degrees. */
 static void smooth_normals_shade(void **state)
 {
@@ -267,6 +298,16 @@ static void bad_files_are_refused(void **state)
     refuse(made, test_file("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
     refuse(made, test_file("infinite.obj", "v 1e39 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
     refuse(made, test_file("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"));
+    const char *const ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                            "property float y\nproperty float z\nelement face 1\n"
+                            "property list uchar int vertex_indices\nend_header\n"
+                            "-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n4 0 1 2 %s\n";
+    const char *const indices[] = {"900000", "-5", "4"};
+    for (int i = 0; i < 3; i++) {
+        char text[512];
+        snprintf(text, sizeof text, ply, indices[i]);
+        refuse(made, test_file("range.ply", text));
+    }
     refuse(made, test_file("none.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"));
     refuse(made, test_file("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\nl 1 2\n"));
     refuse(made, test_file("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"));
@@ -295,6 +336,8 @@ int main(void)
         cmocka_unit_test(several_material_files),
         cmocka_unit_test(emission_is_seen),
         cmocka_unit_test(textures_are_bilinear_and_upright),
+        cmocka_unit_test(texture_names_are_decoded),
+        cmocka_unit_test(wild_texture_coordinates_are_safe),
         cmocka_unit_test(smooth_normals_shade),
         cmocka_unit_test(missing_parts_become_grey),
         cmocka_unit_test(degenerate_triangles_are_dropped),

@@ -10,8 +10,8 @@ void *cs_array_extend(cs_array *array, size_t count)
     if (needed > array->capacity) {
         size_t capacity = array->capacity + array->capacity / 2;
         if (capacity < needed) capacity = needed;
-        if (capacity > SIZE_MAX / array->item_size) return NULL;
-        void *items = realloc(array->items, capacity * array->item_size);
+        if (capacity > (SIZE_MAX - CS_ARRAY_PADDING) / array->item_size) return NULL;
+        void *items = realloc(array->items, capacity * array->item_size + CS_ARRAY_PADDING);
         if (items == NULL) return NULL;
         array->items = items;
         array->capacity = capacity;
@@ -25,7 +25,7 @@ void *cs_array_extend(cs_array *array, size_t count)
 void cs_array_trim(cs_array *array)
 {
     if (array->count == 0 || array->count == array->capacity) return;
-    void *items = realloc(array->items, array->count * array->item_size);
+    void *items = realloc(array->items, array->count * array->item_size + CS_ARRAY_PADDING);
     if (items == NULL) return;
     array->items = items;
     array->capacity = array->count;

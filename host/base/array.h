@@ -1,8 +1,13 @@
-/* Growing arrays of any element type. */
+/* Growing arrays of any element type. CS_ARRAY_PADDING bytes behind the last item can be read:
+ * Embree fetches 3 floats as 4. */
 #ifndef CS_BASE_ARRAY_H
 #define CS_BASE_ARRAY_H
 
 #include <stddef.h>
+
+enum {
+    CS_ARRAY_PADDING = 16
+};
 
 typedef struct cs_array {
     void *items;

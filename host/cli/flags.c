@@ -109,7 +109,10 @@ static const char *store_height(cli_job *job, const char *value)
 
 static const char *store_crop(cli_job *job, const char *value)
 {
-    return read_ints(value, 4, 0, 65536, job->options.crop) ? NULL : "x0,x1,y0,y1 in pixels";
+    int *crop = job->options.crop;
+    return read_ints(value, 4, 0, 65536, crop) && crop[0] < crop[1] && crop[2] < crop[3]
+               ? NULL
+               : "x0,x1,y0,y1 in pixels, x0 < x1 and y0 < y1";
 }
 
 static const char *store_eye(cli_job *job, const char *value)
@@ -136,6 +139,7 @@ static const char *store_fov(cli_job *job, const char *value)
 static const char *store_lens_radius(cli_job *job, const char *value)
 {
     job->lens_radius.given = 1;
+    job->f_stop.given = 0; /* the last word on a thing counts */
     return read_floats(value, 1, &job->lens_radius.value) && job->lens_radius.value >= 0.0f
                ? NULL
                : "a number, 0 or more";
@@ -143,11 +147,13 @@ static const char *store_lens_radius(cli_job *job, const char *value)
 
 static const char *store_focal_distance(cli_job *job, const char *value)
 {
+    job->focus_pixel_given = 0;
     return positive(&job->focal_distance, value);
 }
 
 static const char *store_f_stop(cli_job *job, const char *value)
 {
+    job->lens_radius.given = 0;
     return positive(&job->f_stop, value);
 }
 
@@ -159,6 +165,7 @@ static const char *store_unit(cli_job *job, const char *value)
 static const char *store_focus_pixel(cli_job *job, const char *value)
 {
     job->focus_pixel_given = 1;
+    job->focal_distance.given = 0;
     return read_ints(value, 2, 0, 65535, job->focus_pixel) ? NULL : "x,y in pixels";
 }
 

@@ -41,9 +41,7 @@ typedef struct cli_job {
     clshear_aperture aperture;
     clshear_light lights[CLI_MAX_LIGHTS];
     int light_count;
-    int lights_from_settings; /* replaced by the first one of the command line */
     int quiet, stats, help, version, list_devices;
-    int replicates_given;
 } cli_job;
 
 #endif

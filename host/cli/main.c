@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli/flags.h"
@@ -58,11 +59,18 @@ static int check_outputs(const cli_job *job)
         int found = 0;
         for (size_t k = 0; k < sizeof known / sizeof *known && dot != NULL; k++)
             found |= strcasecmp(dot, known[k]) == 0;
-        if (!found) {
-            fprintf(stderr, "clshear: --out %s: must end in .exr, .png, .jpg or .tif\n", path);
+        if (!found || dot == path || dot[-1] == '/') {
+            fprintf(stderr,
+                    "clshear: --out %s: must be a name that ends in .exr, .png, .jpg or .tif\n",
+                    path);
             return CLI_USAGE;
         }
         if (slash != NULL) snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
+        struct stat about;
+        if (stat(path, &about) == 0 && S_ISDIR(about.st_mode)) {
+            fprintf(stderr, "clshear: --out %s: is a folder\n", path);
+            return CLI_FAILED;
+        }
         if (access(folder, W_OK) != 0) {
             fprintf(stderr, "clshear: --out %s: folder %s cannot be written: %s\n", path, folder,
                     strerror(errno));
@@ -102,7 +110,7 @@ static clshear_status choose_camera(const cli_job *job, const clshear_scene *sce
     status = clshear_camera_complete(scene, width, height, camera);
     if (status != CLSHEAR_OK || job->quiet) return status;
     if (!focus_chosen && camera->lens_radius > 0.0f)
-        fprintf(stderr, "clshear: focused on the middle pixel, --focal-distance %g\n",
+        fprintf(stderr, "clshear: focused on the middle of the picture, --focal-distance %g\n",
                 (double)camera->focal_distance);
     if (!lens_chosen)
         fprintf(stderr, "clshear: no lens given, a moderate blur: --lens-radius %g\n",
@@ -110,7 +118,20 @@ static clshear_status choose_camera(const cli_job *job, const clshear_scene *sce
     return CLSHEAR_OK;
 }
 
-/* The command that was given, words with spaces in quotes. */
+/* Tells what the file and the flags left open. */
+static void tell_choices(const cli_job *job, const clshear_scene *scene,
+                         const clshear_camera *camera)
+{
+    const clshear_scene_info info = clshear_scene_describe(scene);
+    if (job->quiet) return;
+    if (!info.file_camera && !job->eye.given)
+        fprintf(stderr, "clshear: no camera given, the scene is framed: --eye %g,%g,%g\n",
+                (double)camera->eye[0], (double)camera->eye[1], (double)camera->eye[2]);
+    if (info.lights + info.emitters == 0)
+        fprintf(stderr, "clshear: no light given, a point light above the scene's middle\n");
+}
+
+/* The command that was given; words that a shell would take apart in quotes. */
 static char *command_line(int argc, char **argv)
 {
     size_t size = 1;
@@ -118,7 +139,7 @@ static char *command_line(int argc, char **argv)
         size += strlen(argv[i]) + 3;
     char *text = calloc(1, size);
     for (int i = 0; i < argc && text != NULL; i++) {
-        const char *quote = strpbrk(argv[i], " \t") != NULL ? "'" : "";
+        const char *quote = strpbrk(argv[i], " \t\"$&*;<>?\\`|()") != NULL ? "'" : "";
         size_t used = strlen(text);
         snprintf(text + used, size - used, "%s%s%s%s", i > 0 ? " " : "", quote, argv[i], quote);
     }
@@ -154,9 +175,10 @@ static int write_outputs(const cli_job *job, const clshear_context *context, cls
 {
     if (command != NULL && clshear_film_annotate(film, "clshear.cmdline", command) != CLSHEAR_OK)
         return fail(context);
+    int code = CLI_DONE; /* one output that fails must not cost the others */
     for (int i = 0; i < job->output_count; i++)
-        if (clshear_film_write(film, job->outputs[i]) != CLSHEAR_OK) return fail(context);
-    return CLI_DONE;
+        if (clshear_film_write(film, job->outputs[i]) != CLSHEAR_OK) code = fail(context);
+    return code;
 }
 
 /* From a loaded scene to written files. */
@@ -168,6 +190,7 @@ static int render(cli_job *job, const clshear_context *context, clshear_scene *s
     for (int i = 0; i < job->light_count; i++)
         if (clshear_scene_add_light(scene, &job->lights[i]) != CLSHEAR_OK) return fail(context);
     if (choose_camera(job, scene, &camera) != CLSHEAR_OK) return fail(context);
+    tell_choices(job, scene, &camera);
     cli_progress progress = cli_progress_start(job->quiet);
     job->options.progress = cli_progress_report;
     job->options.progress_user = &progress;

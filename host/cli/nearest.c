@@ -34,7 +34,7 @@ static int distance(const char *a, size_t a_length, const char *b, size_t b_leng
 const char *cli_nearest_flag(const char *name, size_t length)
 {
     static char nearest[LONGEST + 1];
-    int best = (int)length / 2 + 2;
+    int best = least((int)length / 2 + 2, 4);
     const char *found = NULL;
     for (size_t i = 0; i < cli_flag_count; i++) {
         const char *known = cli_flags[i].names;

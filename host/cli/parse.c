@@ -63,18 +63,28 @@ static int apply_line(cli_job *job, char *line, const char *file, int number)
     return apply(job, place, line, length, *value != '\0' ? value : NULL);
 }
 
+/* All of a text file; NULL, with errno, if it cannot be read. */
 static char *read_text(const char *path)
 {
     FILE *stream = fopen(path, "rb");
     if (stream == NULL) return NULL;
-    size_t size = 0, capacity = 1 << 16;
+    size_t size = 0, capacity = 1 << 12, got;
     char *text = malloc(capacity + 1);
-    if (text != NULL) {
-        size = fread(text, 1, capacity, stream);
-        text[size] = '\0';
+    while (text != NULL && (got = fread(text + size, 1, capacity - size, stream)) > 0) {
+        size += got;
+        if (size < capacity) continue;
+        capacity *= 2;
+        char *larger = realloc(text, capacity + 1);
+        if (larger == NULL) free(text);
+        text = larger;
     }
+    int reason = ferror(stream) ? errno : 0;
     fclose(stream);
-    return text;
+    if (text != NULL) text[size] = '\0';
+    if (reason == 0) return text;
+    free(text);
+    errno = reason;
+    return NULL;
 }
 
 static int read_settings(cli_job *job, const char *path)

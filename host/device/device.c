@@ -28,13 +28,20 @@ struct cs_buffer {
 
 static const char *const kernel_names[CS_KERNEL_COUNT] = {"cs_render", "cs_trace", "cs_points"};
 
+static int is_cpu(cl_device_id id)
+{
+    cl_device_type type = CL_DEVICE_TYPE_CPU;
+    clGetDeviceInfo(id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
+    return (type & CL_DEVICE_TYPE_CPU) != 0;
+}
+
 /* Restricts a CPU device to some of its compute units, by a sub-device. */
 static clshear_status limit_threads(cs_device *device, int threads, cs_error *error)
 {
     cl_uint units = 1;
     clGetDeviceInfo(device->id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
     device->threads = (int)units;
-    if (threads <= 0 || (cl_uint)threads >= units) return CLSHEAR_OK;
+    if (threads <= 0 || (cl_uint)threads >= units || !is_cpu(device->id)) return CLSHEAR_OK;
     const cl_device_partition_property by_count[] = {CL_DEVICE_PARTITION_BY_COUNTS, threads,
                                                      CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
     cl_device_id part;
@@ -56,6 +63,10 @@ static clshear_status create_kernels(cs_device *device, cs_error *error)
         if (code != CL_SUCCESS)
             return cs_fail(error, CLSHEAR_DEVICE_FAILED, "kernel %s: %s (OpenCL error %d)",
                            kernel_names[i], "cannot be created", code);
+        size_t most = device->local_size;
+        clGetKernelWorkGroupInfo(device->kernels[i], device->id, CL_KERNEL_WORK_GROUP_SIZE,
+                                 sizeof most, &most, NULL);
+        if (most < device->local_size) device->local_size = most;
     }
     return CLSHEAR_OK;
 }
@@ -72,11 +83,9 @@ static int cpu_packet(cl_device_id id)
 /* Work-groups fit every CPU stack (private memory of a group lies on it) and fill a GPU's warps. */
 static void choose_widths(cs_device *device, int packet)
 {
-    cl_device_type type = CL_DEVICE_TYPE_CPU;
-    clGetDeviceInfo(device->id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
-    int is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
-    device->local_size = is_cpu ? 8 : 64;
-    device->packet = packet != 0 ? packet : is_cpu ? cpu_packet(device->id) : 1;
+    const int cpu = is_cpu(device->id);
+    device->local_size = cpu ? 8 : 64;
+    device->packet = packet != 0 ? packet : cpu ? cpu_packet(device->id) : 1;
 }
 
 clshear_status cs_device_open(const char *wanted, int threads, int packet, cs_device **result,

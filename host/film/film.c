@@ -41,7 +41,7 @@ static cs_attribute *attribute_named(clshear_film *film, const char *name)
 {
     cs_attribute *attributes = film->attributes.items;
     for (size_t i = 0; i < film->attributes.count; i++)
-        if (strcmp(attributes[i].name, name) == 0) {
+        if (strncmp(attributes[i].name, name, sizeof attributes[i].name - 1) == 0) {
             free(attributes[i].text);
             attributes[i].text = NULL;
             return &attributes[i];
@@ -85,9 +85,9 @@ clshear_status cs_film_set_matrix(clshear_film *film, const char *name, const fl
 
 clshear_status clshear_film_annotate(clshear_film *film, const char *name, const char *text)
 {
-    cs_attribute *attribute = attribute_named(film, name);
     char *copy = strdup(text);
-    if (attribute == NULL || copy == NULL) {
+    cs_attribute *attribute = copy != NULL ? attribute_named(film, name) : NULL;
+    if (attribute == NULL) {
         free(copy);
         return out_of_memory(film);
     }

@@ -6,6 +6,8 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
+#include <cctype>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -157,6 +159,9 @@ clshear_status write_picture(const char *path, const cs_picture *picture, cs_err
     const ImageBuf buffer = buffer_for(extension, picture);
     const std::string temporary =
         std::string(path) + ".part" + std::to_string(static_cast<long>(getpid()));
+    if (buffer.has_error())
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,
+                       first_line(buffer.geterror()).c_str());
     auto output = OIIO::ImageOutput::create(extension);
     if (output == nullptr)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: this image format cannot be written", path);

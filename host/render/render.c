@@ -46,6 +46,9 @@ static clshear_status check_sampling(cs_job *job, cs_error *error)
     clshear_options *options = &job->options;
     if (options->spp < 1)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "0 samples per pixel: must be 1 or more");
+    if (options->spp > 2000000000u)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%u samples per pixel: at most 2000000000",
+                       options->spp);
     if (options->replicates == 0) options->replicates = options->spp > 1 ? 2 : 1;
     if (options->replicates > options->spp)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
@@ -110,7 +113,12 @@ clshear_status clshear_render(clshear_scene *scene, const clshear_camera *camera
     if (passes != CLSHEAR_CANCELLED) CS_TRY(passes);
     CS_TRY(cs_job_resolve(&job, film, error));
     (*film)->info.render_s = cs_now_s() - start_s;
-    CS_TRY(cs_film_set_float(*film, "renderTimeSeconds", (float)(*film)->info.render_s));
+    status = cs_film_set_float(*film, "renderTimeSeconds", (float)(*film)->info.render_s);
+    if (status != CLSHEAR_OK) {
+        clshear_film_free(*film);
+        *film = NULL;
+        goto done;
+    }
     status = passes;
 done:
     free(job.depth);

@@ -28,7 +28,7 @@ static float vertical_fov(const struct aiCamera *source, int gltf)
     return 2.0f * atanf(tanf(0.5f * source->mHorizontalFOV) / aspect);
 }
 
-void cs_camera_import(cs_scene *scene, const struct aiScene *file)
+int cs_camera_import(cs_scene *scene, const struct aiScene *file)
 {
     const struct aiCamera *source = file->mCameras[0];
     clshear_camera *camera = &scene->camera;
@@ -48,7 +48,8 @@ void cs_camera_import(cs_scene *scene, const struct aiScene *file)
     memcpy(camera->target, &target.x, sizeof camera->target);
     memcpy(camera->up, &up.x, sizeof camera->up);
     camera->fov_deg = vertical_fov(source, is_gltf(file)) / degrees;
-    scene->has_camera = 1;
+    scene->has_camera = camera->fov_deg > 0.0f && camera->fov_deg < 180.0f;
+    return scene->has_camera;
 }
 
 /* The angle along the shorter axis: for upright pictures the horizontal one. */
@@ -83,6 +84,9 @@ clshear_camera cs_camera_of_scene(const cs_scene *scene, int width, int height)
     float reach = fmaxf(half[0] / wide, half[1] / tall) / tangent * 1.05f;
     camera.fov_deg = default_fov_deg;
     camera.eye[2] += half[2] + fmaxf(reach, 1e-3f * half[2]);
+    /* A floor seen from its own height is a line. */
+    if (half[1] < 0.1f * fmaxf(half[0], half[2]))
+        camera.eye[1] += 0.6f * (camera.eye[2] - camera.target[2]);
     return camera;
 }
 

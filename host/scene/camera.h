@@ -6,8 +6,8 @@
 
 struct aiScene;
 
-/* Takes over the first camera of a scene file. */
-void cs_camera_import(cs_scene *scene, const struct aiScene *file);
+/* Takes over the first camera of a scene file; 0 if it has no field of view that can be used. */
+int cs_camera_import(cs_scene *scene, const struct aiScene *file);
 
 /* The file's camera, or one that frames the bounding box, for an image of this size. */
 clshear_camera cs_camera_of_scene(const cs_scene *scene, int width, int height);

@@ -70,6 +70,8 @@ static clshear_status add_material(cs_scene *scene, const struct aiScene *file,
         for (int c = 0; c < 3 && black; c++) /* exporters leave Kd 0 beside a map */
             look.diffuse[c] = 1.0f;
     }
+    if (aiGetMaterialTextureCount(source, aiTextureType_EMISSIVE) > 0)
+        cs_warn(log, "%s: textured emission is not supported; taken as even", path);
     cs_material *added = cs_array_extend(&scene->materials, 1);
     if (added == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
     *added = look;
@@ -190,7 +192,8 @@ static clshear_status convert(cs_scene *scene, const struct aiScene *file, const
     CS_TRY(cs_node_visit_meshes(file, add_instance, &work));
     for (unsigned i = 0; i < file->mNumLights; i++)
         CS_TRY(add_light(scene, file, file->mLights[i], path, log, error));
-    if (file->mNumCameras > 0) cs_camera_import(scene, file);
+    if (file->mNumCameras > 0 && !cs_camera_import(scene, file))
+        cs_warn(log, "%s: its camera has no perspective; left out", path);
     CS_TRY(cs_scene_finish(scene, path, error));
 done:
     return status;
@@ -205,16 +208,39 @@ static int has_suffix(const char *text, const char *suffix)
     return 1;
 }
 
+/* Reports the material files that were asked for and not found; returns how many. Where none was
+ * found, Assimp also asks for one called like the scene, which nobody named. */
 static int warn_of_missing_materials(const cs_missing *missing, const char *path, const cs_log *log)
 {
+    const char *slash = strrchr(path, '/');
+    const char *stem = slash != NULL ? slash + 1 : path;
+    const size_t length = strcspn(stem, ".");
     int count = 0;
     for (int i = 0; i < missing->count; i++) {
-        if (!has_suffix(missing->paths[i], ".mtl")) continue;
-        cs_warn(log, "%s: material file %s not found; its materials are mid-grey", path,
-                missing->paths[i]);
+        const char *name = strrchr(missing->paths[i], '/');
+        name = name != NULL ? name + 1 : missing->paths[i];
+        if (!has_suffix(name, ".mtl")) continue;
+        int fallback = strncmp(name, stem, length) == 0 && strcmp(name + length, ".mtl") == 0;
+        if (count > 0 && fallback) continue;
+        cs_warn(log, "%s: material file %s not found; its materials are mid-grey", path, name);
         count++;
     }
     return count;
+}
+
+/* Assimp's own steps trust the indices, so they are checked before any of those runs. */
+static clshear_status check_indices(const struct aiScene *file, const char *path, cs_error *error)
+{
+    for (unsigned m = 0; m < file->mNumMeshes; m++) {
+        const struct aiMesh *mesh = file->mMeshes[m];
+        for (unsigned i = 0; i < mesh->mNumFaces; i++)
+            for (unsigned k = 0; k < mesh->mFaces[i].mNumIndices; k++)
+                if (mesh->mFaces[i].mIndices[k] >= mesh->mNumVertices)
+                    return cs_fail(error, CLSHEAR_BAD_FILE,
+                                   "%s: face %u names vertex %u, but there are %u; repair the mesh",
+                                   path, i, mesh->mFaces[i].mIndices[k], mesh->mNumVertices);
+    }
+    return CLSHEAR_OK;
 }
 
 static clshear_status check_readable(const char *path, cs_error *error)
@@ -238,7 +264,11 @@ clshear_status cs_scene_import(const char *path, cs_scene *scene, const cs_log *
     cs_missing missing = {0};
     struct aiFileIO io = cs_recording_file_io(&missing);
     CS_TRY(check_readable(path, error));
-    file = aiImportFileEx(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices, &io);
+    file = aiImportFileEx(path, 0, &io);
+    if (file != NULL) {
+        CS_TRY(check_indices(file, path, error));
+        file = aiApplyPostProcessing(file, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
+    }
     CS_REQUIRE(file != NULL, CLSHEAR_BAD_FILE, "%s: %.*s", path,
                (int)strcspn(aiGetErrorString(), "\n"), aiGetErrorString());
     int materials_missing = warn_of_missing_materials(&missing, path, log);

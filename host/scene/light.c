@@ -32,10 +32,14 @@ cs_light cs_scene_default_light(const cs_scene *scene)
     cs_light light;
     memset(&light, 0, sizeof light);
     light.kind = CS_LIGHT_POINT;
-    float square = 0.0f;
+    float square = 0.0f, largest = 0.0f;
+    for (int axis = 0; axis < 3; axis++)
+        largest = fmaxf(largest, scene->bounds[1][axis] - scene->bounds[0][axis]);
     for (int axis = 0; axis < 3; axis++) {
         float low = scene->bounds[0][axis], high = scene->bounds[1][axis];
         light.vector[axis] = axis == 1 ? low + 0.95f * (high - low) : 0.5f * (low + high);
+        /* Flat scenes are lit from above or from the front, not from within their plane. */
+        if (axis > 0 && high - low < 0.1f * largest) light.vector[axis] = high + 0.5f * largest;
         square += 0.25f * (high - low) * (high - low);
     }
     /* A white surface that faces the light from half a diagonal away has radiance 1. */
@@ -89,8 +93,9 @@ clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, cs_e
     cs_emitter *table = emitters->items;
     for (size_t i = 0; i < emitters->count; i++) {
         below += (double)table[i].probability;
-        table[i].cumulative = (float)(below / total);
-        table[i].probability = (float)((double)table[i].probability / total);
+        table[i].cumulative = i + 1 < emitters->count ? (float)(below / total) : 1.0f;
+        /* As the search in the rounded table finds it, so that the estimate stays unbiased. */
+        table[i].probability = table[i].cumulative - (i > 0 ? table[i - 1].cumulative : 0.0f);
     }
     return CLSHEAR_OK;
 }

@@ -47,6 +47,8 @@ static void flush_nothing(struct aiFile *file)
 
 static void remember(cs_missing *missing, const char *path)
 {
+    while (strncmp(path, "./", 2) == 0)
+        path += 2;
     for (int i = 0; i < missing->count; i++)
         if (strcmp(missing->paths[i], path) == 0) return;
     if (missing->count == CS_MISSING_MAX) return;

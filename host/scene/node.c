@@ -1,6 +1,7 @@
 #include "scene/node.h"
 
 #include <assimp/cimport.h>
+#include <limits.h>
 #include <string.h>
 
 /* outer * inner: inner is applied first. */
@@ -10,14 +11,16 @@ static struct aiMatrix4x4 product(struct aiMatrix4x4 outer, const struct aiMatri
     return outer;
 }
 
-static int find(const struct aiNode *node, const char *name, struct aiMatrix4x4 *matrix)
+/* Names need not be unique: nodes with more than `meshes` meshes are passed over. */
+static int find(const struct aiNode *node, const char *name, unsigned meshes,
+                struct aiMatrix4x4 *matrix)
 {
-    if (strcmp(node->mName.data, name) == 0) {
+    if (strcmp(node->mName.data, name) == 0 && node->mNumMeshes <= meshes) {
         *matrix = node->mTransformation;
         return 1;
     }
     for (unsigned i = 0; i < node->mNumChildren; i++)
-        if (find(node->mChildren[i], name, matrix)) {
+        if (find(node->mChildren[i], name, meshes, matrix)) {
             *matrix = product(node->mTransformation, matrix);
             return 1;
         }
@@ -28,7 +31,8 @@ struct aiMatrix4x4 cs_node_matrix(const struct aiScene *file, const char *name)
 {
     struct aiMatrix4x4 matrix;
     aiIdentityMatrix4(&matrix);
-    if (file->mRootNode != NULL) find(file->mRootNode, name, &matrix);
+    if (file->mRootNode != NULL && !find(file->mRootNode, name, 0, &matrix))
+        find(file->mRootNode, name, UINT_MAX, &matrix);
     return matrix;
 }
 

@@ -14,6 +14,7 @@ void cs_scene_init(cs_scene *scene)
     scene->materials.item_size = sizeof(cs_material);
     scene->textures.item_size = sizeof(cs_texture);
     scene->texels.item_size = 4 * sizeof(uint16_t);
+    scene->texture_names.item_size = CS_TEXTURE_NAME;
     scene->lights.item_size = sizeof(cs_light);
 }
 
@@ -27,12 +28,19 @@ void cs_scene_free(cs_scene *scene)
     cs_array_free(&scene->materials);
     cs_array_free(&scene->textures);
     cs_array_free(&scene->texels);
+    cs_array_free(&scene->texture_names);
     cs_array_free(&scene->lights);
 }
 
 size_t cs_scene_triangle_count(const cs_scene *scene)
 {
     return scene->indices.count;
+}
+
+/* Texture coordinates repeat; beyond a million turns a float has no fraction left to look up. */
+static float usable_coordinate(float value)
+{
+    return fabsf(value) < 1e6f ? value : 0.0f; /* NaN too */
 }
 
 static clshear_status add_vertices(cs_scene *scene, const clshear_mesh *mesh, const float *texture,
@@ -50,26 +58,29 @@ static clshear_status add_vertices(cs_scene *scene, const clshear_mesh *mesh, co
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         if (mesh->normals != NULL)
             memcpy(vertices[i].normal, mesh->normals + 3 * i, sizeof vertices[i].normal);
-        if (texture != NULL)
-            memcpy(vertices[i].texture, texture + 3 * i, sizeof vertices[i].texture);
+        for (size_t k = 0; k < 2 && texture != NULL; k++)
+            vertices[i].texture[k] = usable_coordinate(texture[3 * i + k]);
     }
     return CLSHEAR_OK;
 }
 
-/* Whether the three corners span an area that a float can hold. */
+/* Whether the three corners span an area: more than a ten-millionth of the square of their edges,
+ * and neither too small nor too large for the square of a float's cross product. */
 static int has_area(const float *a, const float *b, const float *c)
 {
-    double e1[3], e2[3], square = 0.0;
+    double e1[3], e2[3], square = 0.0, first = 0.0, second = 0.0;
     for (int i = 0; i < 3; i++) {
         e1[i] = (double)b[i] - (double)a[i];
         e2[i] = (double)c[i] - (double)a[i];
+        first += e1[i] * e1[i];
+        second += e2[i] * e2[i];
     }
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         double normal = e1[j] * e2[k] - e1[k] * e2[j];
         square += normal * normal;
     }
-    return square > 1e-36 && isfinite((float)square);
+    return square > 1e-14 * first * second && square > 1e-37 && square < 1e37;
 }
 
 clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, const float *texture,
@@ -118,7 +129,8 @@ clshear_status cs_scene_finish(cs_scene *scene, const char *name, cs_error *erro
     const uint32_t(*indices)[3] = scene->indices.items;
     const float(*positions)[3] = scene->positions.items;
     if (scene->indices.count == 0)
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: no triangles in it (%zu without area)", name,
+        return cs_fail(error, CLSHEAR_BAD_FILE,
+                       "%s: no triangles in it (%zu without area, or too large)", name,
                        scene->degenerate);
     for (int axis = 0; axis < 3; axis++) {
         scene->bounds[0][axis] = INFINITY;

@@ -6,6 +6,10 @@
 #include "base/status.h"
 #include "shared.h"
 
+enum {
+    CS_TEXTURE_NAME = 512
+};
+
 typedef struct cs_scene {
     cs_array positions;          /* float[3] a vertex */
     cs_array vertices;           /* cs_vertex; as many as positions */
@@ -15,6 +19,7 @@ typedef struct cs_scene {
     cs_array materials;          /* cs_material */
     cs_array textures;           /* cs_texture */
     cs_array texels;             /* uint16_t[4] */
+    cs_array texture_names;      /* char[CS_TEXTURE_NAME], of the textures: each is read once */
     cs_array lights;             /* cs_light */
     size_t degenerate;           /* triangles left out */
     float bounds[2][3];          /* low and high corner */
