@@ -183,6 +183,41 @@ static void area_light_over_a_plane(void **state)
     clshear_scene_free(scene);
 }
 
+/* A panel under the light keeps it from the floor below, and only from there. */
+static void shadows_fall(void **state)
+{
+    fixture *made = *state;
+    const float floor_y[12] = {-9, 0, -9, 9, 0, -9, 9, 0, 9, -9, 0, 9};
+    const float panel[12] = {-0.5f, 1, -0.5f, 0.5f, 1, -0.5f, 0.5f, 1, 0.5f, -0.5f, 1, 0.5f};
+    const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    clshear_mesh meshes[2] = {{.positions = floor_y,
+                               .indices = indices,
+                               .vertex_count = 4,
+                               .triangle_count = 2,
+                               .diffuse = {1, 1, 1}}};
+    meshes[1] = meshes[0];
+    meshes[1].positions = panel;
+    clshear_scene *scene = NULL;
+    test_ok(made->context, clshear_scene_create(made->context, meshes, 2, &scene));
+    const clshear_light light = {.vector = {0, 2, 0}, .colour = {1, 1, 1}};
+    test_ok(made->context, clshear_scene_add_light(scene, &light));
+    const float places[][2] = {{0.0f, 0.0f}, {0.9f, 0.0f}, {1.1f, 1.0f}, {3.0f, 1.0f}};
+    for (int k = 0; k < 4; k++) {
+        const float x = places[k][0];
+        const clshear_camera camera = {.eye = {x, 0.5f, 0},
+                                       .target = {x, 0, 0},
+                                       .up = {0, 0, 1},
+                                       .fov_deg = 1.0f,
+                                       .focal_distance = 0.5f};
+        clshear_film *film = render(made, scene, &camera, 2, CLSHEAR_SHEAR_EQUAL_AREA);
+        double square = (double)(x * x) + 4.0;
+        double lit = places[k][1] / pi * 2.0 / (square * sqrt(square));
+        assert_true(fabs(clshear_film_channel(film, "R")[0] - lit) < 0.01 * lit + 1e-6);
+        clshear_film_free(film);
+    }
+    clshear_scene_free(scene);
+}
+
 /* Nothing hides behind a thin wall, and surfaces do not shadow themselves: a plane lit at grazing
  * incidence far from the origin has neither black nor bright pixels. */
 static void no_acne_far_from_the_origin(void **state)
@@ -220,9 +255,8 @@ static void no_acne_far_from_the_origin(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(point_light_over_a_plane),
-        cmocka_unit_test(directional_light),
-        cmocka_unit_test(area_light_over_a_plane),
+        cmocka_unit_test(point_light_over_a_plane),    cmocka_unit_test(directional_light),
+        cmocka_unit_test(area_light_over_a_plane),     cmocka_unit_test(shadows_fall),
         cmocka_unit_test(no_acne_far_from_the_origin),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -241,6 +241,20 @@ static void streams_are_unrelated(void **state)
         assert_true(fabs(r[k]) / count * 12.0 < 0.05);
 }
 
+/* Each pair has a pattern of its own: no point of one is a point of the other. */
+static void pairs_have_their_own_patterns(void **state)
+{
+    (void)state;
+    const cs_grid grid = cs_grid_of(64);
+    const u32 key = cs_pattern_key(0, 1, 2);
+    for (u32 i = 0; i < grid.count; i++)
+        for (u32 j = 0; j < grid.count; j++) {
+            cs_pair lens = cs_draw_pair(&grid, key, CS_PAIR_LENS, i);
+            assert_true(lens.x != cs_draw_pair(&grid, key, CS_PAIR_FIBRE, j).x);
+            assert_true(lens.x != cs_draw_pair(&grid, key, CS_PAIR_EMITTER, j).x);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -253,6 +267,7 @@ int main(void)
         cmocka_unit_test(permutations_mix_pairs),
         cmocka_unit_test(single_samples_are_uniform),
         cmocka_unit_test(estimates_are_unbiased),
+        cmocka_unit_test(pairs_have_their_own_patterns),
         cmocka_unit_test(streams_are_unrelated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
