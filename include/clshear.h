@@ -8,8 +8,9 @@
  * left alone on failure. clshear_message() has the reason, in one line.
  * - Handles are freed by the matching _free, which accepts NULL. A scene and a film must be freed
  *   before their context.
- * - A handle may be used by one thread at a time. Contexts share nothing: two may live in one
- *   process and work at the same time.
+ * - A handle may be used by one thread at a time. Two contexts may live in one process and work at
+ *   the same time; load their scene files one after the other, or the messages of two bad files may
+ *   mix.
  * - Arrays passed in are copied. Nothing here prints, aborts or exits.
  * - World space is right-handed, in any unit. Raster coordinates start at the top left corner of
  *   the image. Radiance is linear Rec.709. */

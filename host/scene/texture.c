@@ -97,6 +97,8 @@ clshear_status cs_texture_add(cs_scene *scene, const struct aiScene *file, const
     clshear_status status = cs_image_read_texels(resolved, memory, size, &image, &reason);
     if (status != CLSHEAR_OK && strchr(resolved, '%') != NULL) {
         decode_percent(resolved);
+        *texture = known_texture(scene, resolved);
+        if (*texture != CS_NO_TEXTURE) return CLSHEAR_OK;
         status = cs_image_read_texels(resolved, memory, size, &image, &reason);
     }
     if (status != CLSHEAR_OK) {
