@@ -18,6 +18,7 @@
 #include "lens.h"
 #include "meshes.h"
 #include "oracle/oracle.h"
+#include "pattern/pattern.h"
 #include "scene/camera.h"
 #include "shear.h"
 
@@ -106,7 +107,7 @@ static void make_camera_rays(bench *state)
     float *depth = must_allocate(pixels * sizeof *depth);
     cs_accel_depth(state->accel, &frame, window, depth);
     cs_oracle_centre(&frame, depth, pixels, depth);
-    const cs_grid grid = cs_grid_of((u32)spp);
+    const cs_pattern pattern = cs_pattern_of(CS_SAMPLER_MJ, 0, (u32)spp);
     ray_planes *rays = &state->rays;
     rays->count = pixels * spp;
     rays->origins = must_allocate(3 * rays->count * sizeof(float));
@@ -115,9 +116,9 @@ static void make_camera_rays(bench *state)
     for (size_t i = 0; i < rays->count; i++) {
         u32 pixel = cs_tiled_pixel((u32)(i / spp), (u32)size, (u32)size), index = (u32)(i % spp);
         u32 key = cs_pattern_key(0, pixel, 0);
-        cs_pair film = cs_draw_pair(&grid, key, CS_PAIR_FIBRE, index);
-        cs_pair lens = cs_draw_pair(&grid, key, CS_PAIR_LENS, index);
-        cs_film_lens point = cs_shear(film.x, film.y, lens.x, lens.y, CS_SHEAR_EQUAL_AREA,
+        float tuple[CS_DIMENSIONS];
+        cs_draw(&pattern, NULL, key, index, 2, tuple);
+        cs_film_lens point = cs_shear(tuple[0], tuple[1], tuple[2], tuple[3], CS_SHEAR_EQUAL_AREA,
                                       frame.aperture, depth[pixel]);
         cs_ray ray = cs_lens_ray(frame, point.x + (float)(pixel % (u32)size),
                                  point.y + (float)(pixel / (u32)size), point.u, point.v);

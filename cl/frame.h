@@ -5,9 +5,13 @@
 #include "sampler/sampler.h"
 #include "shared.h"
 
+enum {
+    CS_POINT_VALUES = CS_DIMENSIONS + 4 /* that the points kernel writes for each sample */
+};
+
 typedef struct cs_frame {
     cs_camera camera;
-    cs_grid grid;
+    cs_pattern pattern;
     u32 seed;
     u32 replicate;
     u32 first_block; /* blocks of the pattern that this launch draws; a multiple of */
@@ -23,7 +27,7 @@ typedef struct cs_frame {
     u32 lights;
     u32 emitters;
 } cs_frame;
-CS_SHARED_WORDS(cs_frame, 49);
+CS_SHARED_WORDS(cs_frame, 55);
 
 /* Raster index (row by row) of the pixel that is number `order` in a walk through tiles of 8 x 8
  * pixels: neighbours in time are neighbours in both directions, and find their nodes in the cache.

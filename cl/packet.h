@@ -104,6 +104,11 @@ typedef union cs_int_lanes {
     i32 lane[CS_PACKET];
 } cs_int_lanes;
 
+typedef union cs_uint_lanes {
+    vuint all;
+    u32 lane[CS_PACKET];
+} cs_uint_lanes;
+
 /* Whether any lane of a mask is true. The narrowing form becomes one move-mask instruction where
  * any() becomes a chain of extracts. */
 static inline int cs_any(vint mask)

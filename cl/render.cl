@@ -12,41 +12,85 @@ typedef struct cs_place {
     f32 shear; /* of its tuples, pixels */
 } cs_place;
 
-/* Draws and traces the packet that begins at place `start` of the pixel's order; returns the lanes
- * in use: those before `end` that are samples of the pattern. */
-static inline vint cs_sample_packet(const cs_frame *frame, const cs_world *world,
-                                    const cs_place *place, u32 start, u32 end,
-                                    cs_radiance *radiance)
+/* Packets are drawn some ahead of their tracing. Their draws do not depend on each other and
+ * overlap in the processor; one by one they wait on their own latency. One lane keeps to registers.
+ */
+#if CS_PACKET == 1
+#define CS_AHEAD 1
+#else
+#define CS_AHEAD (CS_FLUSH_BLOCKS * CS_BLOCK / CS_PACKET)
+#endif
+
+/* A packet ready to be traced. */
+typedef struct cs_drawn {
+    vint active; /* lanes that are samples of the pattern */
+    cs_film_lens point;
+    cs_pair emitter;
+} cs_drawn;
+
+/* Draws the packet that begins at place `start` of the pixel's order, up to place `end`. */
+static inline void cs_draw_packet(const cs_frame *frame, cs_rows rows, const cs_place *place,
+                                  u32 start, u32 end, cs_drawn *drawn)
 {
+    vfloat tuple[CS_DIMENSIONS];
     vuint position = start + CS_LANE_INDEX;
     vint inside = position < end;
-    vuint index = cs_index_at(&frame->grid, place->key, inside ? position : (vuint)(start));
-    vint active = inside & (index < frame->grid.count);
+    vuint index = cs_index_at(&frame->pattern, place->key, inside ? position : (vuint)(start));
+    vint active = inside & (index < frame->pattern.grid.count);
     index = active ? index : (vuint)(0u);
-    cs_pair film = cs_draw_pair(&frame->grid, place->key, CS_PAIR_FIBRE, index);
-    cs_pair lens = cs_draw_pair(&frame->grid, place->key, CS_PAIR_LENS, index);
-    cs_pair emitter = film;
-    if (frame->emitters > 0u)
-        emitter = cs_draw_pair(&frame->grid, place->key, CS_PAIR_EMITTER, index);
-    cs_film_lens point = cs_shear(film.x, film.y, lens.x, lens.y, frame->shear_mode,
-                                  frame->camera.aperture, place->shear);
+    tuple[4] = (vfloat)(0.0f);
+    tuple[5] = (vfloat)(0.0f);
+    cs_draw(&frame->pattern, rows, place->key, index, frame->emitters > 0u ? 3u : 2u, tuple);
+    drawn->active = active;
+    drawn->point = cs_shear(tuple[0], tuple[1], tuple[2], tuple[3], frame->shear_mode,
+                            frame->camera.aperture, place->shear);
+    drawn->emitter.x = tuple[4];
+    drawn->emitter.y = tuple[5];
+}
+
+static inline void cs_trace_packet(const cs_frame *frame, const cs_world *world,
+                                   const cs_place *place, const cs_drawn *drawn,
+                                   cs_radiance *radiance)
+{
+    cs_film_lens point = drawn->point;
     cs_ray ray = cs_lens_ray(frame->camera, point.x + (f32)place->x, point.y + (f32)place->y,
                              point.u, point.v);
-    *radiance = cs_radiance_along(world, frame->lights, frame->emitters, &ray, emitter, active);
-    return active;
+    *radiance = cs_radiance_along(world, frame->lights, frame->emitters, &ray, drawn->emitter,
+                                  drawn->active);
+}
+
+/* Samples at places `start` to `end` of the pixel's order, gathered. */
+static inline void cs_sample(const cs_frame *frame, const cs_world *world, cs_rows rows,
+                             const cs_place *place, u32 start, u32 end, cs_gather *gather)
+{
+    cs_drawn drawn[CS_AHEAD];
+    int first = 1;
+    for (; start < end; start += (u32)(CS_AHEAD * CS_PACKET)) {
+        u32 packets = 0u;
+        for (u32 at = start; packets < (u32)CS_AHEAD && at < end; at += (u32)CS_PACKET)
+            cs_draw_packet(frame, rows, place, at, end, &drawn[packets++]);
+        for (u32 packet = 0u; packet < packets; packet++) {
+            cs_radiance radiance;
+            cs_trace_packet(frame, world, place, &drawn[packet], &radiance);
+            cs_gather_add(gather, radiance.channel, radiance.shadow_rays, drawn[packet].active,
+                          first);
+            first = 0;
+        }
+    }
 }
 
 /* One work-item draws blocks [first_block, last_block) of one pixel's pattern.
  *
  * Global size: at least frame.pixel_count; any local size. pixels: one cs_pixel for each pixel of
- * the crop, zero at first. shears: the oracle's answer for each pixel of the crop, in pixels. The
- * others: the scene, see cs_world. */
+ * the crop, zero at first. shears: the oracle's answer for each pixel of the crop, in pixels.
+ * rows: the pattern's table. The others: the scene, see cs_world. */
 __kernel void cs_render(const cs_frame frame, __global cs_pixel *pixels,
-                        __global const float *shears, __global const cs_node *nodes,
-                        __global const cs_triangle *triangles, __global const cs_face *faces,
-                        __global const cs_vertex *vertices, __global const cs_material *materials,
-                        __global const cs_texture *textures, __global const half *texels,
-                        __global const cs_light *lights, __global const cs_emitter *emitters)
+                        __global const float *shears, __global const uint *rows,
+                        __global const cs_node *nodes, __global const cs_triangle *triangles,
+                        __global const cs_face *faces, __global const cs_vertex *vertices,
+                        __global const cs_material *materials, __global const cs_texture *textures,
+                        __global const half *texels, __global const cs_light *lights,
+                        __global const cs_emitter *emitters)
 {
     if (get_global_id(0) >= frame.pixel_count) return;
     const cs_world world = {nodes,    triangles, faces,  vertices, materials,
@@ -63,14 +107,8 @@ __kernel void cs_render(const cs_frame frame, __global cs_pixel *pixels,
     for (u32 block = frame.first_block; block < frame.last_block; block += CS_FLUSH_BLOCKS) {
         u32 end = min(block + (u32)CS_FLUSH_BLOCKS, frame.last_block) * (u32)CS_BLOCK;
         cs_gather gather;
-        int first = 1;
-        for (u32 start = block * (u32)CS_BLOCK; start < end; start += (u32)CS_PACKET) {
-            cs_radiance radiance;
-            vint active = cs_sample_packet(&frame, &world, &place, start, end, &radiance);
-            cs_gather_add(&gather, radiance.channel, radiance.shadow_rays, active, first);
-            first = 0;
-        }
+        cs_sample(&frame, &world, rows, &place, block * (u32)CS_BLOCK, end, &gather);
         cs_merge_gather(pixel, &gather);
     }
-    if (frame.last_block == frame.grid.blocks) cs_finish_pattern(pixel);
+    if (frame.last_block == frame.pattern.blocks) cs_finish_pattern(pixel);
 }

@@ -4,6 +4,7 @@ set(floor_include 0)
 set(floor_cl 1)
 set(floor_host/base 2)
 set(floor_host/image 3)
+set(floor_host/pattern 4)
 set(floor_host/scene 4)
 set(floor_host/film 4)
 set(floor_host/device 4)
@@ -14,9 +15,10 @@ set(floor_host/cli 7)
 
 # Inside cl/, file by file.
 set(kernel_floors
-    dialect.h 0 shared.h 1 packet.h 1 stats.h 2 hash.h 2 disk.h 2 disk_fibre.h 3 sampler/multijitter.h 3
-    sampler/sampler.h 4 shear.h 4 lens.h 4 frame.h 5 traverse.h 5 shade.h 6 gather.h 3
-    render.cl 7 trace.cl 7 points.cl 7)
+    dialect.h 0 shared.h 1 packet.h 1 stats.h 2 hash.h 2 disk.h 2 disk_fibre.h 3 
+    sampler/list.h 2 sampler/grid.h 3 sampler/pattern.h 4 sampler/jitter.h 5 sampler/multijitter.h 5
+    sampler/net.h 5 sampler/halton.h 6 sampler/shifted.h 5 sampler/sampler.h 7 shear.h 4 lens.h 4 frame.h 8 traverse.h 5 shade.h 6 gather.h 3
+    render.cl 9 trace.cl 9 points.cl 9)
 while(kernel_floors)
     list(POP_FRONT kernel_floors name number)
     set("kernel_${name}" ${number})

@@ -177,6 +177,20 @@ CLSHEAR_API clshear_status clshear_camera_complete(const clshear_scene *scene, i
 CLSHEAR_API float clshear_lens_radius(const clshear_camera *camera, float f_stop, float unit_m);
 
 /* ------------------------------------------------------------------------------------------------
+ * Samplers
+ * --------------------------------------------------------------------------------------------- */
+
+typedef struct clshear_sampler_info {
+    const char *name;
+    const char *about; /* a line of text */
+    int progressive;   /* the first samples of a pattern do not depend on how many follow */
+    int is_default;
+} clshear_sampler_info;
+
+/* Sampler number `index`, from 0; returns 0 past the last one. */
+CLSHEAR_API int clshear_sampler_describe(size_t index, clshear_sampler_info *info);
+
+/* ------------------------------------------------------------------------------------------------
  * Render
  * --------------------------------------------------------------------------------------------- */
 
@@ -200,6 +214,7 @@ typedef struct clshear_options {
     uint32_t replicates; /* independent patterns per pixel, each of spp / replicates samples; two or
                             more give the variance of the result; 0: 2, or 1 for one sample */
     uint32_t seed;
+    const char *sampler; /* a name from clshear_sampler_describe; NULL: the default */
     clshear_shear shear;
     int (*progress)(void *user, const clshear_progress *progress); /* not 0: stop; may be NULL */
     void *progress_user;

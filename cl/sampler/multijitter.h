@@ -1,165 +1,24 @@
-/* Multi-jittered pairs of any count (Chiu, Shirley & Wang 1994), uncorrelated. Shared.
+/* Multi-jittered pairs of any count. Shared.
  *
- * A pattern of N points lies on a grid of `columns` columns; rows are bands of `columns` strata of
- * height 1/N. With N = columns * rows this is the classic construction: one point in each cell, one
- * in each of the N strata of x and of y, with an independent permutation for every column and every
- * row. For other N, the last row is partial: its `extra` points go to columns spread evenly, which
- * are one stratum wider. Unequal columns alone would weight x unevenly, so the strata of x are then
- * rotated by a random number of strata: every estimate stays unbiased and every 1D stratum
- * still holds exactly one point. */
+ * With N = columns * rows: one point in each cell of the grid, one in each of the N strata of x and
+ * of y. `mj` has an independent permutation for every column and every row (Chiu, Shirley & Wang
+ * 1994), `cmj` one for all columns and one for all rows (Kensler 2013). For other N, unequal
+ * columns alone would weight x unevenly, so the strata of x are then rotated by a random number of
+ * strata: every estimate stays unbiased and every 1D stratum still holds exactly one point.
+ *
+ * `oa` is `mj` with the second pair's cell chosen by an orthogonal array instead of at random: with
+ * N = q^2 runs of levels (i, j, i + j, i + a j) of the field of q elements, every two coordinates
+ * have one point in each of q x q cells (Bose 1938; Jarosz et al. 2019, section 4). */
 #ifndef CS_MULTIJITTER_H
 #define CS_MULTIJITTER_H
 
-#include "hash.h"
-#include "packet.h"
-#include "shared.h"
+#include "pattern.h"
 
-/* The grid of a pattern: everything about N that need not be computed for each sample. */
-typedef struct cs_grid {
-    u32 count; /* N, 1 .. CS_MAX_PATTERN */
-    u32 columns;
-    u32 rows;  /* full rows */
-    u32 extra; /* points in the partial row: count - columns * rows */
-    u32 blocks;
-    u32 jitter_shift;
-    f32 jitter_scale;
-    f32 inverse_count;
-    f32 inverse_columns;
-    cs_domain count_domain;
-    cs_domain column_domain;
-    cs_domain row_domain;
-    cs_domain block_domain;
-} cs_grid;
-CS_SHARED_WORDS(cs_grid, 17);
-
-/* Columns of the grid for `count` points: the largest divisor up to the square root, unless there
- * would be more than 4 rows a column; else the rounded root itself. */
-static inline u32 cs_grid_columns(u32 count)
+/* The point of `cell`, in [0, 1)^2, of the pair named by `key`. */
+static inline cs_pair cs_multijitter(const cs_grid *grid, cs_cell cell, u32 key, int correlated)
 {
-    u32 root = 1u;
-    while ((root + 1u) * (root + 1u) <= count)
-        root++;
-    for (u32 columns = root; 4u * columns * columns >= count; columns--)
-        if (count % columns == 0u) return columns;
-    return root * (root + 1u) < count ? root + 1u : root;
-}
-
-static inline cs_grid cs_grid_of(u32 count)
-{
-    cs_grid grid;
-    grid.count = count;
-    grid.columns = cs_grid_columns(count);
-    grid.rows = count / grid.columns;
-    grid.extra = count % grid.columns;
-    grid.blocks = (count + CS_BLOCK - 1u) / CS_BLOCK;
-    grid.inverse_count = 1.0f / (f32)count;
-    grid.inverse_columns = 1.0f / (f32)grid.columns;
-    grid.count_domain = cs_domain_of(count);
-    grid.column_domain = cs_domain_of(grid.columns);
-    grid.row_domain = cs_domain_of(grid.extra > 0u ? grid.rows + 1u : grid.rows);
-    grid.block_domain = cs_domain_of(grid.blocks);
-    /* Jitter has so few bits that stratum + jitter is exact in a float, and the quotient by N stays
-     * clear of the next stratum by two ulps: 21 bits for both together. */
-    u32 bits = 0u;
-    while ((1u << bits) < count)
-        bits++;
-    u32 jitter_bits = bits > 5u ? 21u - bits : 16u;
-    grid.jitter_shift = 16u - jitter_bits;
-    grid.jitter_scale = 1.0f / (f32)(1u << jitter_bits);
-    return grid;
-}
-
-/* a / divisor for a below 2^24, rounded down; `inverse` = 1 / divisor. */
-static inline vuint cs_divide(vuint a, u32 divisor, f32 inverse)
-{
-    vuint quotient = cs_to_vuint(cs_to_vfloat(a) * inverse);
-    vint rest = cs_as_vint(a - quotient * divisor);
-    quotient = rest < 0 ? quotient - 1u : quotient;
-    return rest >= (i32)divisor ? quotient + 1u : quotient;
-}
-
-typedef struct cs_cell {
-    vuint column;
-    vuint row;
-} cs_cell;
-
-/* The partial row's point number e lies in the column where floor(column * extra / columns) steps
- * from e to e + 1. */
-static inline cs_cell cs_partial_row_cell(const cs_grid *grid, vuint point)
-{
-    cs_cell cell;
-    u32 extra = grid->extra > 0u ? grid->extra : 1u;
-    cell.column = cs_divide((point + 1u) * grid->columns - 1u, extra, 1.0f / (f32)extra);
-    cell.row = (vuint)(grid->rows);
-    return cell;
-}
-
-/* Cell number `index` in row-major order. */
-static inline cs_cell cs_cell_of(const cs_grid *grid, vuint index)
-{
-    cs_cell cell;
-    cell.row = cs_divide(index, grid->columns, grid->inverse_columns);
-    cell.column = index - cell.row * grid->columns;
-    if (grid->extra == 0u) return cell;
-    u32 full = grid->rows * grid->columns;
-    cs_cell partial = cs_partial_row_cell(grid, index >= full ? index - full : (vuint)(0u));
-    cell.column = index >= full ? partial.column : cell.column;
-    cell.row = index >= full ? partial.row : cell.row;
-    return cell;
-}
-
-/* Cell number `index` in an order that keeps CS_BLOCK consecutive indices in a block of 4 x 2 cells
- * wherever the grid allows: neighbours on the film and on the lens, so that a packet of them traces
- * coherently. Pairs of rows are cut into blocks; what is left of a pair is a narrower block, what
- * is left of the rows is in row-major order. */
-static inline cs_cell cs_cell_in_block_order(const cs_grid *grid, vuint index)
-{
-    u32 pair = 2u * grid->columns;
-    u32 paired = grid->rows / 2u * pair;
-    u32 tail = grid->columns % 4u;
-    u32 blocked = pair - 2u * tail;
-    vuint pair_row = cs_divide(index, pair, 0.5f * grid->inverse_columns);
-    vuint rest = index - pair_row * pair;
-    vuint within = rest & 7u;
-    cs_cell cell;
-    cell.column = (rest >> 3) * 4u + (within & 3u);
-    cell.row = 2u * pair_row + (within >> 2);
-    if (tail != 0u) {
-        vuint narrow = rest >= blocked ? rest - blocked : (vuint)(0u);
-        vuint narrow_row = narrow >= tail ? (vuint)(1u) : (vuint)(0u);
-        cell.column =
-            rest >= blocked ? grid->columns - tail + narrow - narrow_row * tail : cell.column;
-        cell.row = rest >= blocked ? 2u * pair_row + narrow_row : cell.row;
-    }
-    if (paired == grid->count) return cell;
-    cs_cell last = cs_cell_of(grid, index);
-    cell.column = index >= paired ? last.column : cell.column;
-    cell.row = index >= paired ? last.row : cell.row;
-    return cell;
-}
-
-/* Strata before `column`, beyond `rows` for each: floor(column * extra / columns). */
-static inline vuint cs_extra_before(const cs_grid *grid, vuint column)
-{
-    return cs_divide(column * grid->extra, grid->columns, grid->inverse_columns);
-}
-
-typedef struct cs_pair {
-    vfloat x;
-    vfloat y;
-} cs_pair;
-
-static inline vfloat cs_in_stratum(const cs_grid *grid, vuint stratum, vuint bits16)
-{
-    vfloat jitter = (cs_to_vfloat(bits16 >> grid->jitter_shift) + 0.5f) * grid->jitter_scale;
-    return (cs_to_vfloat(stratum) + jitter) * grid->inverse_count;
-}
-
-/* The point of `cell`, in [0, 1)^2, of the pattern named by `key`. */
-static inline cs_pair cs_multijitter(const cs_grid *grid, cs_cell cell, u32 key)
-{
-    vuint column_key = cs_key_lanes(key, 2u * cell.column);
-    vuint row_key = cs_key_lanes(key, 2u * cell.row + 1u);
+    vuint column_key = correlated ? (vuint)(cs_key(key, 0u)) : cs_key_lanes(key, 2u * cell.column);
+    vuint row_key = correlated ? (vuint)(cs_key(key, 1u)) : cs_key_lanes(key, 2u * cell.row + 1u);
     vuint column_rank = cell.column;
     vuint row_size = (vuint)(grid->columns);
     vuint column_size = (vuint)(grid->rows);
@@ -175,11 +34,76 @@ static inline cs_pair cs_multijitter(const cs_grid *grid, cs_cell cell, u32 key)
     x_stratum = x_stratum >= grid->count ? x_stratum - grid->count : x_stratum;
     vuint y_stratum =
         cell.row * grid->columns + cs_permute(column_rank, row_size, grid->column_domain, row_key);
-    vuint jitter = cs_hash_lanes(column_key ^ (row_key << 1));
+    vuint jitter = cs_key_lanes(~key, x_stratum);
     cs_pair point;
     point.x = cs_in_stratum(grid, x_stratum, jitter >> 16);
     point.y = cs_in_stratum(grid, y_stratum, jitter & 0xffffu);
     return point;
+}
+
+/* The cell of the second pair that the orthogonal array gives to a sample, its levels permuted. The
+ * first pair's levels need no permutation: that of the others makes every combination of levels
+ * equally likely. */
+static inline cs_cell cs_array_cell(const cs_pattern *pattern, cs_rows rows, u32 key, vuint index)
+{
+    const cs_grid *grid = &pattern->grid;
+    vuint levels = cs_row(pattern, rows, 0u, index);
+    vuint size = (vuint)(grid->columns);
+    cs_cell cell;
+    cell.column = cs_permute(levels >> 16, size, grid->column_domain,
+                             (vuint)(cs_key(key, CS_KEY_DIMENSION + 2)));
+    cell.row = cs_permute(levels & 0xffffu, size, grid->column_domain,
+                          (vuint)(cs_key(key, CS_KEY_DIMENSION + 3)));
+    return cell;
+}
+
+static inline void cs_draw_multijitter(const cs_pattern *pattern, cs_rows rows, u32 key,
+                                       vuint index, u32 pairs, vfloat *tuple)
+{
+    const cs_grid *grid = &pattern->grid;
+    int correlated = pattern->sampler == CS_SAMPLER_CMJ;
+    for (u32 pair = 0u; pair < pairs; pair++) {
+        cs_cell cell;
+        if (pair == CS_PAIR_FIBRE)
+            cell = cs_cell_in_block_order(grid, index);
+        else if (pair == CS_PAIR_LENS && pattern->sampler == CS_SAMPLER_OA)
+            cell = cs_array_cell(pattern, rows, key, index);
+        else
+            cell = cs_cell_of(grid, cs_partner(pattern, key, pair, index));
+        cs_pair point = cs_multijitter(grid, cell, cs_key(key, CS_KEY_PAIR + pair), correlated);
+        tuple[2u * pair] = point.x;
+        tuple[2u * pair + 1u] = point.y;
+    }
+}
+
+/* A value in one of N = q^3 strata: those of level `word >> 16`, in a random order within the
+ * level; `word & 0xffff` numbers the samples of a level. */
+static inline vfloat cs_ranked(const cs_grid *grid, vuint word, u32 key, int permuted)
+{
+    vuint level = word >> 16;
+    vuint rank =
+        cs_permute(word & 0xffffu, (vuint)(grid->rows), grid->row_domain, cs_key_lanes(key, level));
+    if (permuted)
+        level =
+            cs_permute(level, (vuint)(grid->columns), grid->column_domain, (vuint)(cs_hash(key)));
+    vuint stratum = level * grid->rows + rank;
+    return cs_in_stratum(grid, stratum, cs_key_lanes(~key, stratum) >> 16);
+}
+
+/* Orthogonal array of strength 3, N = q^3: every three coordinates have one point in each of q^3
+ * cells (Bush 1952; Jarosz et al. 2019, section 4.2). The pair of the light is multi-jittered. */
+static inline void cs_draw_strong_array(const cs_pattern *pattern, cs_rows rows, u32 key,
+                                        vuint index, u32 pairs, vfloat *tuple)
+{
+    for (u32 d = 0u; d < 4u; d++)
+        tuple[d] = cs_ranked(&pattern->grid, cs_row(pattern, rows, d, index),
+                             cs_key(key, CS_KEY_DIMENSION + d), d >= 2u);
+    if (pairs <= CS_PAIR_EMITTER) return;
+    cs_cell cell = cs_cell_of(&pattern->grid, cs_partner(pattern, key, CS_PAIR_EMITTER, index));
+    cs_pair point =
+        cs_multijitter(&pattern->grid, cell, cs_key(key, CS_KEY_PAIR + CS_PAIR_EMITTER), 0);
+    tuple[4] = point.x;
+    tuple[5] = point.y;
 }
 
 #endif

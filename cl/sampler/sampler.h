@@ -5,20 +5,11 @@
 #ifndef CS_SAMPLER_H
 #define CS_SAMPLER_H
 
+#include "halton.h"
+#include "jitter.h"
 #include "multijitter.h"
-
-/* What the parts of a pattern's random choices are keyed by. */
-enum {
-    CS_KEY_ORDER = 0,   /* the order of its blocks */
-    CS_KEY_PAIRING = 1, /* + pair: which cell of a pair goes with which sample */
-    CS_KEY_PAIR = 8     /* + pair: the strata of a pair */
-};
-
-enum {
-    CS_PAIR_FIBRE = 0, /* film; after an equal-area shear, the position across the fibres */
-    CS_PAIR_LENS = 1,  /* lens; after an equal-area shear, the position along the fibres */
-    CS_PAIR_EMITTER = 2
-};
+#include "net.h"
+#include "shifted.h"
 
 static inline u32 cs_pattern_key(u32 seed, u32 pixel, u32 replicate)
 {
@@ -27,25 +18,30 @@ static inline u32 cs_pattern_key(u32 seed, u32 pixel, u32 replicate)
 
 /* Index of the sample at place `position` in the order in which a pixel draws its pattern: blocks
  * in random order, so that the samples drawn first are an unbiased choice from the pattern and an
- * interrupted render is unbiased too. Positions run to CS_BLOCK * grid->blocks; an index of
- * grid->count or more is no sample. */
-static inline vuint cs_index_at(const cs_grid *grid, u32 pattern_key, vuint position)
+ * interrupted render is unbiased too. Positions run to CS_BLOCK * blocks; an index of grid.count or
+ * more is no sample. */
+static inline vuint cs_index_at(const cs_pattern *pattern, u32 key, vuint position)
 {
-    vuint block = cs_permute(position / (u32)CS_BLOCK, (vuint)(grid->blocks), grid->block_domain,
-                             (vuint)(cs_key(pattern_key, CS_KEY_ORDER)));
+    vuint block = cs_permute(position / (u32)CS_BLOCK, (vuint)(pattern->blocks),
+                             pattern->block_domain, (vuint)(cs_key(key, CS_KEY_ORDER)));
     return block * (u32)CS_BLOCK + position % (u32)CS_BLOCK;
 }
 
-/* Pair number `pair` of sample `index` < grid->count, in [0, 1)^2. The first pair's cells are
- * enumerated in blocks; the others are paired with it at random. */
-static inline cs_pair cs_draw_pair(const cs_grid *grid, u32 pattern_key, u32 pair, vuint index)
+/* The first `pairs` (2 or 3) pairs of coordinates, in [0, 1), of sample `index` < grid.count of the
+ * pattern named by `key`. Samples are numbered so that those of a block of CS_BLOCK are neighbours
+ * in the first pair wherever the sampler allows. In a packet of several lanes, lanes 0 to 7 and 8
+ * to 15 must have consecutive indices each; those that are no sample may have index 0. */
+static inline void cs_draw(const cs_pattern *pattern, cs_rows rows, u32 key, vuint index, u32 pairs,
+                           vfloat *tuple)
 {
-    u32 key = cs_key(pattern_key, CS_KEY_PAIR + pair);
-    if (pair == CS_PAIR_FIBRE)
-        return cs_multijitter(grid, cs_cell_in_block_order(grid, index), key);
-    vuint partner = cs_permute(index, (vuint)(grid->count), grid->count_domain,
-                               (vuint)(cs_key(pattern_key, CS_KEY_PAIRING + pair)));
-    return cs_multijitter(grid, cs_cell_of(grid, partner), key);
+#define CS_SAMPLER_CASE(identifier, name, draw, counts, rows_of, progressive, about) \
+    case CS_SAMPLER_##identifier:                                                    \
+        cs_draw_##draw(pattern, rows, key, index, pairs, tuple);                     \
+        break;
+    switch (pattern->sampler) {
+        CS_SAMPLER_LIST(CS_SAMPLER_CASE)
+    }
+#undef CS_SAMPLER_CASE
 }
 
 #endif

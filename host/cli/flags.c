@@ -96,6 +96,15 @@ static const char *store_shear(cli_job *job, const char *value)
     return NULL;
 }
 
+static const char *store_sampler(cli_job *job, const char *value)
+{
+    clshear_sampler_info info;
+    job->options.sampler = value;
+    for (size_t i = 0; clshear_sampler_describe(i, &info); i++)
+        if (strcmp(value, info.name) == 0) return NULL;
+    return "a name from --list-samplers";
+}
+
 static const char *store_width(cli_job *job, const char *value)
 {
     return read_ints(value, 1, 1, 65536, &job->options.width) ? NULL : "a whole number, 1 to 65536";
@@ -256,6 +265,7 @@ const cli_flag cli_flags[] = {
     {"spp samples", "N", "samples per pixel (256)", store_spp},
     {"replicates", "R", "independent patterns of spp/R samples (2)", store_replicates},
     {"seed", "N", "another seed, another noise (0)", store_seed},
+    {"sampler", "NAME", "see --list-samplers", store_sampler},
     {"shear", "KIND", "equal-area, toroidal or none (equal-area)", store_shear},
     {"width", "PX", "image width (512)", store_width},
     {"height", "PX", "image height (512)", store_height},

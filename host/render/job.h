@@ -11,8 +11,9 @@ typedef struct cs_job {
     clshear_options options;
     clshear_camera lens; /* as the caller gave it */
     cs_camera camera;
-    cs_grid grid;
-    int window[4]; /* x0, x1, y0, y1 */
+    cs_pattern pattern;
+    const cs_buffer *rows; /* the pattern's table; of the context */
+    int window[4];         /* x0, x1, y0, y1 */
     size_t pixel_count;
     float *depth;
     float *shear_px;
@@ -21,6 +22,9 @@ typedef struct cs_job {
     double prepass_s;
     double kernel_s;
 } cs_job;
+
+/* Checks the options and the lens, and chooses window and pattern. */
+clshear_status cs_job_check(cs_job *job, cs_error *error);
 
 /* Runs all passes. Each launch takes a fraction of a second, so that progress, cancelling and GPU
  * watchdogs work; how the work is cut into launches does not change the result. */

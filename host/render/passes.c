@@ -14,10 +14,13 @@ typedef struct cs_clockwork {
 static clshear_status launch(cs_job *job, const cs_frame *frame, cs_error *error)
 {
     enum {
-        BEFORE_WORLD = 3
+        BEFORE_WORLD = 4
     };
     cs_argument arguments[BEFORE_WORLD + CS_WORLD_BUFFERS] = {
-        {.value = frame, .size = sizeof *frame}, {.buffer = job->pixels}, {.buffer = job->shears}};
+        {.value = frame, .size = sizeof *frame},
+        {.buffer = job->pixels},
+        {.buffer = job->shears},
+        {.buffer = job->rows}};
     for (int i = 0; i < CS_WORLD_BUFFERS; i++)
         arguments[BEFORE_WORLD + i].buffer = job->scene->world.buffers[i];
     return cs_device_run(job->scene->context->device, CS_KERNEL_RENDER, frame->pixel_count,
@@ -33,7 +36,7 @@ static clshear_status timed_launch(cs_job *job, const cs_frame *frame, cs_clockw
     if (status != CLSHEAR_OK) return status;
     const double now_s = cs_now_s(), took_s = now_s - before_s + 1e-6;
     uint32_t last = frame->last_block * CS_BLOCK;
-    if (last > frame->grid.count) last = frame->grid.count;
+    if (last > frame->pattern.grid.count) last = frame->pattern.grid.count;
     const double samples =
         (double)(last - frame->first_block * CS_BLOCK) * (double)frame->pixel_count;
     job->kernel_s += took_s;
@@ -89,10 +92,10 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
     const cs_device_world *world = &job->scene->world;
     const uint32_t patterns = job->options.replicates;
     cs_clockwork clockwork = {.start_s = cs_now_s(), .rate = 1e5};
-    clockwork.total = (double)job->pixel_count * job->grid.count * patterns;
+    clockwork.total = (double)job->pixel_count * job->pattern.grid.count * patterns;
     cs_frame frame = {
         .camera = job->camera,
-        .grid = job->grid,
+        .pattern = job->pattern,
         .seed = job->options.seed,
         .image_width = (uint32_t)job->options.width,
         .crop_x = (uint32_t)job->window[0],
@@ -104,9 +107,10 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
         .emitters = world->emitters,
     };
     for (frame.replicate = 0; frame.replicate < patterns; frame.replicate++) {
-        for (uint32_t block = 0; block < job->grid.blocks; block = frame.last_block) {
+        for (uint32_t block = 0; block < job->pattern.blocks; block = frame.last_block) {
             frame.first_block = block;
-            frame.last_block = block + blocks_of_sweep(job, &clockwork, job->grid.blocks - block);
+            frame.last_block =
+                block + blocks_of_sweep(job, &clockwork, job->pattern.blocks - block);
             clshear_status status = sweep_pixels(job, &frame, &clockwork, error);
             if (status != CLSHEAR_OK) return status;
         }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "render/job.h"
+#include "pattern/pattern.h"
 
 enum {
     SLICE = 1 << 16 /* pixels read back at once */
@@ -84,7 +85,7 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
         CS_TRY(cs_buffer_read(job->pixels, first * sizeof *slice, count * sizeof *slice, slice,
                               error));
         for (size_t i = 0; i < count; i++) {
-            resolve_pixel(&slice[i], job->grid.count, first + i, all);
+            resolve_pixel(&slice[i], job->pattern.grid.count, first + i, all);
             film->info.samples += slice[i].samples;
             film->info.shadow_rays += slice[i].shadow_rays;
             if (slice[i].patterns < fewest) fewest = slice[i].patterns;
@@ -125,7 +126,7 @@ static clshear_status describe(const cs_job *job, clshear_film *film)
     CS_TRY(clshear_film_annotate(film, "Software", "clshear " CLSHEAR_VERSION));
     CS_TRY(clshear_film_annotate(film, "clshear.version", CLSHEAR_VERSION));
     CS_TRY(clshear_film_annotate(film, "clshear.seed", seed));
-    CS_TRY(clshear_film_annotate(film, "clshear.sampler", "mj"));
+    CS_TRY(clshear_film_annotate(film, "clshear.sampler", cs_sampler_name(job->pattern.sampler)));
     CS_TRY(clshear_film_annotate(film, "clshear.shear", shears[job->options.shear]));
     CS_TRY(clshear_film_annotate(film, "clshear.device", clshear_device_name(context)));
     CS_TRY(clshear_film_annotate(film, "clshear.driver", clshear_driver_name(context)));
@@ -135,7 +136,7 @@ static clshear_status describe(const cs_job *job, clshear_film *film)
     CS_TRY(cs_film_set_int(film, "clshear.replicates", (int32_t)job->options.replicates));
     CS_TRY(cs_film_set_int(film, "clshear.packet", cs_device_packet(context->device)));
     CS_TRY(cs_film_set_int(film, "samplesPerPixel",
-                           (int32_t)(job->options.replicates * job->grid.count)));
+                           (int32_t)(job->options.replicates * job->pattern.grid.count)));
     CS_TRY(cs_film_set_float(film, "clshear.focalDistance", job->camera.focal_distance));
     CS_TRY(cs_film_set_float(film, "clshear.lensRadius", job->lens.lens_radius));
     CS_TRY(cs_film_set_float(film, "clshear.fov", job->lens.fov_deg));

@@ -1,0 +1,65 @@
+/* The scrambled Halton sequence. Shared. */
+#ifndef CS_HALTON_H
+#define CS_HALTON_H
+
+#include "net.h"
+
+/* Digits of the bases 3, 5 and 7 that number CS_MAX_PATTERN elements, and bits for each in a row.
+ */
+enum {
+    CS_HALTON_DIGITS3 = 13,
+    CS_HALTON_DIGITS5 = 9,
+    CS_HALTON_DIGITS7 = 8,
+    CS_HALTON_BITS3 = 2,
+    CS_HALTON_BITS5 = 3,
+    CS_HALTON_BITS7 = 3
+};
+
+/* One coordinate: digits d of a row, first ones lowest, become a d + c modulo the base, with a and
+ * c chosen for each place. An affine map of a prime field takes two different digits to every pair
+ * of different digits equally often, which is all that variance sees of a random permutation. The
+ * digits from `used` on are zero in every element of the pattern and are permuted alike. */
+static inline vfloat cs_halton_axis(vuint digits, u32 key, u32 base, u32 bits, u32 used, u32 all)
+{
+    const u32 mask = (1u << bits) - 1u;
+    const u32 inverse = (255u + base) / base; /* exact quotients up to (base - 1) * base */
+    vuint value = (vuint)(0u);
+    u32 tail = 0u, scale = 1u, full = 1u;
+    for (u32 place = 0u; place < all; place++) {
+        u32 random = cs_key(key, place);
+        u32 shift = ((random >> 16) * base) >> 16;
+        full *= base;
+        if (place >= used) {
+            tail = tail * base + shift;
+            scale *= base;
+            continue;
+        }
+        u32 factor = 1u + (((random & 0xffffu) * (base - 1u)) >> 16);
+        vuint digit = ((digits >> (bits * place)) & mask) * factor + shift;
+        digit -= base * ((digit * inverse) >> 8);
+        value = value * base + digit;
+    }
+    return (cs_to_vfloat(value * scale + tail) + 0.5f) * (1.0f / (f32)full);
+}
+
+/* Film by bases 2 and 3, lens by 5 and 7. The light gets the first pair of another element. */
+static inline void cs_draw_halton(const cs_pattern *pattern, cs_rows rows, u32 key, vuint index,
+                                  u32 pairs, vfloat *tuple)
+{
+    const u32 *used = pattern->shape;
+    tuple[0] = cs_scrambled(cs_row(pattern, rows, 0u, index), key, 0u);
+    tuple[1] = cs_halton_axis(cs_row(pattern, rows, 1u, index), cs_key(key, CS_KEY_DIMENSION + 1),
+                              3u, CS_HALTON_BITS3, used[1], CS_HALTON_DIGITS3);
+    tuple[2] = cs_halton_axis(cs_row(pattern, rows, 2u, index), cs_key(key, CS_KEY_DIMENSION + 2),
+                              5u, CS_HALTON_BITS5, used[2], CS_HALTON_DIGITS5);
+    tuple[3] = cs_halton_axis(cs_row(pattern, rows, 3u, index), cs_key(key, CS_KEY_DIMENSION + 3),
+                              7u, CS_HALTON_BITS7, used[3], CS_HALTON_DIGITS7);
+    if (pairs <= CS_PAIR_EMITTER) return;
+    vuint partner = cs_partner(pattern, key, CS_PAIR_EMITTER, index);
+    tuple[4] = cs_scrambled(cs_row_anywhere(pattern, rows, 0u, partner), key, 4u);
+    tuple[5] = cs_halton_axis(cs_row_anywhere(pattern, rows, 1u, partner),
+                              cs_key(key, CS_KEY_DIMENSION + 5), 3u, CS_HALTON_BITS3, used[1],
+                              CS_HALTON_DIGITS3);
+}
+
+#endif

@@ -1,0 +1,79 @@
+/* Patterns with one random point in each stratum: 1D, 2D and 4D strata, and none. Shared. */
+#ifndef CS_JITTER_H
+#define CS_JITTER_H
+
+#include "pattern.h"
+
+/* Independent points. Element numbers, not sample numbers: the sequence can go on. */
+static inline void cs_draw_random(const cs_pattern *pattern, cs_rows rows, u32 key, vuint index,
+                                  u32 pairs, vfloat *tuple)
+{
+    (void)rows;
+    for (u32 d = 0u; d < 2u * pairs; d++)
+        tuple[d] = cs_unit(cs_key_lanes(cs_key(key, CS_KEY_DIMENSION + d), pattern->first + index));
+}
+
+/* A place in a stratum, by the 13 upper bits; clear of its ends by more than rounding. */
+static inline vfloat cs_jittered(vuint stratum, u32 strata, vuint bits)
+{
+    vfloat jitter = (cs_to_vfloat(bits >> 19) + 0.5f) * 0x1p-13f;
+    return (cs_to_vfloat(stratum) + jitter) * (1.0f / (f32)strata);
+}
+
+/* Jittered pairs, combined at random (Cook 1986). */
+static inline void cs_draw_jittered(const cs_pattern *pattern, cs_rows rows, u32 key, vuint index,
+                                    u32 pairs, vfloat *tuple)
+{
+    const cs_grid *grid = &pattern->grid;
+    (void)rows;
+    for (u32 pair = 0u; pair < pairs; pair++) {
+        vuint place = index;
+        if (pair != CS_PAIR_FIBRE) place = cs_partner(pattern, key, pair, index);
+        cs_cell cell =
+            pair == CS_PAIR_FIBRE ? cs_cell_in_block_order(grid, place) : cs_cell_of(grid, place);
+        vuint bits = cs_key_lanes(cs_key(key, CS_KEY_PAIR + pair), place);
+        tuple[2u * pair] = cs_jittered(cell.column, grid->columns, bits);
+        tuple[2u * pair + 1u] = cs_jittered(cell.row, grid->rows, bits << 16);
+    }
+}
+
+/* Jittered in four dimensions: N = a b c d strata, those of a cell of the first pair together. The
+ * light gets a jittered pair. */
+static inline void cs_draw_jittered4d(const cs_pattern *pattern, cs_rows rows, u32 key, vuint index,
+                                      u32 pairs, vfloat *tuple)
+{
+    const u32 *shape = pattern->shape;
+    vuint rest = index;
+    (void)rows;
+    for (u32 d = 4u; d-- > 0u;) {
+        vuint next = cs_divide(rest, shape[d], 1.0f / (f32)shape[d]);
+        vuint bits = cs_key_lanes(cs_key(key, CS_KEY_DIMENSION + d), index);
+        tuple[d] = cs_jittered(rest - next * shape[d], shape[d], bits);
+        rest = next;
+    }
+    if (pairs <= CS_PAIR_EMITTER) return;
+    vuint partner = cs_partner(pattern, key, CS_PAIR_EMITTER, index);
+    vuint row = cs_divide(partner, pattern->grid.columns, pattern->grid.inverse_columns);
+    vuint bits = cs_key_lanes(cs_key(key, CS_KEY_PAIR + CS_PAIR_EMITTER), partner);
+    tuple[4] = cs_jittered(partner - row * pattern->grid.columns, pattern->grid.columns, bits);
+    tuple[5] = cs_jittered(row, pattern->grid.rows, bits << 16);
+}
+
+/* One point in each of N strata of every coordinate, and nothing else (McKay et al. 1979). The
+ * first coordinate goes up with the samples' numbers. */
+static inline void cs_draw_nrooks(const cs_pattern *pattern, cs_rows rows, u32 key, vuint index,
+                                  u32 pairs, vfloat *tuple)
+{
+    const cs_grid *grid = &pattern->grid;
+    (void)rows;
+    for (u32 d = 0u; d < 2u * pairs; d++) {
+        u32 dimension_key = cs_key(key, CS_KEY_DIMENSION + d);
+        vuint stratum = index;
+        if (d > 0u)
+            stratum =
+                cs_permute(index, (vuint)(grid->count), grid->count_domain, (vuint)(dimension_key));
+        tuple[d] = cs_in_stratum(grid, stratum, cs_key_lanes(~dimension_key, stratum) >> 16);
+    }
+}
+
+#endif

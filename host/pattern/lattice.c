@@ -1,0 +1,119 @@
+/* Table of the rank-1 lattice. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "pattern/rows.h"
+
+int cs_rows_none(cs_table *table)
+{
+    (void)table;
+    return 1;
+}
+
+/* Boxes of about CS_BLOCK points of any planar set. */
+static void cut_evenly(cs_table *table)
+{
+    const u32 boxes = table->pattern->grid.count / CS_BLOCK;
+    table->boxes[0] = (u32)lround(sqrt((double)boxes));
+    if (table->boxes[0] == 0) table->boxes[0] = 1;
+    table->boxes[1] = boxes / table->boxes[0] > 0 ? boxes / table->boxes[0] : 1;
+}
+
+/* value / count in units of 2^-32. */
+static u32 fraction(uint64_t value, u32 count)
+{
+    return (u32)((value << 32) / count);
+}
+
+static u32 common_divisor(u32 a, u32 b)
+{
+    while (b != 0) {
+        const u32 rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+/* Worst-case error in the space of functions with Fourier coefficients below |h|^-2 in each
+ * coordinate, squared and up to a constant: P_2 of Sloan & Joe 1994, section 4.2. `until`: give up
+ * above this. */
+static double figure_of_merit(u32 count, u32 multiplier, double until)
+{
+    const double two_pi_squared = 19.739208802178716, scale = 1.0 / count;
+    double sum = 0.0;
+    for (u32 i = 0; i < count && sum - count < until * count; i++) {
+        double term = 1.0;
+        uint64_t at = i;
+        for (int d = 0; d < 4; d++) {
+            const double x = (double)at * scale;
+            term *= 1.0 + two_pi_squared * (x * x - x + 1.0 / 6.0);
+            at = at * multiplier % count;
+        }
+        sum += term;
+    }
+    return sum * scale - 1.0;
+}
+
+/* The best multiplier a of the lattice (1, a, a^2, a^3) / N among some that are spread over
+ * [1, N). */
+static u32 korobov_multiplier(u32 count)
+{
+    const u32 effort = 1u << 22;
+    const u32 candidates = count < 512 ? count : effort / count > 8 ? effort / count : 8;
+    u32 best = 1;
+    double least = INFINITY;
+    for (u32 i = 1; i <= candidates; i++) {
+        const u32 a = candidates == count
+                          ? i
+                          : (u32)(((uint64_t)i * 0x9e3779b9u & 0xffffffffu) * count >> 32);
+        if (common_divisor(a, count) != 1) continue;
+        const double merit = figure_of_merit(count, a, least);
+        if (merit < least) least = merit, best = a;
+    }
+    return best;
+}
+
+int cs_rows_rank1(cs_table *table)
+{
+    const u32 count = table->pattern->grid.count;
+    const u32 multiplier = korobov_multiplier(count);
+    for (u32 row = 0; row < count; row++) {
+        uint64_t at = row;
+        for (int d = 0; d < 4; d++) {
+            table->word[d][row] = fraction(at, count);
+            at = at * multiplier % count;
+        }
+        table->place[0][row] = table->word[0][row];
+        table->place[1][row] = table->word[1][row];
+    }
+    table->words = 4;
+    cut_evenly(table);
+    return 1;
+}
+
+static int rows_of_points(cs_table *table, int (*points)(u32 count, u32 seed, f32 *x, f32 *y))
+{
+    const u32 count = table->pattern->grid.count;
+    f32 *x = malloc(2 * (size_t)count * sizeof *x);
+    const int good = x != NULL && points(count, 1u, x, x + count);
+    for (u32 row = 0; good && row < count; row++)
+        for (u32 d = 0; d < 2; d++) {
+            table->word[d][row] = (u32)((double)x[d * count + row] * 0x1p32);
+            table->place[d][row] = table->word[d][row];
+        }
+    free(x);
+    table->words = 2;
+    cut_evenly(table);
+    return good;
+}
+
+int cs_rows_poisson(cs_table *table)
+{
+    return rows_of_points(table, cs_poisson_points);
+}
+
+int cs_rows_ccvt(cs_table *table)
+{
+    return rows_of_points(table, cs_ccvt_points);
+}

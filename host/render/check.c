@@ -1,0 +1,95 @@
+/* Whether what the caller asks for can be rendered. */
+#include <math.h>
+#include <string.h>
+
+#include "render/job.h"
+#include "pattern/pattern.h"
+
+static clshear_status check_window(cs_job *job, cs_error *error)
+{
+    const clshear_options *options = &job->options;
+    static const int none[4];
+    if (options->width < 1 || options->height < 1 || options->width > 65536 ||
+        options->height > 65536)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "image size %d x %d: each side must be 1 to 65536", options->width,
+                       options->height);
+    memcpy(job->window, options->crop, sizeof job->window);
+    if (memcmp(options->crop, none, sizeof none) == 0) {
+        job->window[1] = options->width;
+        job->window[3] = options->height;
+    }
+    const int *w = job->window;
+    if (w[0] < 0 || w[2] < 0 || w[0] >= w[1] || w[2] >= w[3] || w[1] > options->width ||
+        w[3] > options->height)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "crop %d,%d,%d,%d: needs 0 <= x0 < x1 <= %d and 0 <= y0 < y1 <= %d", w[0],
+                       w[1], w[2], w[3], options->width, options->height);
+    job->pixel_count = (size_t)(w[1] - w[0]) * (size_t)(w[3] - w[2]);
+    if (job->pixel_count > UINT32_MAX)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "crop of %zu pixels is too large; render it in parts", job->pixel_count);
+    return CLSHEAR_OK;
+}
+
+static clshear_status check_counts(clshear_options *options, cs_error *error)
+{
+    if (options->spp < 1)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "0 samples per pixel: must be 1 or more");
+    if (options->spp > 2000000000u)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%u samples per pixel: at most 2000000000",
+                       options->spp);
+    if (options->replicates == 0) options->replicates = options->spp > 1 ? 2 : 1;
+    if (options->replicates > options->spp)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "%u replicates of %u samples per pixel: must be 1 to %u",
+                       options->replicates, options->spp, options->spp);
+    if ((uint32_t)options->shear > CLSHEAR_SHEAR_EQUAL_AREA)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "shear %d is not known", (int)options->shear);
+    return CLSHEAR_OK;
+}
+
+/* The pattern of a replicate; more samples than asked for where the sampler has no such number. */
+static clshear_status choose_pattern(cs_job *job, cs_error *error)
+{
+    clshear_options *options = &job->options;
+    const cs_log *log = &job->scene->context->log;
+    u32 sampler;
+    clshear_status status = cs_sampler_find(options->sampler, &sampler, error);
+    if (status != CLSHEAR_OK) return status;
+    const u32 wanted = (options->spp - 1) / options->replicates + 1;
+    const u32 count = cs_sampler_count(sampler, wanted);
+    if (count == 0) {
+        const u32 most = cs_sampler_most(sampler);
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "%u samples in one pattern of %s: at most %u; use %u replicates or more",
+                       wanted, cs_sampler_name(sampler), most, (options->spp - 1) / most + 1);
+    }
+    if (count != wanted)
+        cs_warn(log, "sampler %s has no patterns of %u samples: %u replicates of %u",
+                cs_sampler_name(sampler), wanted, options->replicates, count);
+    job->pattern = cs_pattern_of(sampler, 0, count);
+    return CLSHEAR_OK;
+}
+
+static clshear_status check_lens(const clshear_camera *camera, cs_error *error)
+{
+    if (!(camera->lens_radius >= 0.0f) || !isfinite(camera->lens_radius))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "lens radius %g: must be 0 or more",
+                       (double)camera->lens_radius);
+    if (!(camera->focal_distance > 0.0f) || !isfinite(camera->focal_distance))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "focal distance %g: must be above 0",
+                       (double)camera->focal_distance);
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_job_check(cs_job *job, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    CS_TRY(check_window(job, error));
+    CS_TRY(check_counts(&job->options, error));
+    CS_TRY(choose_pattern(job, error));
+    CS_TRY(check_lens(&job->lens, error));
+done:
+    return status;
+}
