@@ -6,7 +6,9 @@
 #ifndef CS_GRID_H
 #define CS_GRID_H
 
-#include "pattern.h"
+#include "hash.h"
+#include "packet.h"
+#include "shared.h"
 
 /* The grid of a pattern: everything about N that need not be computed for each sample. */
 typedef struct cs_grid {
