@@ -2,6 +2,8 @@
 
 #include <stdio.h>
 
+#include "sampler/sampler.h"
+
 static char warnings[8192];
 static char shown[8192];
 
@@ -80,4 +82,24 @@ clshear_scene *test_cornell(clshear_context *context, clshear_camera *camera)
                                .lens_radius = 25.0f,
                                .focal_distance = 930.0f};
     return scene;
+}
+
+test_pattern test_pattern_of(u32 sampler, u32 count, cs_row_order order)
+{
+    cs_error error;
+    test_pattern made;
+    made.pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, count));
+    if (cs_rows_make(&made.pattern, order, &made.rows, &error) != CLSHEAR_OK)
+        fail_msg("%s", error.message);
+    return made;
+}
+
+void test_pattern_free(test_pattern *pattern)
+{
+    cs_array_free(&pattern->rows);
+}
+
+void test_draw(const test_pattern *pattern, u32 key, u32 index, f32 *tuple)
+{
+    cs_draw(&pattern->pattern, pattern->rows.items, key, index, CS_DIMENSIONS / 2, tuple);
 }

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "clshear.h"
+#include "pattern/pattern.h"
 
 /* A context on the first device; fails the test if there is none. */
 clshear_context *test_context(void);
@@ -34,5 +35,18 @@ clshear_scene *test_floor(clshear_context *context, float half, float albedo);
 /* scenes/cornell.obj with the light of its settings file, and the camera of that file but for the
  * aperture, which is a disk. */
 clshear_scene *test_cornell(clshear_context *context, clshear_camera *camera);
+
+/* A pattern with its table, to draw from on the host. */
+typedef struct test_pattern {
+    cs_pattern pattern;
+    cs_array rows;
+} test_pattern;
+
+/* `count` is raised to the next one that the sampler has. */
+test_pattern test_pattern_of(u32 sampler, u32 count, cs_row_order order);
+void test_pattern_free(test_pattern *pattern);
+
+/* Sample `index` of the pattern named by `key`: CS_DIMENSIONS coordinates. */
+void test_draw(const test_pattern *pattern, u32 key, u32 index, f32 *tuple);
 
 #endif

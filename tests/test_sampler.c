@@ -1,274 +1,466 @@
-/* The sampler's promises, for the counts that users ask for and the awkward ones. */
+/* What every sampler promises, over the table of samplers. */
 #include "support.h"
 
 #include <math.h>
+#include <stdio.h>
 
+#include "pattern/rows.h"
 #include "sampler/sampler.h"
 
 static const u32 counts[] = {1, 2, 3, 5, 7, 16, 49, 64, 101, 512, 1000, 1024};
 enum {
     COUNTS = sizeof counts / sizeof *counts,
-    PAIRS = 3
+    DIMENSIONS = 4 /* that promises are about */
 };
+
+/* A partition of the tuple's cube into cells[0] x ... x cells[3] boxes that hold equally many
+ * points each. */
+typedef struct promise {
+    u32 sampler;
+    u32 count;
+    u32 cells[DIMENSIONS];
+} promise;
 
 static u32 stratum(f32 value, u32 strata)
 {
     return (u32)((double)value * strata);
 }
 
-/* Whether `marks` has each of [0, count) exactly once. */
-static int each_once(const u32 *marks, u32 count)
+static void expect_kept(const test_pattern *drawn, const promise *p)
 {
-    unsigned char *seen = calloc(count, 1);
-    int good = 1;
-    for (u32 i = 0; i < count; i++) {
-        good &= marks[i] < count && !seen[marks[i]];
-        if (marks[i] < count) seen[marks[i]] = 1;
+    const u32 count = drawn->pattern.grid.count;
+    u32 boxes = 1;
+    for (int d = 0; d < DIMENSIONS; d++)
+        boxes *= p->cells[d];
+    u32 *hits = calloc(boxes, sizeof *hits);
+    assert_int_equal(count % boxes, 0);
+    for (u32 key = 0; key < 10; key++) {
+        memset(hits, 0, boxes * sizeof *hits);
+        for (u32 i = 0; i < count; i++) {
+            f32 tuple[CS_DIMENSIONS];
+            u32 box = 0;
+            test_draw(drawn, cs_hash(key), i, tuple);
+            for (int d = 0; d < DIMENSIONS; d++)
+                box = box * p->cells[d] + stratum(tuple[d], p->cells[d]);
+            hits[box]++;
+        }
+        for (u32 box = 0; box < boxes; box++)
+            if (hits[box] != count / boxes)
+                fail_msg("%s, N = %u, %u x %u x %u x %u boxes: %u points in one",
+                         cs_sampler_name(p->sampler), count, p->cells[0], p->cells[1], p->cells[2],
+                         p->cells[3], hits[box]);
     }
-    free(seen);
-    return good;
+    free(hits);
 }
 
-/* Every coordinate has one sample in each of N strata. */
-static void every_coordinate_is_stratified(void **state)
+/* All boxes of `base`^a x base^b x base^c x base^d with a + b + c + d = `total`, each exponent up
+ * to most[d]. */
+static void expect_elementary(const test_pattern *drawn, u32 base, u32 total, const u32 *most)
 {
-    (void)state;
-    for (int k = 0; k < COUNTS; k++)
-        for (u32 replicate = 0; replicate < 20; replicate++)
-            for (u32 pair = 0; pair < PAIRS; pair++) {
-                const u32 n = counts[k];
-                const cs_grid grid = cs_grid_of(n);
-                u32 *x = malloc(n * sizeof *x), *y = malloc(n * sizeof *y);
-                for (u32 i = 0; i < n; i++) {
-                    cs_pair point = cs_draw_pair(&grid, cs_pattern_key(3, 17, replicate), pair, i);
-                    assert_true(point.x >= 0.0f && point.x < 1.0f);
-                    assert_true(point.y >= 0.0f && point.y < 1.0f);
-                    x[i] = stratum(point.x, n);
-                    y[i] = stratum(point.y, n);
+    u32 e[DIMENSIONS], seen = 0;
+    for (e[0] = 0; e[0] <= most[0]; e[0]++)
+        for (e[1] = 0; e[1] <= most[1]; e[1]++)
+            for (e[2] = 0; e[2] <= most[2]; e[2]++)
+                for (e[3] = 0; e[3] <= most[3]; e[3]++) {
+                    promise p = {drawn->pattern.sampler, 0, {1, 1, 1, 1}};
+                    if (e[0] + e[1] + e[2] + e[3] != total) continue;
+                    for (int d = 0; d < DIMENSIONS; d++)
+                        for (u32 k = 0; k < e[d]; k++)
+                            p.cells[d] *= base;
+                    expect_kept(drawn, &p);
+                    seen++;
                 }
-                assert_true(each_once(x, n));
-                assert_true(each_once(y, n));
-                free(x);
-                free(y);
-            }
+    assert_true(seen > 0);
 }
 
-/* Where N = columns * rows, every pair has one sample in each cell of that grid. */
-static void every_pair_is_stratified(void **state)
+/* Every coordinate has one point in each of N strata. */
+static void coordinates_are_stratified(void **state)
+{
+    static const u32 samplers[] = {CS_SAMPLER_NROOKS, CS_SAMPLER_MJ,  CS_SAMPLER_CMJ,
+                                   CS_SAMPLER_OA,     CS_SAMPLER_OA3, CS_SAMPLER_RANK1};
+    (void)state;
+    for (size_t s = 0; s < sizeof samplers / sizeof *samplers; s++)
+        for (int k = 0; k < COUNTS; k++) {
+            test_pattern drawn = test_pattern_of(samplers[s], counts[k], CS_ORDER_COHERENT);
+            for (int d = 0; d < DIMENSIONS; d++) {
+                promise p = {samplers[s], 0, {1, 1, 1, 1}};
+                p.cells[d] = drawn.pattern.grid.count;
+                expect_kept(&drawn, &p);
+            }
+            test_pattern_free(&drawn);
+        }
+}
+
+/* Film and lens pairs have one point in each cell of the grid, where it has no partial row. */
+static void pairs_are_stratified(void **state)
+{
+    static const u32 samplers[] = {CS_SAMPLER_JITTERED, CS_SAMPLER_MJ, CS_SAMPLER_CMJ};
+    (void)state;
+    for (size_t s = 0; s < sizeof samplers / sizeof *samplers; s++)
+        for (int k = 0; k < COUNTS; k++) {
+            test_pattern drawn = test_pattern_of(samplers[s], counts[k], CS_ORDER_COHERENT);
+            const cs_grid *grid = &drawn.pattern.grid;
+            const promise film = {samplers[s], 0, {grid->columns, grid->rows, 1, 1}};
+            const promise lens = {samplers[s], 0, {1, 1, grid->columns, grid->rows}};
+            if (grid->extra == 0) expect_kept(&drawn, &film), expect_kept(&drawn, &lens);
+            test_pattern_free(&drawn);
+        }
+}
+
+static void hypergrids_are_stratified(void **state)
 {
     (void)state;
     for (int k = 0; k < COUNTS; k++) {
-        const u32 n = counts[k];
-        const cs_grid grid = cs_grid_of(n);
-        if (grid.extra != 0) continue;
-        for (u32 pair = 0; pair < PAIRS; pair++) {
-            u32 *cell = malloc(n * sizeof *cell);
-            for (u32 i = 0; i < n; i++) {
-                cs_pair point = cs_draw_pair(&grid, cs_pattern_key(0, 5, 1), pair, i);
-                cell[i] =
-                    stratum(point.y, grid.rows) * grid.columns + stratum(point.x, grid.columns);
+        test_pattern drawn = test_pattern_of(CS_SAMPLER_JITTERED4D, counts[k], CS_ORDER_COHERENT);
+        promise p = {CS_SAMPLER_JITTERED4D, 0, {0}};
+        memcpy(p.cells, drawn.pattern.shape, sizeof p.cells);
+        expect_kept(&drawn, &p);
+        test_pattern_free(&drawn);
+    }
+}
+
+/* Strength 2: every two coordinates; strength 3: every three. Primes and prime powers. */
+static void orthogonal_arrays_are_orthogonal(void **state)
+{
+    static const u32 strong[] = {27, 64, 125, 343, 512, 729};
+    static const u32 squares[] = {9, 16, 25, 49, 64, 81, 121, 256, 625, 1024};
+    (void)state;
+    for (size_t k = 0; k < sizeof squares / sizeof *squares; k++) {
+        test_pattern drawn = test_pattern_of(CS_SAMPLER_OA, squares[k], CS_ORDER_COHERENT);
+        const u32 q = drawn.pattern.grid.columns, most[4] = {1, 1, 1, 1};
+        assert_int_equal(q * q, squares[k]);
+        expect_elementary(&drawn, q, 2, most);
+        test_pattern_free(&drawn);
+    }
+    for (size_t k = 0; k < sizeof strong / sizeof *strong; k++) {
+        test_pattern drawn = test_pattern_of(CS_SAMPLER_OA3, strong[k], CS_ORDER_COHERENT);
+        const u32 q = drawn.pattern.grid.columns, most[4] = {1, 1, 1, 1};
+        assert_int_equal(q * q * q, strong[k]);
+        expect_elementary(&drawn, q, 3, most);
+        test_pattern_free(&drawn);
+    }
+}
+
+/* Elementary intervals. (x, y) of all three nets and (u, v) of two of them are (0,2)-sequences in
+ * base 2; `sz` is a (0,4)-sequence in base 4; the quality parameter of the first four dimensions of
+ * `sobol` is the sum of degree - 1 of its polynomials, 3 (Niederreiter 1992, theorem 4.49). */
+static void nets_fill_elementary_intervals(void **state)
+{
+    static const u32 nets[] = {CS_SAMPLER_SOBOL, CS_SAMPLER_SOBOL_PAIRS, CS_SAMPLER_SZ};
+    (void)state;
+    for (u32 bits = 0; bits <= 10; bits++) {
+        const u32 film[4] = {bits, bits, 0, 0}, lens[4] = {0, 0, bits, bits};
+        const u32 all[4] = {bits, bits, bits, bits};
+        for (int s = 0; s < 3; s++) {
+            test_pattern drawn = test_pattern_of(nets[s], 1u << bits, CS_ORDER_COHERENT);
+            expect_elementary(&drawn, 2, bits, film);
+            if (s > 0) expect_elementary(&drawn, 2, bits, lens);
+            if (s == 0 && bits >= 3) expect_elementary(&drawn, 2, bits - 3, all);
+            if (s == 2 && bits % 2 == 0) expect_elementary(&drawn, 4, bits / 2, all);
+            test_pattern_free(&drawn);
+        }
+    }
+}
+
+/* Boxes of the bases' powers, as many as points. */
+static void halton_fills_elementary_intervals(void **state)
+{
+    static const promise kept[] = {
+        {CS_SAMPLER_HALTON, 420, {4, 3, 5, 7}},    {CS_SAMPLER_HALTON, 1260, {4, 9, 5, 7}},
+        {CS_SAMPLER_HALTON, 1296, {16, 81, 1, 1}}, {CS_SAMPLER_HALTON, 1225, {1, 1, 25, 49}},
+        {CS_SAMPLER_HALTON, 128, {128, 1, 1, 1}},  {CS_SAMPLER_HALTON, 729, {1, 729, 1, 1}},
+        {CS_SAMPLER_HALTON, 625, {1, 1, 625, 1}},  {CS_SAMPLER_HALTON, 343, {1, 1, 1, 343}}};
+    (void)state;
+    for (size_t k = 0; k < sizeof kept / sizeof *kept; k++) {
+        test_pattern drawn = test_pattern_of(CS_SAMPLER_HALTON, kept[k].count, CS_ORDER_COHERENT);
+        expect_kept(&drawn, &kept[k]);
+        test_pattern_free(&drawn);
+    }
+}
+
+static double torus_distance(const f32 *a, const f32 *b)
+{
+    double square = 0.0;
+    for (int d = 0; d < 2; d++) {
+        double way = fabs((double)a[d] - (double)b[d]);
+        if (way > 0.5) way = 1.0 - way;
+        square += way * way;
+    }
+    return sqrt(square);
+}
+
+/* Points keep their distance in both pairs: 0.65 (Poisson disk) and 0.5 (equal capacity) of the
+ * densest packing's. Random points come closer than a hundredth of it. */
+static void blue_noise_keeps_its_distance(void **state)
+{
+    static const u32 samplers[] = {CS_SAMPLER_POISSON, CS_SAMPLER_CCVT};
+    (void)state;
+    for (int s = 0; s < 2; s++)
+        for (u32 n = 2; n <= 512; n = n * 5 / 2 + 1) {
+            test_pattern drawn = test_pattern_of(samplers[s], n, CS_ORDER_COHERENT);
+            const double least = (s == 0 ? 0.65 : 0.5) * sqrt(1.1547 / n);
+            f32(*tuples)[CS_DIMENSIONS] = malloc(n * sizeof *tuples);
+            for (u32 i = 0; i < n; i++)
+                test_draw(&drawn, 7, i, tuples[i]);
+            for (u32 i = 0; i < n; i++)
+                for (u32 j = 0; j < i; j++)
+                    for (int pair = 0; pair < 2; pair++)
+                        assert_true(torus_distance(tuples[i] + 2 * pair, tuples[j] + 2 * pair) >
+                                    least);
+            free(tuples);
+            test_pattern_free(&drawn);
+        }
+}
+
+/* Equal capacity shows in the spectrum: below a fifth of the points' frequency a blue noise set has
+ * less than 2 % of the power of random points, a Poisson disk set more. */
+static void equal_capacity_has_no_low_frequencies(void **state)
+{
+    enum {
+        POINTS = 400
+    };
+    static f32 x[POINTS], y[POINTS];
+    double power[2];
+    (void)state;
+    for (int kind = 0; kind < 2; kind++) {
+        int terms = 0;
+        assert_true(kind == 0 ? cs_ccvt_points(POINTS, 1, x, y)
+                              : cs_poisson_points(POINTS, 1, x, y));
+        power[kind] = 0.0;
+        for (int a = -4; a <= 4; a++)
+            for (int b = -4; b <= 4; b++) {
+                double re = 0.0, im = 0.0;
+                if ((a == 0 && b == 0) || a * a + b * b > 16) continue;
+                for (int i = 0; i < POINTS; i++) {
+                    const double phase = 6.283185307179586 * (a * (double)x[i] + b * (double)y[i]);
+                    re += cos(phase);
+                    im += sin(phase);
+                }
+                power[kind] += (re * re + im * im) / POINTS;
+                terms++;
             }
-            assert_true(each_once(cell, n));
-            free(cell);
-        }
+        power[kind] /= terms;
     }
+    assert_true(power[0] < 0.02);
+    assert_true(power[1] > 0.02);
 }
 
-/* Grids are as square as the count allows: counts that users type have real 2D strata. */
-static void grids_are_nearly_square(void **state)
-{
-    (void)state;
-    const u32 expected[][2] = {{16, 4}, {49, 7}, {512, 16}, {1000, 25}, {1024, 32}, {7, 3}};
-    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
-        assert_int_equal(cs_grid_of(expected[i][0]).columns, expected[i][1]);
-    for (u32 n = 1; n < 3000; n++) {
-        cs_grid grid = cs_grid_of(n);
-        assert_int_equal(grid.columns * grid.rows + grid.extra, n);
-        assert_true(grid.extra < grid.columns);
-        assert_true(grid.rows <= 4 * grid.columns && grid.columns <= 2 * grid.rows + 1);
-    }
-}
-
-/* The orders in which cells and blocks are walked leave nothing out. */
-static void orders_are_bijections(void **state)
-{
-    (void)state;
-    for (u32 n = 1; n < 600; n++) {
-        const cs_grid grid = cs_grid_of(n);
-        const u32 places = grid.blocks * CS_BLOCK;
-        u32 *cells = malloc(n * sizeof *cells), *blocks = malloc(n * sizeof *blocks);
-        u32 *indices = malloc(places * sizeof *indices);
-        for (u32 i = 0; i < n; i++) {
-            cs_cell a = cs_cell_of(&grid, i), b = cs_cell_in_block_order(&grid, i);
-            /* The partial row's columns are spread: number them by their order. */
-            u32 a_column = a.row == grid.rows ? cs_extra_before(&grid, a.column) : a.column;
-            u32 b_column = b.row == grid.rows ? cs_extra_before(&grid, b.column) : b.column;
-            cells[i] = a.row * grid.columns + a_column;
-            blocks[i] = b.row * grid.columns + b_column;
-        }
-        for (u32 i = 0; i < places; i++)
-            indices[i] = cs_index_at(&grid, cs_pattern_key(1, 2, 3), i);
-        assert_true(each_once(cells, n));
-        assert_true(each_once(blocks, n));
-        assert_true(each_once(indices, places));
-        free(cells);
-        free(blocks);
-        free(indices);
-    }
-}
-
-static void divisions_are_exact(void **state)
-{
-    (void)state;
-    for (u32 divisor = 1; divisor < 1100; divisor += 7)
-        for (u32 a = 0; a < CS_MAX_PATTERN; a += 13 * divisor + 1)
-            for (u32 near = a > 2 ? a - 2 : 0; near < a + 3; near++)
-                assert_int_equal(cs_divide(near, divisor, 1.0f / (f32)divisor), near / divisor);
-}
-
-static void permutations_are_bijections(void **state)
-{
-    (void)state;
-    for (u32 size = 1; size < 300; size++)
-        for (u32 key = 0; key < 20; key++) {
-            u32 *image = malloc(size * sizeof *image);
-            for (u32 i = 0; i < size; i++)
-                image[i] = cs_permute(i, size, cs_domain_of(size), cs_hash(key));
-            assert_true(each_once(image, size));
-            free(image);
-        }
-}
-
-/* Images of two indices are nearly uniform over the n(n-1) possible pairs. The permutation is cheap
- * rather than perfect: the root mean square of the relative deviations may be 15 %, which with 400
- * keys a cell adds 400 * 0.15^2 = 9 to chi-square per degree of freedom. Chance alone stays below
- * 1.5, so a false alarm is out of the question; with a round less the sum is above 20. */
-static void permutations_mix_pairs(void **state)
-{
-    (void)state;
-    const u32 sizes[] = {5, 8, 12, 16, 25, 32};
-    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
-        const u32 n = sizes[k], keys = 400 * n * (n - 1);
-        const cs_domain domain = cs_domain_of(n);
-        for (u32 gap = 1; gap < n; gap += n / 4 + 1) {
-            u32 *hits = calloc(n * n, sizeof *hits);
-            double chi = 0.0, expected = 400.0, dof = (double)n * (n - 1) - 1.0;
-            for (u32 t = 0; t < keys; t++) {
-                u32 key = cs_key(gap, t);
-                hits[cs_permute(0, n, domain, key) * n + cs_permute(gap, n, domain, key)]++;
-            }
-            for (u32 a = 0; a < n; a++)
-                for (u32 b = 0; b < n; b++)
-                    if (a != b) chi += pow(hits[a * n + b] - expected, 2) / expected;
-            assert_true(chi / dof < 10.0);
-            free(hits);
-        }
-    }
-}
-
-/* Over many patterns, one sample's point is uniform in the unit square: chi-square on 8 x 8 cells,
+/* Over many patterns, one sample's pairs are uniform in the unit square: chi-square on 8 x 8 cells,
  * 63 degrees of freedom, 64 000 patterns. 140 is 6.9 standard deviations above the mean; false
- * alarms below 1e-7 a test. */
+ * alarms below 1e-7 for each of 225 tests. */
 static void single_samples_are_uniform(void **state)
 {
+    static const u32 sizes[] = {1, 7, 16, 101, 1000};
     (void)state;
-    const u32 sizes[] = {1, 7, 16, 101, 1000};
-    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++)
-        for (u32 pair = 0; pair < PAIRS; pair++) {
-            const cs_grid grid = cs_grid_of(sizes[k]);
-            u32 hits[64] = {0};
-            double chi = 0.0;
+    for (u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
+        for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+            test_pattern drawn = test_pattern_of(sampler, sizes[k], CS_ORDER_COHERENT);
+            u32 hits[3][64] = {{0}};
             for (u32 t = 0; t < 64000; t++) {
-                u32 index = t % grid.count;
-                cs_pair point = cs_draw_pair(&grid, cs_pattern_key(9, t, 0), pair, index);
-                hits[stratum(point.y, 8) * 8 + stratum(point.x, 8)]++;
+                f32 tuple[CS_DIMENSIONS];
+                test_draw(&drawn, cs_pattern_key(9, t, 0), t % drawn.pattern.grid.count, tuple);
+                for (int pair = 0; pair < 3; pair++)
+                    hits[pair][stratum(tuple[2 * pair + 1], 8) * 8 + stratum(tuple[2 * pair], 8)]++;
             }
-            for (int i = 0; i < 64; i++)
-                chi += pow(hits[i] - 1000.0, 2) / 1000.0;
-            assert_true(chi < 140.0);
+            for (int pair = 0; pair < 3; pair++) {
+                double chi = 0.0;
+                for (int i = 0; i < 64; i++)
+                    chi += pow(hits[pair][i] - 1000.0, 2) / 1000.0;
+                if (chi >= 140.0)
+                    fail_msg("%s, N = %u, pair %d: chi-square %g", cs_sampler_name(sampler),
+                             sizes[k], pair, chi);
+            }
+            test_pattern_free(&drawn);
         }
 }
 
-/* Estimates are unbiased for any N, smooth or not: z-test over 4000 patterns, |z| < 5, false alarms
- * 6e-7 for each of the 24 tests. */
+/* A 4D ball, half a hypercube cut askew, a smooth product, and a mixed moment of the light's pair.
+ */
+enum {
+    INTEGRANDS = 4
+};
+
+static void integrands(const f32 *t, double *values)
+{
+    const double x = t[0], y = t[1], u = t[2], v = t[3];
+    values[0] = x * x + y * y + u * u + v * v < 1.0;
+    values[1] = x + y - u - v > 0.0;
+    values[2] = 16.0 * x * y * u * v;
+    values[3] = 4.0 * t[4] * t[5];
+}
+
+static const double integrals[INTEGRANDS] = {0.308425137534042, 0.5, 1.0, 1.0};
+
+static void estimate(const test_pattern *drawn, u32 key, double *mean)
+{
+    const u32 count = drawn->pattern.grid.count;
+    memset(mean, 0, INTEGRANDS * sizeof *mean);
+    for (u32 i = 0; i < count; i++) {
+        f32 tuple[CS_DIMENSIONS];
+        double values[INTEGRANDS];
+        test_draw(drawn, key, i, tuple);
+        integrands(tuple, values);
+        for (int k = 0; k < INTEGRANDS; k++)
+            mean[k] += values[k] / count;
+    }
+}
+
+/* Estimates are unbiased for any N: z-test over the patterns, |z| < 5, false alarms 6e-7 for each
+ * of 720 tests. */
 static void estimates_are_unbiased(void **state)
 {
     (void)state;
-    for (int k = 0; k < COUNTS; k++)
-        for (int kind = 0; kind < 2; kind++) {
-            const cs_grid grid = cs_grid_of(counts[k]);
-            double sum = 0.0, squares = 0.0;
-            const double truth = kind == 0 ? 0.25 * 3.14159265358979 * 0.64 : 0.25;
-            const u32 patterns = grid.count > 200 ? 600 : 4000;
+    for (u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
+        for (int c = 0; c < COUNTS; c++) {
+            test_pattern drawn = test_pattern_of(sampler, counts[c], CS_ORDER_COHERENT);
+            double sum[INTEGRANDS] = {0}, squares[INTEGRANDS] = {0};
+            const u32 patterns = counts[c] > 60 ? 250 : 2000;
             for (u32 t = 0; t < patterns; t++) {
-                double mean = 0.0;
-                for (u32 i = 0; i < grid.count; i++) {
-                    cs_pair p = cs_draw_pair(&grid, cs_pattern_key(1, t, 5), CS_PAIR_FIBRE, i);
-                    double x = p.x, y = p.y;
-                    mean += kind == 0 ? (x * x + y * y < 0.64) : x * y;
-                }
-                mean /= grid.count;
-                sum += mean;
-                squares += mean * mean;
+                double mean[INTEGRANDS];
+                estimate(&drawn, cs_pattern_key(1, t, 5), mean);
+                for (int k = 0; k < INTEGRANDS; k++)
+                    sum[k] += mean[k], squares[k] += mean[k] * mean[k];
             }
-            double mean = sum / patterns;
-            double error = sqrt((squares / patterns - mean * mean) / (patterns - 1.0));
-            assert_true(fabs(mean - truth) < 5.0 * error + 1e-6);
+            for (int k = 0; k < INTEGRANDS; k++) {
+                const double mean = sum[k] / patterns;
+                const double error = sqrt((squares[k] / patterns - mean * mean) / (patterns - 1.0));
+                if (fabs(mean - integrals[k]) > 5.0 * error + 1e-6)
+                    fail_msg("%s, N = %u, integrand %d: %g +- %g, not %g", cs_sampler_name(sampler),
+                             counts[c], k, mean, error, integrals[k]);
+            }
+            test_pattern_free(&drawn);
         }
 }
 
-/* Seeds, pixels, replicates and pairs give unrelated points: correlation over 10 000 patterns of
- * independent uniform values, |r| < 0.05 is 5 standard deviations, false alarms 6e-7 each. (The
- * first pair enumerates its cells in a fixed order, so the lens pair is looked at.) */
-static void streams_are_unrelated(void **state)
+/* Patterns of the next seed, pixel and replicate are unrelated: the errors of their estimates do
+ * not correlate. 4000 pairs, |r| < 0.09 is 5.7 standard deviations, false alarms 1e-8 for each of
+ * 180 tests. */
+static void patterns_are_unrelated(void **state)
 {
+    static const u32 others[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const u32 pairs = 4000;
     (void)state;
-    const cs_grid grid = cs_grid_of(16);
-    const u32 others[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    const u32 count = 10000;
-    double r[4] = {0};
-    for (u32 t = 0; t < count; t++) {
-        u32 i = t % 16;
-        cs_pair lens = cs_draw_pair(&grid, cs_pattern_key(0, t, 0), CS_PAIR_LENS, i);
-        for (int k = 0; k < 3; k++) {
-            u32 key = cs_pattern_key(others[k][0], t + others[k][1], others[k][2]);
-            r[k] += (lens.x - 0.5) * (cs_draw_pair(&grid, key, CS_PAIR_LENS, i).x - 0.5);
+    for (u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++) {
+        test_pattern drawn = test_pattern_of(sampler, 16, CS_ORDER_COHERENT);
+        for (int o = 0; o < 3; o++) {
+            double ab[INTEGRANDS] = {0}, aa[INTEGRANDS] = {0}, bb[INTEGRANDS] = {0};
+            for (u32 t = 0; t < pairs; t++) {
+                double a[INTEGRANDS], b[INTEGRANDS];
+                const u32 pixel = 2 * t;
+                estimate(&drawn, cs_pattern_key(4, pixel, 2), a);
+                estimate(&drawn,
+                         cs_pattern_key(4 + others[o][0], pixel + others[o][1], 2 + others[o][2]),
+                         b);
+                for (int k = 0; k < INTEGRANDS; k++) {
+                    a[k] -= integrals[k];
+                    b[k] -= integrals[k];
+                    ab[k] += a[k] * b[k], aa[k] += a[k] * a[k], bb[k] += b[k] * b[k];
+                }
+            }
+            for (int k = 0; k < INTEGRANDS; k++)
+                if (fabs(ab[k]) >= 0.09 * sqrt(aa[k] * bb[k]) + 1e-9)
+                    fail_msg("%s: correlation %g with pattern %d", cs_sampler_name(sampler),
+                             ab[k] / sqrt(aa[k] * bb[k]), o);
         }
-        cs_pair film = cs_draw_pair(&grid, cs_pattern_key(0, t, 0), CS_PAIR_FIBRE, i);
-        r[3] += (lens.x - 0.5) * (film.x - 0.5);
+        test_pattern_free(&drawn);
     }
-    for (int k = 0; k < 4; k++)
-        assert_true(fabs(r[k]) / count * 12.0 < 0.05);
 }
 
-/* Each pair has a pattern of its own: no point of one is a point of the other. */
-static void pairs_have_their_own_patterns(void **state)
+/* The order of blocks leaves nothing out, and the table in drawing order holds the same samples as
+ * in the sequence's. */
+static void orders_hold_the_same_samples(void **state)
 {
     (void)state;
-    const cs_grid grid = cs_grid_of(64);
-    const u32 key = cs_pattern_key(0, 1, 2);
-    for (u32 i = 0; i < grid.count; i++)
-        for (u32 j = 0; j < grid.count; j++) {
-            cs_pair lens = cs_draw_pair(&grid, key, CS_PAIR_LENS, i);
-            assert_true(lens.x != cs_draw_pair(&grid, key, CS_PAIR_FIBRE, j).x);
-            assert_true(lens.x != cs_draw_pair(&grid, key, CS_PAIR_EMITTER, j).x);
+    for (u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
+        for (u32 n = 1; n < 300; n += 1 + n / 3) {
+            test_pattern drawn = test_pattern_of(sampler, n, CS_ORDER_COHERENT);
+            test_pattern sequence = test_pattern_of(sampler, n, CS_ORDER_SEQUENCE);
+            const u32 places = drawn.pattern.blocks * CS_BLOCK, count = drawn.pattern.grid.count;
+            unsigned char *seen = calloc(places, 1);
+            double sum[2] = {0};
+            for (u32 i = 0; i < places; i++) {
+                const u32 index = cs_index_at(&drawn.pattern, 99, i);
+                assert_true(index < places && !seen[index]);
+                seen[index] = 1;
+                if (index >= count || !cs_sampler_is_progressive(sampler)) continue;
+                f32 a[CS_DIMENSIONS], b[CS_DIMENSIONS];
+                test_draw(&drawn, 5, index, a);
+                test_draw(&sequence, 5, index, b);
+                sum[0] += cs_hash(cs_as_vuint(a[0]) + cs_hash(cs_as_vuint(a[3])));
+                sum[1] += cs_hash(cs_as_vuint(b[0]) + cs_hash(cs_as_vuint(b[3])));
+            }
+            assert_true(sum[0] == sum[1]); /* whole numbers: exact */
+            free(seen);
+            test_pattern_free(&drawn);
+            test_pattern_free(&sequence);
         }
+}
+
+/* Progressive samplers go on: a longer pattern begins with the shorter one's samples, and a pattern
+ * that starts at element `first` has those that follow. */
+static void progressive_samplers_go_on(void **state)
+{
+    cs_error error;
+    (void)state;
+    for (u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++) {
+        if (!cs_sampler_is_progressive(sampler)) continue;
+        test_pattern whole = test_pattern_of(sampler, 5000, CS_ORDER_SEQUENCE);
+        test_pattern start = test_pattern_of(sampler, 300, CS_ORDER_SEQUENCE);
+        test_pattern rest = {.pattern = cs_pattern_of(sampler, 300, 4700)};
+        assert_int_equal(cs_rows_make(&rest.pattern, CS_ORDER_SEQUENCE, &rest.rows, &error),
+                         CLSHEAR_OK);
+        for (u32 i = 0; i < 5000; i++) {
+            f32 a[CS_DIMENSIONS], b[CS_DIMENSIONS];
+            test_draw(&whole, 31, i, a);
+            test_draw(i < 300 ? &start : &rest, 31, i < 300 ? i : i - 300, b);
+            /* Halton's light samples are paired anew within each part. */
+            assert_memory_equal(a, b, (sampler == CS_SAMPLER_HALTON ? 4 : 6) * sizeof *a);
+        }
+        test_pattern_free(&whole);
+        test_pattern_free(&start);
+        test_pattern_free(&rest);
+    }
+}
+
+/* Every name is found, and others are refused with the list. */
+static void names_are_found(void **state)
+{
+    cs_error error;
+    clshear_sampler_info info;
+    u32 number, defaults = 0;
+    (void)state;
+    for (u32 i = 0; i < CS_SAMPLER_COUNT; i++) {
+        assert_int_equal(clshear_sampler_describe(i, &info), 1);
+        assert_int_equal(cs_sampler_find(info.name, &number, &error), CLSHEAR_OK);
+        assert_int_equal(number, i);
+        defaults += info.is_default != 0;
+        assert_int_equal(cs_sampler_count(i, CS_MAX_PATTERN + 1), 0);
+        assert_true(cs_sampler_count(i, 1) <= 27);
+        assert_true(cs_sampler_count(i, cs_sampler_most(i)) == cs_sampler_most(i));
+    }
+    assert_int_equal(defaults, 1);
+    assert_int_equal(clshear_sampler_describe(CS_SAMPLER_COUNT, &info), 0);
+    assert_int_equal(cs_sampler_find("dice", &number, &error), CLSHEAR_BAD_ARGUMENT);
+    assert_non_null(strstr(error.message, "sobol-pairs"));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_coordinate_is_stratified),
-        cmocka_unit_test(every_pair_is_stratified),
-        cmocka_unit_test(grids_are_nearly_square),
-        cmocka_unit_test(orders_are_bijections),
-        cmocka_unit_test(divisions_are_exact),
-        cmocka_unit_test(permutations_are_bijections),
-        cmocka_unit_test(permutations_mix_pairs),
+        cmocka_unit_test(coordinates_are_stratified),
+        cmocka_unit_test(pairs_are_stratified),
+        cmocka_unit_test(hypergrids_are_stratified),
+        cmocka_unit_test(orthogonal_arrays_are_orthogonal),
+        cmocka_unit_test(nets_fill_elementary_intervals),
+        cmocka_unit_test(halton_fills_elementary_intervals),
+        cmocka_unit_test(blue_noise_keeps_its_distance),
+        cmocka_unit_test(equal_capacity_has_no_low_frequencies),
         cmocka_unit_test(single_samples_are_uniform),
         cmocka_unit_test(estimates_are_unbiased),
-        cmocka_unit_test(pairs_have_their_own_patterns),
-        cmocka_unit_test(streams_are_unrelated),
+        cmocka_unit_test(patterns_are_unrelated),
+        cmocka_unit_test(orders_hold_the_same_samples),
+        cmocka_unit_test(progressive_samplers_go_on),
+        cmocka_unit_test(names_are_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -253,6 +253,13 @@ static const char *store_version(cli_job *job, const char *value)
     return NULL;
 }
 
+static const char *store_list_samplers(cli_job *job, const char *value)
+{
+    (void)value;
+    job->list_samplers = 1;
+    return NULL;
+}
+
 static const char *store_list_devices(cli_job *job, const char *value)
 {
     (void)value;
@@ -265,7 +272,8 @@ const cli_flag cli_flags[] = {
     {"spp samples", "N", "samples per pixel (256)", store_spp},
     {"replicates", "R", "independent patterns of spp/R samples (2)", store_replicates},
     {"seed", "N", "another seed, another noise (0)", store_seed},
-    {"sampler", "NAME", "see --list-samplers", store_sampler},
+    {"sampler", "NAME", "point set; --list-samplers has them (sz)", store_sampler},
+    {"list-samplers", NULL, "list the samplers and stop", store_list_samplers},
     {"shear", "KIND", "equal-area, toroidal or none (equal-area)", store_shear},
     {"width", "PX", "image width (512)", store_width},
     {"height", "PX", "image height (512)", store_height},

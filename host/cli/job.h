@@ -41,7 +41,7 @@ typedef struct cli_job {
     clshear_aperture aperture;
     clshear_light lights[CLI_MAX_LIGHTS];
     int light_count;
-    int quiet, stats, help, version, list_devices;
+    int quiet, stats, help, version, list_devices, list_samplers;
 } cli_job;
 
 #endif

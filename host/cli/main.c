@@ -36,6 +36,15 @@ static int list_devices(void)
     return clshear_list_devices(print_device, NULL) == CLSHEAR_OK ? CLI_DONE : fail(NULL);
 }
 
+static int list_samplers(void)
+{
+    clshear_sampler_info info;
+    for (size_t i = 0; clshear_sampler_describe(i, &info); i++)
+        printf("%-12s %s%s%s\n", info.name, info.about, info.progressive ? "; progressive" : "",
+               info.is_default ? "; default" : "");
+    return CLI_DONE;
+}
+
 /* Without --out: the scene's name with .exr, in the current folder. */
 static void choose_output(cli_job *job)
 {
@@ -240,6 +249,7 @@ int main(int argc, char **argv)
         return CLI_DONE;
     }
     if (job.list_devices) return list_devices();
+    if (job.list_samplers) return list_samplers();
     char *command = command_line(argc, argv);
     code = run(&job, command);
     free(command);

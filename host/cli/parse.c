@@ -146,7 +146,8 @@ int cli_parse(int argc, char **argv, cli_job *job)
     cli_job line = cli_job_defaults();
     int code = read_words(&line, argc, argv);
     *job = line;
-    if (code != CLI_DONE || line.help || line.version || line.list_devices) return code;
+    if (code != CLI_DONE || line.help || line.version || line.list_devices ||
+ line.list_samplers) return code;
     if (line.scene == NULL)
         return complain("", "no scene given%s%s; try: clshear SCENE --out img.exr", "", "");
     const char *settings = line.settings != NULL ? line.settings : settings_beside(line.scene);
