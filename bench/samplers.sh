@@ -22,9 +22,8 @@ trap 'rm -f "$image"' EXIT
 # variance SAMPLER SHEAR N: of one pattern
 variance() {
     "$program" "$scene" --width 128 --height 128 --replicates 8 --spp $((8 * $3)) --sampler "$1" \
-        --shear "$2" --quiet --out "$image" "${flags[@]}"
-    oiiotool "$image" --ch Variance.R,Variance.G,Variance.B --stats |
-        awk '/Stats Avg/ { printf "%.2e", 8 * ($3 + $4 + $5) / 3 }'
+        --shear "$2" --quiet --stats --out "$image" "${flags[@]}" |
+        awk '/^variance/ { printf "%.2e", 8 * $2 }'
 }
 
 flags=("$@")

@@ -68,8 +68,8 @@ CLSHEAR_API clshear_status clshear_context_create(const clshear_context_options 
                                                   clshear_context **context);
 CLSHEAR_API void clshear_context_free(clshear_context *context);
 
-/* Why the last call on this context failed; with NULL, why the last clshear_context_create or
- * clshear_list_devices of this thread failed. Valid until the next failing call. */
+/* Why the last call on this context failed; with NULL, why the last call without a context of this
+ * thread failed. Valid until the next failing call. */
 CLSHEAR_API const char *clshear_message(const clshear_context *context);
 
 /* Calls `report` once for each OpenCL device, with its number and "name (platform)". */
@@ -191,7 +191,8 @@ typedef struct clshear_sampler_info {
 CLSHEAR_API int clshear_sampler_describe(size_t index, clshear_sampler_info *info);
 
 /* ------------------------------------------------------------------------------------------------
- * Render
+ * Point sets: what samplers draw, without a device. Functions here fail with a message that
+ * clshear_message(NULL) has, for the calling thread.
  * --------------------------------------------------------------------------------------------- */
 
 typedef enum clshear_shear {
@@ -199,6 +200,41 @@ typedef enum clshear_shear {
     CLSHEAR_SHEAR_TOROIDAL = 1,  /* along the fibre, wrapped around */
     CLSHEAR_SHEAR_EQUAL_AREA = 2 /* the first pair becomes the fibre coordinate; no seams */
 } clshear_shear;
+
+/* Sets of equally many points of the unit cube. Freed by clshear_points_free; start from zeros. */
+typedef struct clshear_points {
+    float *values; /* coordinate d of point i of set s: values[(s * count + i) * dimensions + d] */
+    size_t sets;
+    size_t count;
+    size_t dimensions; /* 1 to 6 */
+    char names[8];     /* a letter for each: x y (film), u v (lens), p q (light) */
+} clshear_points;
+
+/* Draws `sets` independent patterns of `count` tuples, or of the next number that the sampler has,
+ * in all six dimensions; progressive samplers in the order of their sequence. */
+CLSHEAR_API clshear_status clshear_points_draw(const char *sampler, size_t count, size_t sets,
+                                               uint32_t seed, clshear_points *points);
+
+/* Shears points whose first coordinates are x, y, u, v by `shear_px` pixels per aperture width, for
+ * a square aperture. */
+CLSHEAR_API clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear,
+                                                float shear_px);
+
+/* Keeps the coordinates named in `names`, in that order. */
+CLSHEAR_API clshear_status clshear_points_select(clshear_points *points, const char *names);
+
+/* Reads text, one point a line, coordinates separated by spaces or commas, sets by lines that begin
+ * with "#"; or an EXR as clshear_points_write makes it. "-" is standard input. */
+CLSHEAR_API clshear_status clshear_points_read(const char *path, clshear_points *points);
+
+/* Writes .csv (commas), .exr (a channel for each coordinate, a row for each set), or text for any
+ * other name. "-" is text on standard output. */
+CLSHEAR_API clshear_status clshear_points_write(const clshear_points *points, const char *path);
+CLSHEAR_API void clshear_points_free(clshear_points *points);
+
+/* ------------------------------------------------------------------------------------------------
+ * Render
+ * --------------------------------------------------------------------------------------------- */
 
 typedef struct clshear_progress {
     double fraction;      /* done, 0 to 1 */

@@ -131,13 +131,47 @@ expect 1 "folder.exr: is a folder" -- bare.obj --out folder.exr
 
 # Metadata reproduces the image.
 info=$(oiiotool --info -v a.exr)
-for word in 'Software: "clshear' 'clshear.cmdline: "' 'clshear.seed: "0"' 'clshear.sampler: "mj"' \
+for word in 'Software: "clshear' 'clshear.cmdline: "' 'clshear.seed: "0"' 'clshear.sampler: "sz"' \
     'clshear.shear: "equal-area"' 'clshear.replicates: 2' 'samplesPerPixel: 16' \
     'renderTimeSeconds: ' 'worldToCamera: ' 'clshear.focalDistance: 930' 'clshear.device: "' \
     'clshear.driver: "' 'Variance.R' 'SampleVariance.B' 'Samples' 'Shear'; do
     case $info in *"$word"*) ;; *) wrong "no $word in the metadata" ;; esac
 done
 case $info in *"float openexr"*) ;; *) wrong "not float32" ;; esac
+
+# Samplers: every name renders; a number that a sampler has not is raised, and said.
+expect 0 "sobol-pairs" -- --list-samplers
+refuse 2 "--sampler dice: must be a name from --list-samplers" -- "$cornell" --sampler dice
+"$program" --list-samplers | while read -r sampler rest; do
+    # shellcheck disable=SC2086
+    "$program" "$cornell" $small --quiet --sampler "$sampler" --out sampler.exr || exit 1
+    case $(oiiotool --info -v sampler.exr) in *"clshear.sampler: \"$sampler\""*) ;; *) exit 1 ;; esac
+done || wrong "a sampler does not render"
+# shellcheck disable=SC2086
+expect 0 "sampler oa has no patterns of 8 samples: 2 replicates of 9" -- "$cornell" $small \
+    --sampler oa --out sampler.exr
+case $(oiiotool --info -v sampler.exr) in *"samplesPerPixel: 18"*) ;; *) wrong "samples untold" ;; esac
+
+# Points: text, CSV and EXR hold the same; files and pipes go in and out.
+expect 0 "usage: clshear points" -- points --help
+[ "$(echo "$output" | awk '{ if (length > 80) print }' | wc -l)" -eq 0 ] || wrong "help wider than 80"
+"$program" points --sampler halton --n 7 --sets 3 >points.txt || wrong "points"
+[ "$(grep -c '#' points.txt)" -eq 2 ] && [ "$(grep -vc '#' points.txt)" -eq 21 ] || wrong "points.txt"
+"$program" points --in - --out points.exr <points.txt || wrong "points from a pipe"
+"$program" points --in points.exr --out points.csv || wrong "points from EXR"
+cmp -s <(tr , ' ' <points.csv) points.txt || wrong "formats differ"
+"$program" points --in points.txt --dims vx --shear-px 2 | awk '!/#/ && NF != 2 { exit 1 }' || wrong "dims"
+expect 1 "nowhere.txt: cannot be opened" -- points --in nowhere.txt
+printf '0.1 0.2\n0.3 1.2\n' >bad.txt
+expect 1 "bad.txt:2: a coordinate is not between 0 and 1" -- points --in bad.txt
+printf '0.1 0.2\n#\n0.1 0.2\n0.3 0.2\n' >bad.txt
+expect 1 "bad.txt:4: this set has not as many points" -- points --in bad.txt
+expect 2 "--dims xz: must be letters out of xyuvpq" -- points --dims xz
+expect 2 "scene.obj: not a flag" -- points scene.obj
+expect 1 "must be 1 to 65536" -- points --sampler ccvt --n 70000
+"$program" points --out /dev/full 2>full.txt && wrong "full device: exit code"
+grep -q "/dev/full: cannot be written" full.txt || wrong "full device: $(cat full.txt)"
+"$program" points --n 100000 2>pipe.txt | head -1 >/dev/null # a closed pipe is no crash
 
 # Progress: a line per 10 % in a pipe, the last one 100 %.
 output=$("$program" "$cornell" --width 64 --height 64 --spp 256 --out g.exr 2>&1 >/dev/null)

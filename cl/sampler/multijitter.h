@@ -41,19 +41,24 @@ static inline cs_pair cs_multijitter(const cs_grid *grid, cs_cell cell, u32 key,
     return point;
 }
 
-/* The cell of the second pair that the orthogonal array gives to a sample, its levels permuted. The
- * first pair's levels need no permutation: that of the others makes every combination of levels
- * equally likely. */
-static inline cs_cell cs_array_cell(const cs_pattern *pattern, cs_rows rows, u32 key, vuint index)
+/* A level of the first pair as the array knows it. Levels must be permuted at random in every
+ * coordinate: the array's own rows and columns run along diagonals, and so do integrands. */
+static inline vuint cs_array_level(const cs_grid *grid, u32 key, u32 dimension, vuint level)
+{
+    return cs_permute(level, (vuint)(grid->columns), grid->column_domain,
+                      (vuint)(cs_key(key, CS_KEY_DIMENSION + dimension)));
+}
+
+/* The cell of the second pair that the orthogonal array gives to the sample in `first`. */
+static inline cs_cell cs_array_cell(const cs_pattern *pattern, cs_rows rows, u32 key, cs_cell first)
 {
     const cs_grid *grid = &pattern->grid;
-    vuint levels = cs_row(pattern, rows, 0u, index);
-    vuint size = (vuint)(grid->columns);
+    vuint run = cs_array_level(grid, key, 0u, first.column) * grid->columns +
+                cs_array_level(grid, key, 1u, first.row);
+    vuint levels = cs_row_anywhere(pattern, rows, 0u, run);
     cs_cell cell;
-    cell.column = cs_permute(levels >> 16, size, grid->column_domain,
-                             (vuint)(cs_key(key, CS_KEY_DIMENSION + 2)));
-    cell.row = cs_permute(levels & 0xffffu, size, grid->column_domain,
-                          (vuint)(cs_key(key, CS_KEY_DIMENSION + 3)));
+    cell.column = cs_array_level(grid, key, 2u, levels >> 16);
+    cell.row = cs_array_level(grid, key, 3u, levels & 0xffffu);
     return cell;
 }
 
@@ -62,12 +67,13 @@ static inline void cs_draw_multijitter(const cs_pattern *pattern, cs_rows rows, 
 {
     const cs_grid *grid = &pattern->grid;
     int correlated = pattern->sampler == CS_SAMPLER_CMJ;
+    cs_cell first = cs_cell_in_block_order(grid, index);
     for (u32 pair = 0u; pair < pairs; pair++) {
-        cs_cell cell;
+        cs_cell cell = first;
         if (pair == CS_PAIR_FIBRE)
-            cell = cs_cell_in_block_order(grid, index);
+            cell = first;
         else if (pair == CS_PAIR_LENS && pattern->sampler == CS_SAMPLER_OA)
-            cell = cs_array_cell(pattern, rows, key, index);
+            cell = cs_array_cell(pattern, rows, key, first);
         else
             cell = cs_cell_of(grid, cs_partner(pattern, key, pair, index));
         cs_pair point = cs_multijitter(grid, cell, cs_key(key, CS_KEY_PAIR + pair), correlated);
@@ -76,32 +82,43 @@ static inline void cs_draw_multijitter(const cs_pattern *pattern, cs_rows rows, 
     }
 }
 
-/* A value in one of N = q^3 strata: those of level `word >> 16`, in a random order within the
- * level; `word & 0xffff` numbers the samples of a level. */
-static inline vfloat cs_ranked(const cs_grid *grid, vuint word, u32 key, int permuted)
+/* A value in one of N = q^3 strata: in those of `level`, the samples of a level in random order;
+ * `rank` < q^2 numbers them. */
+static inline vfloat cs_ranked(const cs_grid *grid, vuint level, vuint rank, u32 key)
 {
-    vuint level = word >> 16;
-    vuint rank =
-        cs_permute(word & 0xffffu, (vuint)(grid->rows), grid->row_domain, cs_key_lanes(key, level));
-    if (permuted)
-        level =
-            cs_permute(level, (vuint)(grid->columns), grid->column_domain, (vuint)(cs_hash(key)));
+    rank = cs_permute(rank, (vuint)(grid->rows), grid->row_domain, cs_key_lanes(key, level));
     vuint stratum = level * grid->rows + rank;
     return cs_in_stratum(grid, stratum, cs_key_lanes(~key, stratum) >> 16);
 }
 
-/* Orthogonal array of strength 3, N = q^3: every three coordinates have one point in each of q^3
- * cells (Bush 1952; Jarosz et al. 2019, section 4.2). The pair of the light is multi-jittered. */
+/* Orthogonal array of strength 3, N = q^3 runs (a, b, c) with the levels of a + b x + c x^2 at four
+ * places x: every three coordinates have one point in each of q^3 cells (Bush 1952; Jarosz et al.
+ * 2019, section 4.2). a and c are the levels of the first pair, in blocks; b runs fastest. The pair
+ * of the light is multi-jittered. */
 static inline void cs_draw_strong_array(const cs_pattern *pattern, cs_rows rows, u32 key,
                                         vuint index, u32 pairs, vfloat *tuple)
 {
-    for (u32 d = 0u; d < 4u; d++)
-        tuple[d] = cs_ranked(&pattern->grid, cs_row(pattern, rows, d, index),
-                             cs_key(key, CS_KEY_DIMENSION + d), d >= 2u);
+    const cs_grid *grid = &pattern->grid;
+    u32 q = grid->columns;
+    cs_grid cells = *grid; /* of the first pair: what the order of blocks looks at */
+    cells.count = q * q;
+    cells.rows = q;
+    vuint place = cs_divide(index, q, grid->inverse_columns);
+    vuint middle = index - place * q;
+    cs_cell first = cs_cell_in_block_order(&cells, place);
+    vuint run =
+        cs_array_level(grid, key, 0u, first.column) * q + cs_array_level(grid, key, 1u, first.row);
+    vuint levels = cs_row_anywhere(pattern, rows, 0u, run * q + middle);
+    vuint third = cs_array_level(grid, key, 2u, levels >> 16);
+    vuint fourth = cs_array_level(grid, key, 3u, levels & 0xffffu);
+    vuint rank = middle * q + first.row; /* with a level of any coordinate but y, names the run */
+    tuple[0] = cs_ranked(grid, first.column, rank, cs_key(key, CS_KEY_PAIR));
+    tuple[1] = cs_ranked(grid, first.row, middle * q + first.column, cs_key(key, CS_KEY_PAIR + 1));
+    tuple[2] = cs_ranked(grid, third, rank, cs_key(key, CS_KEY_PAIR + 2));
+    tuple[3] = cs_ranked(grid, fourth, rank, cs_key(key, CS_KEY_PAIR + 3));
     if (pairs <= CS_PAIR_EMITTER) return;
-    cs_cell cell = cs_cell_of(&pattern->grid, cs_partner(pattern, key, CS_PAIR_EMITTER, index));
-    cs_pair point =
-        cs_multijitter(&pattern->grid, cell, cs_key(key, CS_KEY_PAIR + CS_PAIR_EMITTER), 0);
+    cs_cell cell = cs_cell_of(grid, cs_partner(pattern, key, CS_PAIR_EMITTER, index));
+    cs_pair point = cs_multijitter(grid, cell, cs_key(key, CS_KEY_PAIR + 4), 0);
     tuple[4] = point.x;
     tuple[5] = point.y;
 }

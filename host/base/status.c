@@ -30,3 +30,9 @@ double cs_now_s(void)
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
+
+cs_error *cs_thread_error(void)
+{
+    static _Thread_local cs_error error;
+    return &error;
+}

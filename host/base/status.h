@@ -16,6 +16,9 @@ typedef struct cs_error {
 clshear_status cs_fail(cs_error *error, clshear_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* Where functions without a context keep the reason: one for each thread. */
+cs_error *cs_thread_error(void);
+
 /* Both jump to the label `done`, where what was acquired is released; `status` is the function's.
  */
 #define CS_TRY(call)                         \

@@ -1,30 +1,47 @@
-/* The table of flags: one for the command line, settings files and the help. */
+/* Tables of flags: one for a command's line, its settings file and its help. */
 #ifndef CS_CLI_FLAGS_H
 #define CS_CLI_FLAGS_H
 
 #include <stddef.h>
-#include <stdio.h>
+#include <stdint.h>
 
-#include "cli/job.h"
+#include "clshear.h"
 
 typedef struct cli_flag {
     const char *names;    /* separated by spaces, the main one first, without dashes */
     const char *argument; /* shown in the help; NULL: takes none */
     const char *help;
-    /* Stores `value`; returns NULL, or what the value should have been. */
-    const char *(*store)(cli_job *job, const char *value);
+    /* Stores `value` in the command's job; returns NULL, or what the value should have been. */
+    const char *(*store)(void *job, const char *value);
 } cli_flag;
 
-extern const cli_flag cli_flags[];
-extern const size_t cli_flag_count;
+typedef struct cli_command {
+    const char *name;    /* NULL: the program itself, which renders */
+    const char *summary; /* head of the help, up to and with an example */
+    const char *notes;   /* its tail */
+    const cli_flag *flags;
+    size_t flag_count;
+    int most_operands; /* words that are no flags */
+} cli_command;
 
 /* The flag called `name` (without dashes), or NULL. */
-const cli_flag *cli_find_flag(const char *name, size_t length);
+const cli_flag *cli_find_flag(const cli_command *command, const char *name, size_t length);
 
 /* The known name nearest to `name`, or NULL if none is near. Valid until the next call. */
-const char *cli_nearest_flag(const char *name, size_t length);
+const char *cli_nearest_flag(const cli_command *command, const char *name, size_t length);
 
-cli_job cli_job_defaults(void);
-void cli_print_help(FILE *stream);
+void cli_print_help(const cli_command *command);
+
+/* Readers of values, for store functions: 1, or 0 if the text is something else. */
+int cli_read_numbers(const char *text, int count, double *values); /* separated by commas */
+int cli_read_floats(const char *text, int count, float *values);
+int cli_read_ints(const char *text, int count, double low, double high, int *values);
+int cli_read_count(const char *text, double low, uint32_t *value);
+
+/* For store functions that keep a sampler's name: NULL, or what it should have been. */
+const char *cli_check_sampler(const char *name);
+
+/* The same for a kind of shear. */
+const char *cli_read_shear(const char *text, clshear_shear *shear);
 
 #endif

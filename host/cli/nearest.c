@@ -31,13 +31,13 @@ static int distance(const char *a, size_t a_length, const char *b, size_t b_leng
     return row[b_length];
 }
 
-const char *cli_nearest_flag(const char *name, size_t length)
+const char *cli_nearest_flag(const cli_command *command, const char *name, size_t length)
 {
     static char nearest[LONGEST + 1];
     int best = least((int)length / 2 + 2, 4);
     const char *found = NULL;
-    for (size_t i = 0; i < cli_flag_count; i++) {
-        const char *known = cli_flags[i].names;
+    for (size_t i = 0; i < command->flag_count; i++) {
+        const char *known = command->flags[i].names;
         while (*known != '\0') {
             size_t size = strcspn(known, " ");
             int edits = distance(name, length, known, size);

@@ -6,12 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/flags.h"
+#include "cli/job.h"
 
-/* Text of a settings file and names made from it: kept to the end of the process, since the job
- * points into it. */
+/* Text of a settings file: kept to the end of the process, since the job points into it. */
 static char *settings_text;
-static char settings_path[4096];
 
 static int complain(const char *place, const char *format, const char *a, const char *b)
 {
@@ -22,14 +20,14 @@ static int complain(const char *place, const char *format, const char *a, const 
 }
 
 /* Applies one flag. `place` starts the message: "" or "FILE:LINE: ". */
-static int apply(cli_job *job, const char *place, const char *name, size_t length,
-                 const char *value)
+static int apply(const cli_command *command, void *job, const char *place, const char *name,
+                 size_t length, const char *value)
 {
     char shown[64];
     snprintf(shown, sizeof shown, "%.*s", (int)length, name);
-    const cli_flag *flag = cli_find_flag(name, length);
+    const cli_flag *flag = cli_find_flag(command, name, length);
     if (flag == NULL) {
-        const char *nearest = cli_nearest_flag(name, length);
+        const char *nearest = cli_nearest_flag(command, name, length);
         return nearest != NULL
                    ? complain(place, "unknown flag --%s; did you mean --%s?", shown, nearest)
                    : complain(place, "unknown flag --%s%s; see --help", shown, "");
@@ -46,7 +44,8 @@ static int apply(cli_job *job, const char *place, const char *name, size_t lengt
 }
 
 /* One line of a settings file: "--flag value" or "flag value", "#" starts a comment. */
-static int apply_line(cli_job *job, char *line, const char *file, int number)
+static int apply_line(const cli_command *command, void *job, char *line, const char *file,
+                      int number)
 {
     char place[4200];
     snprintf(place, sizeof place, "%s:%d: ", file, number);
@@ -60,7 +59,7 @@ static int apply_line(cli_job *job, char *line, const char *file, int number)
     size_t length = strcspn(line, " \t=");
     char *value = line + length;
     value += strspn(value, " \t=");
-    return apply(job, place, line, length, *value != '\0' ? value : NULL);
+    return apply(command, job, place, line, length, *value != '\0' ? value : NULL);
 }
 
 /* All of a text file; NULL, with errno, if it cannot be read. */
@@ -87,7 +86,7 @@ static char *read_text(const char *path)
     return NULL;
 }
 
-static int read_settings(cli_job *job, const char *path)
+int cli_parse_settings(const cli_command *command, void *job, const char *path)
 {
     settings_text = read_text(path);
     if (settings_text == NULL) {
@@ -98,70 +97,34 @@ static int read_settings(cli_job *job, const char *path)
     for (char *line = settings_text; line != NULL; number++) {
         char *next = strchr(line, '\n');
         if (next != NULL) *next++ = '\0';
-        int code = apply_line(job, line, path, number);
+        int code = apply_line(command, job, line, path, number);
         if (code != CLI_DONE) return code;
         line = next;
     }
-    if (!job->quiet) fprintf(stderr, "clshear: settings from %s\n", path);
     return CLI_DONE;
 }
 
-/* Reads the words of the command line. Words that are no flags name the scene. */
-static int read_words(cli_job *job, int argc, char **argv)
+int cli_parse_words(const cli_command *command, void *job, int argc, char **argv,
+                    const char **operands)
 {
+    int found = 0;
     for (int i = 1; i < argc; i++) {
         const char *word = argv[i];
         if (word[0] != '-' || word[1] == '\0') {
-            if (job->scene != NULL)
-                return complain("", "more than one scene: %s and %s", job->scene, word);
-            job->scene = word;
+            if (found == command->most_operands)
+                return found > 0 ? complain("", "more than one scene: %s and %s", operands[0], word)
+                                 : complain("", "%s: not a flag%s", word, "");
+            operands[found++] = word;
             continue;
         }
         const char *name = word + (word[1] == '-' ? 2 : 1);
         size_t length = strcspn(name, "=");
         const char *value = name[length] == '=' ? name + length + 1 : NULL;
-        const cli_flag *flag = cli_find_flag(name, length);
+        const cli_flag *flag = cli_find_flag(command, name, length);
         if (value == NULL && flag != NULL && flag->argument != NULL && i + 1 < argc)
             value = argv[++i];
-        int code = apply(job, "", name, length, value);
+        int code = apply(command, job, "", name, length, value);
         if (code != CLI_DONE) return code;
     }
     return CLI_DONE;
-}
-
-/* "path/scene.obj" -> "path/scene.flags", if that file exists. */
-static const char *settings_beside(const char *scene)
-{
-    const char *dot = strrchr(scene, '.'), *slash = strrchr(scene, '/');
-    if (dot == NULL || (slash != NULL && dot < slash)) return NULL;
-    snprintf(settings_path, sizeof settings_path, "%.*s.flags", (int)(dot - scene), scene);
-    FILE *stream = fopen(settings_path, "rb");
-    if (stream == NULL) return NULL;
-    fclose(stream);
-    return settings_path;
-}
-
-int cli_parse(int argc, char **argv, cli_job *job)
-{
-    cli_job line = cli_job_defaults();
-    int code = read_words(&line, argc, argv);
-    *job = line;
-    if (code != CLI_DONE || line.help || line.version || line.list_devices ||
- line.list_samplers) return code;
-    if (line.scene == NULL)
-        return complain("", "no scene given%s%s; try: clshear SCENE --out img.exr", "", "");
-    const char *settings = line.settings != NULL ? line.settings : settings_beside(line.scene);
-    if (settings == NULL) return CLI_DONE;
-
-    cli_job file = cli_job_defaults();
-    file.quiet = line.quiet;
-    code = read_settings(&file, settings);
-    if (code != CLI_DONE) return code;
-    /* The command line is read over the file's settings; its lights and outputs replace the
-     * file's. */
-    if (line.light_count > 0) file.light_count = 0;
-    if (line.output_count > 0) file.output_count = 0;
-    file.scene = NULL;
-    *job = file;
-    return read_words(job, argc, argv);
 }

@@ -1,11 +1,16 @@
-/* From words to a job. */
+/* From words to a job. All print what is wrong, in one line. */
 #ifndef CS_CLI_PARSE_H
 #define CS_CLI_PARSE_H
 
-#include "cli/job.h"
+#include "cli/flags.h"
 
-/* Reads the settings file, if there is one, and then the command line, which wins. Prints what is
- * wrong, in one line. Returns CLI_DONE, CLI_FAILED or CLI_USAGE. */
-int cli_parse(int argc, char **argv, cli_job *job);
+/* Reads the words after the program's (or the command's) name: argv[1] ... The words that are no
+ * flags go to `operands`, as many as the command takes. Returns CLI_DONE or CLI_USAGE. */
+int cli_parse_words(const cli_command *command, void *job, int argc, char **argv,
+                    const char **operands);
+
+/* Reads a settings file: a flag a line. What the job keeps of it lives as long as the process.
+ * Returns CLI_DONE, CLI_FAILED or CLI_USAGE. */
+int cli_parse_settings(const cli_command *command, void *job, const char *path);
 
 #endif

@@ -54,6 +54,20 @@ typedef struct cs_picture {
     const cs_attribute *attributes;
 } cs_picture;
 
+/* A picture read from a file, and what it owns. Start from zeros. */
+typedef struct cs_loaded_picture {
+    cs_picture picture;
+    char (*names)[32];
+    float *pixels;
+    const char **name_list;
+    const float **plane_list;
+    cs_attribute *attributes; /* texts, integers and floats of the file */
+} cs_loaded_picture;
+
+/* Reads all channels of a picture as floats. */
+clshear_status cs_image_read(const char *path, cs_loaded_picture *loaded, cs_error *error);
+void cs_image_free(cs_loaded_picture *loaded);
+
 /* Whether the extension of `path` names a format that can be written. */
 int cs_image_can_write(const char *path);
 

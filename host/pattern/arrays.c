@@ -77,46 +77,39 @@ static field field_of(u32 q)
     return f;
 }
 
-/* Levels of the second pair for every cell of the first, which are numbered in blocks. */
+/* Levels i + j and i + x j of run i q + j, where x generates the field. */
 int cs_rows_oa(cs_table *table)
 {
-    const cs_grid *grid = &table->pattern->grid;
+    const u32 q = table->pattern->grid.columns;
     field *f = malloc(sizeof *f);
     if (f == NULL) return 0;
-    *f = field_of(grid->columns);
-    const u32 factor_of_last = f->power[1 % (f->q - 1)];
-    for (u32 row = 0; row < grid->count; row++) {
-        const cs_cell cell = cs_cell_in_block_order(grid, row);
-        const u32 third = add(f, cell.column, cell.row);
-        const u32 fourth = add(f, cell.column, multiply(f, factor_of_last, cell.row));
-        table->word[0][row] = third << 16 | fourth;
+    *f = field_of(q);
+    const u32 x = f->power[1];
+    for (u32 run = 0; run < q * q; run++) {
+        const u32 i = run / q, j = run % q;
+        table->word[0][run] = add(f, i, j) << 16 | add(f, i, multiply(f, x, j));
     }
     table->words = 1;
     free(f);
     return 1;
 }
 
-/* Bush's array: run (a, b, c) has the levels of a + b x + c x^2 at x = 0, infinity, 1 and a
- * generator. Any two of a, b and c number the runs of a level: a word is level << 16 | number. */
+/* Bush's array: run (a q + c) q + b has the values of a + b x + c x^2 at x = 0, infinity, 1 and a
+ * generator; the first two are a and c themselves. */
 int cs_rows_oa3(cs_table *table)
 {
     const u32 q = table->pattern->grid.columns;
-    const cs_grid cells = cs_grid_on(q * q, q);
     field *f = malloc(sizeof *f);
     if (f == NULL) return 0;
     *f = field_of(q);
-    const u32 x = f->power[1 % (q - 1)], square = multiply(f, x, x);
-    for (u32 row = 0; row < q * q * q; row++) {
-        const cs_cell cell = cs_cell_in_block_order(&cells, row / q);
-        const u32 a = cell.column, b = row % q, c = cell.row;
+    const u32 x = f->power[1], square = multiply(f, x, x);
+    for (u32 run = 0; run < q * q * q; run++) {
+        const u32 a = run / (q * q), c = run / q % q, b = run % q;
         const u32 third = add(f, a, add(f, b, c));
         const u32 fourth = add(f, a, add(f, multiply(f, x, b), multiply(f, square, c)));
-        table->word[0][row] = a << 16 | (b * q + c);
-        table->word[1][row] = c << 16 | (a * q + b);
-        table->word[2][row] = third << 16 | (b * q + c);
-        table->word[3][row] = fourth << 16 | (b * q + c);
+        table->word[0][run] = third << 16 | fourth;
     }
-    table->words = 4;
+    table->words = 1;
     free(f);
     return 1;
 }

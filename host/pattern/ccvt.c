@@ -1,4 +1,4 @@
-/* Point sets whose Voronoi regions have equal capacity: blue noise by optimal transport.
+/* Planar sets whose power regions have equal capacity: blue noise by optimal transport.
  *
  * Every point owns the pixels of a fine raster of the torus that are nearest to it by power
  * distance. Weights are moved until all regions are equally large, and points to the centroids of
@@ -8,11 +8,13 @@
 #include <string.h>
 
 #include "pattern/rows.h"
+#include "sampler/net.h"
 
 enum {
-    PIXELS = 12,  /* of the raster, along a point's mean region */
-    MOVES = 120,  /* of points and weights */
-    BALANCES = 40 /* of weights alone, after that */
+    PIXELS = 10,     /* of the raster, along a point's mean region */
+    STEPS = 100,     /* of points and weights */
+    FLOWS = 3,       /* passes over the low frequencies */
+    FREQUENCIES = 24 /* at most, along an axis */
 };
 
 typedef struct raster {
@@ -83,13 +85,13 @@ static f32 on_torus(f32 at, f32 side)
 
 /* A region of mean width w grows by about 1.75 times what its weight does; half of that step is
  * stable. */
-static void improve(raster *r, int move)
+static void improve(raster *r)
 {
     const f32 side = (f32)r->side, capacity = side * side / (f32)r->count;
     for (u32 k = 0; k < r->count; k++) {
         const f32 *sum = r->sums + 3 * (size_t)k;
         r->weight[k] += 0.3f * (capacity - sum[0]);
-        if (!move || sum[0] < 1.0f) continue;
+        if (sum[0] < 1.0f) continue;
         r->x[k] = on_torus(r->x[k] + sum[1] / sum[0], side);
         r->y[k] = on_torus(r->y[k] + sum[2] / sum[0], side);
     }
@@ -105,27 +107,92 @@ static int reserve(raster *r)
     return r->weight != NULL && r->distance != NULL && r->owner != NULL && r->sums != NULL;
 }
 
+static void relax(raster *r)
+{
+    const f32 side = (f32)r->side;
+    for (u32 k = 0; k < r->count; k++)
+        r->x[k] *= side, r->y[k] *= side;
+    for (int step = 0; step < STEPS; step++) {
+        assign(r);
+        gather(r);
+        improve(r);
+    }
+    for (u32 k = 0; k < r->count; k++)
+        r->x[k] /= side, r->y[k] /= side;
+}
+
+/* exp(2 pi i a x) for a = 0 ... most, real and imaginary parts. */
+static void harmonics(f32 x, int most, double (*power)[2])
+{
+    const double c = cos(6.283185307179586 * (double)x), s = sin(6.283185307179586 * (double)x);
+    power[0][0] = 1.0, power[0][1] = 0.0;
+    for (int a = 1; a <= most; a++) {
+        power[a][0] = power[a - 1][0] * c - power[a - 1][1] * s;
+        power[a][1] = power[a - 1][0] * s + power[a - 1][1] * c;
+    }
+}
+
+/* exp(2 pi i (a x + b y)) from the harmonics, for any sign of b. */
+static void mode(double (*px)[2], double (*py)[2], int a, int b, double *value)
+{
+    const double re = py[abs(b)][0], im = b < 0 ? -py[abs(b)][1] : py[abs(b)][1];
+    value[0] = px[a][0] * re - px[a][1] * im;
+    value[1] = px[a][0] * im + px[a][1] * re;
+}
+
+/* Moves the points by the gradient field that cancels, to first order, what their density has at
+ * frequencies up to `most` along each axis: div u = density. Weights even out what is near, this
+ * what is far. */
+static void flow(u32 count, int most, f32 *x, f32 *y, double (*density)[2])
+{
+    double px[FREQUENCIES + 1][2], py[FREQUENCIES + 1][2], value[2];
+    const int span = 2 * most + 1;
+    memset(density, 0, (size_t)((most + 1) * span) * sizeof *density);
+    for (u32 k = 0; k < count; k++) {
+        harmonics(x[k], most, px), harmonics(y[k], most, py);
+        for (int a = 0; a <= most; a++)
+            for (int b = -most; b <= most; b++) {
+                mode(px, py, a, b, value);
+                density[a * span + b + most][0] += value[0] / count;
+                density[a * span + b + most][1] -= value[1] / count;
+            }
+    }
+    for (u32 k = 0; k < count; k++) {
+        double way[2] = {0.0, 0.0};
+        harmonics(x[k], most, px), harmonics(y[k], most, py);
+        for (int a = 0; a <= most; a++)
+            for (int b = a > 0 ? -most : 1; b <= most; b++) {
+                const double *d = density[a * span + b + most];
+                mode(px, py, a, b, value);
+                /* twice the real part of -i d / (2 pi |k|^2) exp(2 pi i k x) */
+                const double part =
+                    (d[0] * value[1] + d[1] * value[0]) / (3.141592653589793 * (a * a + b * b));
+                way[0] += a * part;
+                way[1] += b * part;
+            }
+        x[k] = on_torus(x[k] + (f32)way[0], 1.0f);
+        y[k] = on_torus(y[k] + (f32)way[1], 1.0f);
+    }
+}
+
+/* Begins with a scrambled (0,2)-sequence, which leaves little to be moved far. */
 int cs_ccvt_points(u32 count, u32 seed, f32 *x, f32 *y)
 {
     raster r = {.count = count, .x = x, .y = y};
+    const int third = (int)(0.3 * sqrt((double)count));
+    const int most = third < FREQUENCIES ? third : FREQUENCIES;
+    double(*density)[2] = malloc((size_t)((most + 1) * (2 * most + 1)) * sizeof *density);
     r.side = (i32)ceil(PIXELS * sqrt((double)count));
     r.reach = 2 * PIXELS < (r.side - 1) / 2 ? 2 * PIXELS : (r.side - 1) / 2;
-    int good = reserve(&r) && cs_poisson_points(count, seed, x, y);
+    const int good = reserve(&r) && density != NULL;
     for (u32 k = 0; good && k < count; k++) {
-        x[k] *= (f32)r.side;
-        y[k] *= (f32)r.side;
+        x[k] = cs_scrambled(k, seed, 0u);
+        y[k] = cs_scrambled(cs_pascal(k), seed, 1u);
     }
-    for (int step = 0; good && step < MOVES + BALANCES; step++) {
-        assign(&r);
-        gather(&r);
-        improve(&r, step < MOVES || step == MOVES + BALANCES - 1);
-    }
-    for (u32 k = 0; good && k < count; k++) {
-        x[k] /= (f32)r.side;
-        y[k] /= (f32)r.side;
-        if (x[k] >= 1.0f) x[k] = 0.0f;
-        if (y[k] >= 1.0f) y[k] = 0.0f;
-    }
+    if (good) relax(&r);
+    for (int pass = 0; good && pass < FLOWS; pass++)
+        flow(count, most, x, y, density);
+    free(density);
     free(r.weight);
     free(r.distance);
     free(r.owner);

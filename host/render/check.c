@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "render/job.h"
 #include "pattern/pattern.h"
+#include "render/job.h"
 
 static clshear_status check_window(cs_job *job, cs_error *error)
 {

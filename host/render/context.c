@@ -4,9 +4,6 @@
 
 #include "render/handles.h"
 
-/* The reason of a failure that left no context to keep it in. */
-static _Thread_local cs_error last_failure;
-
 const char *clshear_version(void)
 {
     return CLSHEAR_VERSION;
@@ -21,7 +18,7 @@ clshear_status clshear_context_create(const clshear_context_options *options,
                                       clshear_context **result)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_error *error = &last_failure;
+    cs_error *error = cs_thread_error();
     const clshear_context_options defaults = clshear_context_defaults();
     clshear_context *context = calloc(1, sizeof *context);
     if (options == NULL) options = &defaults;
@@ -49,13 +46,13 @@ void clshear_context_free(clshear_context *context)
 
 const char *clshear_message(const clshear_context *context)
 {
-    return context != NULL ? context->error.message : last_failure.message;
+    return context != NULL ? context->error.message : cs_thread_error()->message;
 }
 
 clshear_status clshear_list_devices(void (*report)(void *user, int number, const char *name),
                                     void *user)
 {
-    return cs_device_list(report, user, &last_failure);
+    return cs_device_list(report, user, cs_thread_error());
 }
 
 const char *clshear_device_name(const clshear_context *context)

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/job.h"
 #include "pattern/pattern.h"
+#include "render/job.h"
 
 enum {
     SLICE = 1 << 16 /* pixels read back at once */

@@ -1,8 +1,8 @@
 /* The context's tables of patterns. */
 #include <string.h>
 
-#include "render/handles.h"
 #include "pattern/pattern.h"
+#include "render/handles.h"
 
 static int is_same(const cs_pattern *a, const cs_pattern *b)
 {

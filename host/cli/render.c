@@ -1,0 +1,317 @@
+/* Scene file in, pictures out. */
+#include "cli/render.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/parse.h"
+#include "cli/progress.h"
+
+static char default_output[4096];
+static char settings_path[4096];
+
+static void warn(void *user, const char *line)
+{
+    const cli_job *job = user;
+    if (!job->quiet) fprintf(stderr, "clshear: %s\n", line);
+}
+
+static int fail(const clshear_context *context)
+{
+    fprintf(stderr, "clshear: %s\n", clshear_message(context));
+    return CLI_FAILED;
+}
+
+static void print_device(void *user, int number, const char *name)
+{
+    (void)user;
+    printf("%d: %s\n", number, name);
+}
+
+static int list_devices(void)
+{
+    return clshear_list_devices(print_device, NULL) == CLSHEAR_OK ? CLI_DONE : fail(NULL);
+}
+
+static int list_samplers(void)
+{
+    clshear_sampler_info info;
+    for (size_t i = 0; clshear_sampler_describe(i, &info); i++)
+        printf("%-12s %s%s%s\n", info.name, info.about, info.progressive ? "; progressive" : "",
+               info.is_default ? "; default" : "");
+    return CLI_DONE;
+}
+
+/* Without --out: the scene's name with .exr, in the current folder. */
+static void choose_output(cli_job *job)
+{
+    if (job->output_count > 0) return;
+    const char *slash = strrchr(job->scene, '/');
+    const char *name = slash != NULL ? slash + 1 : job->scene;
+    const char *dot = strrchr(name, '.');
+    int length = dot != NULL ? (int)(dot - name) : (int)strlen(name);
+    snprintf(default_output, sizeof default_output, "%.*s.exr", length, name);
+    job->outputs[job->output_count++] = default_output;
+}
+
+/* Finds out before a long render whether its result can be kept. */
+static int check_outputs(const cli_job *job)
+{
+    static const char *const known[] = {".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff"};
+    for (int i = 0; i < job->output_count; i++) {
+        const char *path = job->outputs[i], *dot = strrchr(path, '.');
+        const char *slash = strrchr(path, '/');
+        char folder[4096] = ".";
+        int found = 0;
+        for (size_t k = 0; k < sizeof known / sizeof *known && dot != NULL; k++)
+            found |= strcasecmp(dot, known[k]) == 0;
+        if (!found || dot == path || dot[-1] == '/') {
+            fprintf(stderr,
+                    "clshear: --out %s: must be a name that ends in .exr, .png, .jpg or .tif\n",
+                    path);
+            return CLI_USAGE;
+        }
+        if (slash != NULL) snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
+        struct stat about;
+        if (stat(path, &about) == 0 && S_ISDIR(about.st_mode)) {
+            fprintf(stderr, "clshear: --out %s: is a folder\n", path);
+            return CLI_FAILED;
+        }
+        if (access(folder, W_OK) != 0) {
+            fprintf(stderr, "clshear: --out %s: folder %s cannot be written: %s\n", path, folder,
+                    strerror(errno));
+            return CLI_FAILED;
+        }
+    }
+    return CLI_DONE;
+}
+
+static void override_vector(const cli_vector *given, float *value)
+{
+    if (given->given) memcpy(value, given->value, sizeof given->value);
+}
+
+/* The scene's camera with what the flags say. */
+static clshear_status choose_camera(const cli_job *job, const clshear_scene *scene,
+                                    clshear_camera *camera)
+{
+    const int width = job->options.width, height = job->options.height;
+    clshear_status status = clshear_scene_camera(scene, width, height, camera);
+    if (status != CLSHEAR_OK) return status;
+    override_vector(&job->eye, camera->eye);
+    override_vector(&job->target, camera->target);
+    override_vector(&job->up, camera->up);
+    if (job->fov.given) camera->fov_deg = job->fov.value;
+    camera->aperture = job->aperture;
+    if (job->f_stop.given)
+        camera->lens_radius = clshear_lens_radius(camera, job->f_stop.value, job->unit_m.value);
+    if (job->lens_radius.given) camera->lens_radius = job->lens_radius.value;
+    if (job->focal_distance.given) camera->focal_distance = job->focal_distance.value;
+    if (job->focus_pixel_given)
+        status = clshear_camera_focus(scene, width, height, job->focus_pixel[0],
+                                      job->focus_pixel[1], camera);
+    if (status != CLSHEAR_OK) return status;
+    const int lens_chosen = camera->lens_radius >= 0.0f;
+    const int focus_chosen = camera->focal_distance > 0.0f;
+    status = clshear_camera_complete(scene, width, height, camera);
+    if (status != CLSHEAR_OK || job->quiet) return status;
+    if (!focus_chosen && camera->lens_radius > 0.0f)
+        fprintf(stderr, "clshear: focused on the middle of the picture, --focal-distance %g\n",
+                (double)camera->focal_distance);
+    if (!lens_chosen)
+        fprintf(stderr, "clshear: no lens given, a moderate blur: --lens-radius %g\n",
+                (double)camera->lens_radius);
+    return CLSHEAR_OK;
+}
+
+/* Tells what the file and the flags left open. */
+static void tell_choices(const cli_job *job, const clshear_scene *scene,
+                         const clshear_camera *camera)
+{
+    const clshear_scene_info info = clshear_scene_describe(scene);
+    if (job->quiet) return;
+    if (!info.file_camera && !job->eye.given)
+        fprintf(stderr, "clshear: no camera given, the scene is framed: --eye %g,%g,%g\n",
+                (double)camera->eye[0], (double)camera->eye[1], (double)camera->eye[2]);
+    if (info.lights + info.emitters == 0)
+        fprintf(stderr, "clshear: no light given, a point light above the scene's middle\n");
+}
+
+/* The command that was given; words that a shell would take apart in quotes. */
+static char *command_line(int argc, char **argv)
+{
+    size_t size = 1;
+    for (int i = 0; i < argc; i++)
+        size += strlen(argv[i]) + 3;
+    char *text = calloc(1, size);
+    for (int i = 0; i < argc && text != NULL; i++) {
+        const char *quote = strpbrk(argv[i], " \t\"$&*;<>?\\`|()") != NULL ? "'" : "";
+        size_t used = strlen(text);
+        snprintf(text + used, size - used, "%s%s%s%s", i > 0 ? " " : "", quote, argv[i], quote);
+    }
+    return text;
+}
+
+/* The mean over pixels and colours of a plane named PREFIX.R, PREFIX.G, PREFIX.B. */
+static double mean_of(const clshear_film *film, const char *prefix)
+{
+    const clshear_film_info info = clshear_film_describe(film);
+    const size_t pixels = (size_t)info.width * (size_t)info.height;
+    double sum = 0.0;
+    for (const char *letter = "RGB"; *letter != '\0'; letter++) {
+        char name[32];
+        snprintf(name, sizeof name, "%s.%c", prefix, *letter);
+        const float *plane = clshear_film_channel(film, name);
+        for (size_t i = 0; i < pixels && plane != NULL; i++)
+            sum += (double)plane[i];
+    }
+    return sum / (3.0 * (double)pixels);
+}
+
+static void print_stats(const clshear_context *context, const clshear_scene *scene,
+                        const clshear_film *film)
+{
+    const clshear_scene_info world = clshear_scene_describe(scene);
+    const clshear_film_info info = clshear_film_describe(film);
+    const double rays = (double)info.samples + (double)info.shadow_rays;
+    printf("device       %s\n", clshear_device_name(context));
+    printf("triangles    %zu (%zu without area dropped), %zu in leaves, %zu nodes\n",
+           world.triangles, world.degenerate, world.references, world.nodes);
+    printf("geometry     %.1f bytes per triangle on the device\n",
+           (double)world.device_bytes / (double)world.triangles);
+    printf("lights       %zu point or directional, %zu emissive triangles\n", world.lights,
+           world.emitters);
+    printf("load         %.3f s\n", world.load_s);
+    printf("build        %.3f s\n", world.build_s);
+    printf("prepass      %.3f s\n", info.prepass_s);
+    printf("kernels      %.3f s\n", info.kernel_s);
+    printf("render       %.3f s, prepass and kernels included\n", info.render_s);
+    printf("samples      %.3f M, %.2f M/s\n", 1e-6 * (double)info.samples,
+           1e-6 * (double)info.samples / info.kernel_s);
+    printf("rays         %.3f M, %.2f M/s (primary and shadow)\n", 1e-6 * rays,
+           1e-6 * rays / info.kernel_s);
+    if (clshear_film_channel(film, "Variance.R") != NULL)
+        printf("variance     %.3e of the image, mean over pixels and colours\n",
+               mean_of(film, "Variance"));
+}
+
+static int write_outputs(const cli_job *job, const clshear_context *context, clshear_film *film,
+                         const char *command)
+{
+    if (command != NULL && clshear_film_annotate(film, "clshear.cmdline", command) != CLSHEAR_OK)
+        return fail(context);
+    int code = CLI_DONE; /* one output that fails must not cost the others */
+    for (int i = 0; i < job->output_count; i++)
+        if (clshear_film_write(film, job->outputs[i]) != CLSHEAR_OK) code = fail(context);
+    return code;
+}
+
+/* From a loaded scene to written files. */
+static int render(cli_job *job, const clshear_context *context, clshear_scene *scene,
+                  const char *command)
+{
+    clshear_camera camera;
+    clshear_film *film = NULL;
+    for (int i = 0; i < job->light_count; i++)
+        if (clshear_scene_add_light(scene, &job->lights[i]) != CLSHEAR_OK) return fail(context);
+    if (choose_camera(job, scene, &camera) != CLSHEAR_OK) return fail(context);
+    tell_choices(job, scene, &camera);
+    cli_progress progress = cli_progress_start(job->quiet);
+    job->options.progress = cli_progress_report;
+    job->options.progress_user = &progress;
+    cli_catch_interrupt();
+    clshear_status status = clshear_render(scene, &camera, &job->options, &film);
+    cli_progress_end(&progress);
+    if (status != CLSHEAR_OK && status != CLSHEAR_CANCELLED) return fail(context);
+    int code = write_outputs(job, context, film, command);
+    if (code == CLI_DONE && job->stats) print_stats(context, scene, film);
+    clshear_film_free(film);
+    if (code != CLI_DONE) return code;
+    if (status == CLSHEAR_CANCELLED && !job->quiet)
+        fprintf(stderr, "clshear: interrupted; %s holds the samples so far\n", job->outputs[0]);
+    return status == CLSHEAR_CANCELLED ? CLI_INTERRUPTED : CLI_DONE;
+}
+
+static int run(cli_job *job, const char *command)
+{
+    clshear_context *context = NULL;
+    clshear_scene *scene = NULL;
+    choose_output(job);
+    int code = check_outputs(job);
+    if (code != CLI_DONE) return code;
+    job->context.warn = warn;
+    job->context.warn_user = job;
+    if (clshear_context_create(&job->context, &context) != CLSHEAR_OK) return fail(NULL);
+    if (clshear_scene_load(context, job->scene, &scene) != CLSHEAR_OK)
+        code = fail(context);
+    else
+        code = render(job, context, scene, command);
+    clshear_scene_free(scene);
+    clshear_context_free(context);
+    return code;
+}
+
+/* "path/scene.obj" -> "path/scene.flags", if that file exists. */
+static const char *settings_beside(const char *scene)
+{
+    const char *dot = strrchr(scene, '.'), *slash = strrchr(scene, '/');
+    if (dot == NULL || (slash != NULL && dot < slash)) return NULL;
+    snprintf(settings_path, sizeof settings_path, "%.*s.flags", (int)(dot - scene), scene);
+    FILE *stream = fopen(settings_path, "rb");
+    if (stream == NULL) return NULL;
+    fclose(stream);
+    return settings_path;
+}
+
+/* Reads the settings file, if there is one, and then the command line, which wins. */
+static int parse(int argc, char **argv, cli_job *job)
+{
+    const cli_command *command = &cli_render_command;
+    cli_job line = cli_job_defaults();
+    int code = cli_parse_words(command, &line, argc, argv, &line.scene);
+    *job = line;
+    if (code != CLI_DONE || line.help || line.version || line.list_devices || line.list_samplers)
+        return code;
+    if (line.scene == NULL) {
+        fprintf(stderr, "clshear: no scene given; try: clshear SCENE --out img.exr\n");
+        return CLI_USAGE;
+    }
+    const char *settings = line.settings != NULL ? line.settings : settings_beside(line.scene);
+    if (settings == NULL) return CLI_DONE;
+    cli_job file = cli_job_defaults();
+    code = cli_parse_settings(command, &file, settings);
+    if (code != CLI_DONE) return code;
+    if (!line.quiet) fprintf(stderr, "clshear: settings from %s\n", settings);
+    /* The command line is read over the file's settings; its lights and outputs replace the
+     * file's. */
+    if (line.light_count > 0) file.light_count = 0;
+    if (line.output_count > 0) file.output_count = 0;
+    *job = file;
+    return cli_parse_words(command, job, argc, argv, &job->scene);
+}
+
+int cli_render(int argc, char **argv)
+{
+    cli_job job;
+    int code = parse(argc, argv, &job);
+    if (code != CLI_DONE) return code;
+    if (job.help) {
+        cli_print_help(&cli_render_command);
+        return CLI_DONE;
+    }
+    if (job.version) {
+        printf("clshear %s\n", clshear_version());
+        return CLI_DONE;
+    }
+    if (job.list_devices) return list_devices();
+    if (job.list_samplers) return list_samplers();
+    char *words = command_line(argc, argv);
+    code = run(&job, words);
+    free(words);
+    return code;
+}

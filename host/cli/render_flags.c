@@ -1,0 +1,299 @@
+/* The flags of rendering. */
+#include "cli/render.h"
+
+#include <string.h>
+
+static const char *vector(cli_vector *target, const char *value)
+{
+    target->given = 1;
+    return cli_read_floats(value, 3, target->value) ? NULL : "three numbers, x,y,z";
+}
+
+static const char *positive(cli_number *target, const char *value)
+{
+    target->given = 1;
+    return cli_read_floats(value, 1, &target->value) && target->value > 0.0f ? NULL
+                                                                             : "a number above 0";
+}
+
+static const char *store_out(void *target, const char *value)
+{
+    cli_job *job = target;
+    if (job->output_count == CLI_MAX_OUTPUTS) return "given at most 16 times";
+    job->outputs[job->output_count++] = value;
+    return NULL;
+}
+
+static const char *store_spp(void *target, const char *value)
+{
+    cli_job *job = target;
+    return cli_read_count(value, 1, &job->options.spp) ? NULL : "a whole number from 1";
+}
+
+static const char *store_replicates(void *target, const char *value)
+{
+    cli_job *job = target;
+    return cli_read_count(value, 1, &job->options.replicates) ? NULL : "a whole number from 1";
+}
+
+static const char *store_seed(void *target, const char *value)
+{
+    cli_job *job = target;
+    return cli_read_count(value, 0, &job->options.seed) ? NULL
+                                                        : "a whole number from 0 to 4294967295";
+}
+
+static const char *store_shear(void *target, const char *value)
+{
+    cli_job *job = target;
+    return cli_read_shear(value, &job->options.shear);
+}
+
+static const char *store_sampler(void *target, const char *value)
+{
+    cli_job *job = target;
+    job->options.sampler = value;
+    return cli_check_sampler(value);
+}
+
+static const char *store_width(void *target, const char *value)
+{
+    cli_job *job = target;
+    return cli_read_ints(value, 1, 1, 65536, &job->options.width) ? NULL
+                                                                  : "a whole number, 1 to 65536";
+}
+
+static const char *store_height(void *target, const char *value)
+{
+    cli_job *job = target;
+    return cli_read_ints(value, 1, 1, 65536, &job->options.height) ? NULL
+                                                                   : "a whole number, 1 to 65536";
+}
+
+static const char *store_crop(void *target, const char *value)
+{
+    cli_job *job = target;
+    int *crop = job->options.crop;
+    return cli_read_ints(value, 4, 0, 65536, crop) && crop[0] < crop[1] && crop[2] < crop[3]
+               ? NULL
+               : "x0,x1,y0,y1 in pixels, x0 < x1 and y0 < y1";
+}
+
+static const char *store_eye(void *target, const char *value)
+{
+    cli_job *job = target;
+    return vector(&job->eye, value);
+}
+
+static const char *store_target(void *target, const char *value)
+{
+    cli_job *job = target;
+    return vector(&job->target, value);
+}
+
+static const char *store_up(void *target, const char *value)
+{
+    cli_job *job = target;
+    return vector(&job->up, value);
+}
+
+static const char *store_fov(void *target, const char *value)
+{
+    cli_job *job = target;
+    const char *wanted = positive(&job->fov, value);
+    return wanted == NULL && job->fov.value < 180.0f ? NULL : "degrees above 0 and below 180";
+}
+
+static const char *store_lens_radius(void *target, const char *value)
+{
+    cli_job *job = target;
+    job->lens_radius.given = 1;
+    job->f_stop.given = 0; /* the last word on a thing counts */
+    return cli_read_floats(value, 1, &job->lens_radius.value) && job->lens_radius.value >= 0.0f
+               ? NULL
+               : "a number, 0 or more";
+}
+
+static const char *store_focal_distance(void *target, const char *value)
+{
+    cli_job *job = target;
+    job->focus_pixel_given = 0;
+    return positive(&job->focal_distance, value);
+}
+
+static const char *store_f_stop(void *target, const char *value)
+{
+    cli_job *job = target;
+    job->lens_radius.given = 0;
+    return positive(&job->f_stop, value);
+}
+
+static const char *store_unit(void *target, const char *value)
+{
+    cli_job *job = target;
+    return positive(&job->unit_m, value);
+}
+
+static const char *store_focus_pixel(void *target, const char *value)
+{
+    cli_job *job = target;
+    job->focus_pixel_given = 1;
+    job->focal_distance.given = 0;
+    return cli_read_ints(value, 2, 0, 65535, job->focus_pixel) ? NULL : "x,y in pixels";
+}
+
+static const char *store_aperture(void *target, const char *value)
+{
+    cli_job *job = target;
+    if (strcmp(value, "disk") == 0)
+        job->aperture = CLSHEAR_APERTURE_DISK;
+    else if (strcmp(value, "square") == 0)
+        job->aperture = CLSHEAR_APERTURE_SQUARE;
+    else
+        return "square or disk";
+    return NULL;
+}
+
+static const char *store_light(void *target, const char *value)
+{
+    cli_job *job = target;
+    float numbers[6];
+    if (!cli_read_floats(value, 6, numbers)) return "six numbers, x,y,z,r,g,b";
+    if (job->light_count == CLI_MAX_LIGHTS) return "given at most 64 times";
+    clshear_light *light = &job->lights[job->light_count++];
+    light->kind = CLSHEAR_LIGHT_POINT;
+    memcpy(light->vector, numbers, sizeof light->vector);
+    memcpy(light->colour, numbers + 3, sizeof light->colour);
+    return NULL;
+}
+
+static const char *store_settings(void *target, const char *value)
+{
+    cli_job *job = target;
+    job->settings = value;
+    return NULL;
+}
+
+static const char *store_device(void *target, const char *value)
+{
+    cli_job *job = target;
+    job->context.device = value;
+    return NULL;
+}
+
+static const char *store_threads(void *target, const char *value)
+{
+    cli_job *job = target;
+    return cli_read_ints(value, 1, 0, 4096, &job->context.threads) ? NULL
+                                                                   : "a whole number, 0 for all";
+}
+
+static const char *store_packet(void *target, const char *value)
+{
+    cli_job *job = target;
+    int good = cli_read_ints(value, 1, 1, 16, &job->context.packet);
+    int width = job->context.packet;
+    return good && (width == 1 || width == 4 || width == 8 || width == 16) ? NULL : "1, 4, 8 or 16";
+}
+
+static const char *store_quiet(void *target, const char *value)
+{
+    cli_job *job = target;
+    (void)value;
+    job->quiet = 1;
+    return NULL;
+}
+
+static const char *store_stats(void *target, const char *value)
+{
+    cli_job *job = target;
+    (void)value;
+    job->stats = 1;
+    return NULL;
+}
+
+static const char *store_help(void *target, const char *value)
+{
+    cli_job *job = target;
+    (void)value;
+    job->help = 1;
+    return NULL;
+}
+
+static const char *store_version(void *target, const char *value)
+{
+    cli_job *job = target;
+    (void)value;
+    job->version = 1;
+    return NULL;
+}
+
+static const char *store_list_samplers(void *target, const char *value)
+{
+    cli_job *job = target;
+    (void)value;
+    job->list_samplers = 1;
+    return NULL;
+}
+
+static const char *store_list_devices(void *target, const char *value)
+{
+    cli_job *job = target;
+    (void)value;
+    job->list_devices = 1;
+    return NULL;
+}
+
+static const cli_flag flags[] = {
+    {"out o output outfile", "FILE", "write .exr, .png, .jpg or .tif; repeatable", store_out},
+    {"spp samples", "N", "samples per pixel (256)", store_spp},
+    {"replicates", "R", "independent patterns of spp/R samples (2)", store_replicates},
+    {"seed", "N", "another seed, another noise (0)", store_seed},
+    {"sampler", "NAME", "point set; --list-samplers has them (sz)", store_sampler},
+    {"list-samplers", NULL, "list the samplers and stop", store_list_samplers},
+    {"shear", "KIND", "equal-area, toroidal or none (equal-area)", store_shear},
+    {"width", "PX", "image width (512)", store_width},
+    {"height", "PX", "image height (512)", store_height},
+    {"crop", "X0,X1,Y0,Y1", "render these pixels only", store_crop},
+    {"eye", "X,Y,Z", "camera position", store_eye},
+    {"target", "X,Y,Z", "what the camera looks at", store_target},
+    {"up", "X,Y,Z", "which way is up", store_up},
+    {"fov", "DEG", "field of view along the shorter image axis", store_fov},
+    {"lens-radius aperture-radius", "R", "lens radius in scene units; 0: pinhole",
+     store_lens_radius},
+    {"focal-distance focus-distance", "D", "depth of the plane in focus", store_focal_distance},
+    {"fstop", "N", "lens radius as f-number of a full-frame camera", store_f_stop},
+    {"unit", "METRES", "length of a scene unit, for --fstop (1)", store_unit},
+    {"focus-pixel", "X,Y", "focus on what this pixel sees", store_focus_pixel},
+    {"aperture", "SHAPE", "square or disk (disk)", store_aperture},
+    {"light", "X,Y,Z,R,G,B", "add a point light; repeatable", store_light},
+    {"settings", "FILE", "read flags from FILE (SCENE.flags if it exists)", store_settings},
+    {"device", "NAME", "OpenCL device: number or part of its name", store_device},
+    {"list-devices", NULL, "list the OpenCL devices and stop", store_list_devices},
+    {"threads t nthreads", "N", "CPU threads; 0: all (0)", store_threads},
+    {"packet", "W", "samples traced together: 1, 4, 8 or 16", store_packet},
+    {"quiet q", NULL, "no progress and no remarks, only errors", store_quiet},
+    {"stats", NULL, "print sizes, times and rays per second", store_stats},
+    {"help h", NULL, "print this and stop", store_help},
+    {"version", NULL, "print the version and stop", store_version},
+};
+
+const cli_command cli_render_command = {
+    .summary = "usage: clshear SCENE [flags]\n"
+               "       clshear points [flags]     point sets; see clshear points --help\n\n"
+               "Render SCENE (OBJ, glTF, PLY, STL) with depth of field.\n\n"
+               "  clshear scenes/cornell.obj --spp 1024 --out img.exr\n",
+    .notes = "Without --out, writes the scene's name with .exr in the current folder.\n"
+             "Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted (what was\n"
+             "rendered so far is written).\n",
+    .flags = flags,
+    .flag_count = sizeof flags / sizeof *flags,
+    .most_operands = 1,
+};
+
+cli_job cli_job_defaults(void)
+{
+    cli_job job = {.context = clshear_context_defaults(), .options = clshear_options_defaults()};
+    job.unit_m.value = 1.0f;
+    return job;
+}

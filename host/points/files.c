@@ -1,0 +1,236 @@
+/* Point sets as files: text, CSV and EXR. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/array.h"
+#include "image/image_io.h"
+#include "points/points.h"
+
+static int has_extension(const char *path, const char *extension)
+{
+    const size_t length = strlen(path), size = strlen(extension);
+    return length > size && strcasecmp(path + length - size, extension) == 0;
+}
+
+/* ----- Text ----- */
+
+typedef struct text_reader {
+    const char *path;
+    cs_error *error;
+    cs_array values; /* float */
+    size_t line, dimensions, sets;
+    size_t in_set; /* points of the current set */
+    size_t count;  /* of the sets that are complete */
+} text_reader;
+
+static clshear_status complain(const text_reader *reader, const char *what)
+{
+    return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s:%zu: %s", reader->path, reader->line, what);
+}
+
+static clshear_status end_set(text_reader *reader)
+{
+    if (reader->in_set == 0) return CLSHEAR_OK; /* "#" at the start, or twice */
+    if (reader->sets > 0 && reader->in_set != reader->count)
+        return complain(reader, "this set has not as many points as those before it");
+    reader->count = reader->in_set;
+    reader->in_set = 0;
+    reader->sets++;
+    return CLSHEAR_OK;
+}
+
+static clshear_status read_point(text_reader *reader, const char *text)
+{
+    float point[sizeof CS_POINT_NAMES];
+    size_t dimensions = 0;
+    for (text += strspn(text, " \t\r\n"); *text != '\0'; text += strspn(text, " \t\r\n,;")) {
+        char *end;
+        const float value = strtof(text, &end);
+        if (end == text) return complain(reader, "a coordinate is not a number");
+        if (dimensions == sizeof CS_POINT_NAMES - 1)
+            return complain(reader, "more than six coordinates");
+        if (!(value >= 0.0f && value <= 1.0f))
+            return complain(reader, "a coordinate is not between 0 and 1");
+        point[dimensions++] = value;
+        text = end;
+    }
+    if (dimensions == 0) return CLSHEAR_OK;
+    if (reader->dimensions == 0) reader->dimensions = dimensions;
+    if (dimensions != reader->dimensions)
+        return complain(reader, "more or fewer coordinates than in the lines before");
+    float *added = cs_array_extend(&reader->values, dimensions);
+    if (added == NULL) return cs_fail(reader->error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    memcpy(added, point, dimensions * sizeof *point);
+    reader->in_set++;
+    return CLSHEAR_OK;
+}
+
+static clshear_status read_lines(text_reader *reader, FILE *stream)
+{
+    clshear_status status = CLSHEAR_OK;
+    char *line = NULL;
+    size_t size = 0;
+    while (status == CLSHEAR_OK && getline(&line, &size, stream) >= 0) {
+        reader->line++;
+        status = line[0] == '#' ? end_set(reader) : read_point(reader, line);
+    }
+    free(line);
+    if (status != CLSHEAR_OK) return status;
+    if (ferror(stream))
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: cannot be read: %s", reader->path,
+                       strerror(errno));
+    status = end_set(reader);
+    if (status == CLSHEAR_OK && reader->sets == 0)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: there are no points", reader->path);
+    return status;
+}
+
+static clshear_status read_text(const char *path, clshear_points *points, cs_error *error)
+{
+    const int standard = strcmp(path, "-") == 0;
+    text_reader reader = {.path = standard ? "standard input" : path, .error = error};
+    FILE *stream = standard ? stdin : fopen(path, "r");
+    if (stream == NULL)
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: cannot be opened: %s", path, strerror(errno));
+    reader.values.item_size = sizeof(float);
+    clshear_status status = read_lines(&reader, stream);
+    if (!standard) fclose(stream);
+    if (status != CLSHEAR_OK) {
+        cs_array_free(&reader.values);
+        return status;
+    }
+    *points = (clshear_points){.values = reader.values.items,
+                               .sets = reader.sets,
+                               .count = reader.count,
+                               .dimensions = reader.dimensions};
+    memcpy(points->names, CS_POINT_NAMES, reader.dimensions);
+    return CLSHEAR_OK;
+}
+
+static int print_points(const clshear_points *points, const char *separator, FILE *stream)
+{
+    const float *value = points->values;
+    for (size_t set = 0; set < points->sets && !ferror(stream); set++) {
+        if (set > 0) fputs("#\n", stream);
+        for (size_t i = 0; i < points->count; i++)
+            for (size_t d = 0; d < points->dimensions; d++)
+                fprintf(stream, "%.9g%s", (double)*value++,
+                        d + 1 < points->dimensions ? separator : "\n");
+    }
+    return fflush(stream) == 0 && !ferror(stream);
+}
+
+/* Whether a path is a device, a pipe or the like, which no new file must replace. */
+static int is_special(const char *path)
+{
+    struct stat about;
+    return stat(path, &about) == 0 && !S_ISREG(about.st_mode);
+}
+
+/* A regular file appears under its name only when it is complete. */
+static clshear_status write_text(const clshear_points *points, const char *path, cs_error *error)
+{
+    char temporary[4096];
+    const int direct = is_special(path);
+    const char *separator = has_extension(path, ".csv") ? "," : " ";
+    if (strcmp(path, "-") == 0) {
+        if (print_points(points, separator, stdout)) return CLSHEAR_OK;
+        return cs_fail(error, CLSHEAR_BAD_FILE, "standard output cannot be written: %s",
+                       strerror(errno));
+    }
+    if (direct)
+        snprintf(temporary, sizeof temporary, "%s", path);
+    else
+        snprintf(temporary, sizeof temporary, "%s.part%ld", path, (long)getpid());
+    FILE *stream = fopen(temporary, "w");
+    int good = stream != NULL && print_points(points, separator, stream);
+    int reason = errno;
+    if (stream != NULL && fclose(stream) != 0 && good) good = 0, reason = errno;
+    if (good && !direct && rename(temporary, path) != 0) good = 0, reason = errno;
+    if (good) return CLSHEAR_OK;
+    if (stream != NULL && !direct) remove(temporary);
+    return cs_fail(error, CLSHEAR_BAD_FILE, "%s: cannot be written: %s", path, strerror(reason));
+}
+
+/* ----- EXR ----- */
+
+static clshear_status read_exr(const char *path, clshear_points *points, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_loaded_picture loaded = {0};
+    const float *planes[sizeof CS_POINT_NAMES];
+    CS_TRY(cs_image_read(path, &loaded, error));
+    const cs_picture *picture = &loaded.picture;
+    *points = (clshear_points){.sets = (size_t)picture->height, .count = (size_t)picture->width};
+    for (const char *name = CS_POINT_NAMES; *name != '\0'; name++)
+        for (size_t c = 0; c < picture->channel_count; c++)
+            if (picture->names[c][0] == *name && picture->names[c][1] == '\0') {
+                points->names[points->dimensions] = *name;
+                planes[points->dimensions++] = picture->planes[c];
+            }
+    CS_REQUIRE(points->dimensions > 0, CLSHEAR_BAD_FILE,
+               "%s: has no channels x, y, u, v, p or q; it holds no points", path);
+    CS_TRY(cs_points_reserve(points, error));
+    for (size_t i = 0; i < points->sets * points->count; i++)
+        for (size_t d = 0; d < points->dimensions; d++) {
+            const float value = planes[d][i];
+            CS_REQUIRE(value >= 0.0f && value <= 1.0f, CLSHEAR_BAD_FILE,
+                       "%s: coordinate %c of point %zu is not between 0 and 1", path,
+                       points->names[d], i);
+            points->values[i * points->dimensions + d] = value;
+        }
+done:
+    cs_image_free(&loaded);
+    if (status != CLSHEAR_OK) clshear_points_free(points);
+    return status;
+}
+
+static clshear_status write_exr(const clshear_points *points, const char *path, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const size_t pixels = points->sets * points->count;
+    const float *planes[sizeof CS_POINT_NAMES];
+    const char *names[sizeof CS_POINT_NAMES];
+    char letters[sizeof CS_POINT_NAMES][2] = {{0}};
+    float *plane = malloc(pixels * points->dimensions * sizeof *plane);
+    CS_REQUIRE(plane != NULL, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
+    for (size_t d = 0; d < points->dimensions; d++) {
+        letters[d][0] = points->names[d];
+        names[d] = letters[d];
+        planes[d] = plane + d * pixels;
+        for (size_t i = 0; i < pixels; i++)
+            plane[d * pixels + i] = points->values[i * points->dimensions + d];
+    }
+    const int width = (int)points->count, height = (int)points->sets;
+    const cs_picture picture = {.width = width,
+                                .height = height,
+                                .full_width = width,
+                                .full_height = height,
+                                .channel_count = points->dimensions,
+                                .names = names,
+                                .planes = planes};
+    CS_TRY(cs_image_write(path, &picture, error));
+done:
+    free(plane);
+    return status;
+}
+
+clshear_status clshear_points_read(const char *path, clshear_points *points)
+{
+    cs_error *error = cs_thread_error();
+    return has_extension(path, ".exr") ? read_exr(path, points, error)
+                                       : read_text(path, points, error);
+}
+
+clshear_status clshear_points_write(const clshear_points *points, const char *path)
+{
+    cs_error *error = cs_thread_error();
+    return has_extension(path, ".exr") ? write_exr(points, path, error)
+                                       : write_text(points, path, error);
+}

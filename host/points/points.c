@@ -1,0 +1,122 @@
+/* Point sets as samplers draw them, sheared, and projected. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/parallel.h"
+#include "pattern/pattern.h"
+#include "points/points.h"
+#include "sampler/sampler.h"
+#include "shear.h"
+
+clshear_status cs_points_reserve(clshear_points *points, cs_error *error)
+{
+    const size_t most = (size_t)1 << 31;
+    const size_t dimensions = points->dimensions, count = points->count, sets = points->sets;
+    if (count == 0 || sets == 0 || count > most / dimensions || sets > most / (count * dimensions))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "%zu sets of %zu points: must be 1 or more, and together less than 2^31 "
+                       "coordinates",
+                       sets, count);
+    points->values = malloc(sets * count * dimensions * sizeof *points->values);
+    if (points->values == NULL)
+        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu sets of %zu points",
+                       sets, count);
+    return CLSHEAR_OK;
+}
+
+typedef struct draw_job {
+    cs_pattern pattern;
+    const u32 *rows;
+    u32 seed;
+    clshear_points *points;
+} draw_job;
+
+static void draw_sets(void *user, size_t begin, size_t end)
+{
+    const draw_job *job = user;
+    const size_t count = job->points->count;
+    for (size_t set = begin; set < end; set++) {
+        const u32 key = cs_pattern_key(job->seed, (u32)set, 0);
+        for (size_t i = 0; i < count; i++)
+            cs_draw(&job->pattern, job->rows, key, (u32)i, CS_DIMENSIONS / 2,
+                    job->points->values + (set * count + i) * CS_DIMENSIONS);
+    }
+}
+
+clshear_status clshear_points_draw(const char *name, size_t wanted, size_t sets, uint32_t seed,
+                                   clshear_points *points)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_error *error = cs_thread_error();
+    cs_array rows = {0};
+    u32 sampler;
+    CS_TRY(cs_sampler_find(name, &sampler, error));
+    const u32 most = cs_sampler_most(sampler);
+    CS_REQUIRE(wanted >= 1 && wanted <= most, CLSHEAR_BAD_ARGUMENT,
+               "%zu points of sampler %s: must be 1 to %u", wanted, cs_sampler_name(sampler), most);
+    const u32 count = cs_sampler_count(sampler, (u32)wanted);
+    draw_job job = {.pattern = cs_pattern_of(sampler, 0, count), .seed = seed, .points = points};
+    *points = (clshear_points){
+        .sets = sets, .count = count, .dimensions = CS_DIMENSIONS, .names = "xyuvpq"};
+    CS_TRY(cs_rows_make(&job.pattern, CS_ORDER_SEQUENCE, &rows, error));
+    CS_TRY(cs_points_reserve(points, error));
+    job.rows = rows.items;
+    cs_parallel(0, sets, draw_sets, &job);
+done:
+    cs_array_free(&rows);
+    return status;
+}
+
+clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear, float shear_px)
+{
+    cs_error *error = cs_thread_error();
+    const size_t stride = points->dimensions;
+    if (stride < 4 || strncmp(points->names, "xyuv", 4) != 0)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "points of %s cannot be sheared: they must begin with x, y, u, v",
+                       points->names);
+    if (!isfinite(shear_px) || (u32)shear > CLSHEAR_SHEAR_EQUAL_AREA)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "shear %d by %g pixels is not possible",
+                       (int)shear, (double)shear_px);
+    for (size_t i = 0; i < points->sets * points->count; i++) {
+        float *p = points->values + i * stride;
+        const cs_film_lens sheared =
+            cs_shear(p[0], p[1], p[2], p[3], (u32)shear, CS_APERTURE_SQUARE, shear_px);
+        const float place[4] = {sheared.x, sheared.y, sheared.u + 0.5f, sheared.v + 0.5f};
+        for (int d = 0; d < 4; d++)
+            p[d] = cs_clamp(place[d], 0.0f, 0.99999994f);
+    }
+    return CLSHEAR_OK;
+}
+
+clshear_status clshear_points_select(clshear_points *points, const char *names)
+{
+    size_t from[sizeof points->names], kept = 0;
+    for (; names[kept] != '\0'; kept++) {
+        const char *found = strchr(points->names, names[kept]);
+        if (found == NULL || kept == points->dimensions ||
+            strchr(names, names[kept]) < names + kept)
+            return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,
+                           "coordinates \"%s\": must be different ones of \"%s\"", names,
+                           points->names);
+        from[kept] = (size_t)(found - points->names);
+    }
+    if (kept == 0) return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT, "no coordinates chosen");
+    for (size_t i = 0; i < points->sets * points->count; i++) {
+        float point[sizeof points->names];
+        memcpy(point, points->values + i * points->dimensions, points->dimensions * sizeof *point);
+        for (size_t d = 0; d < kept; d++) /* never behind what is still to be read */
+            points->values[i * kept + d] = point[from[d]];
+    }
+    memset(points->names, 0, sizeof points->names);
+    memcpy(points->names, names, kept);
+    points->dimensions = kept;
+    return CLSHEAR_OK;
+}
+
+void clshear_points_free(clshear_points *points)
+{
+    free(points->values);
+    *points = (clshear_points){0};
+}

@@ -1,0 +1,149 @@
+/* Variance against N of every sampler on integrands whose rates are known, as a table.
+ *
+ * Integrands: an axis-aligned step in x; a slanted step in (x, y); a disk in (x, y); a smooth
+ * function of (x, y); the half-space x + y + u + v < 2; a smooth function of all four. Expected
+ * slopes of the variance: -1 for independent points; one dimension of strata takes 1/d off, -1 -
+ * 1/d, for discontinuities, -1 - 2/d for smooth functions (Cook 1986; Singh & Jarosz 2017, table
+ * 1).
+ *
+ * Errors: 300 replicates give each variance a relative standard error of sqrt(2/299) = 0.082 (near
+ * normal means; heavier tails at most double it), and a slope over 5 sizes spaced by log 4 one of
+ * 0.082 / (log 4 sqrt(10)) = 0.019, or 0.037. The intervals below leave 0.15 and more to either
+ * side of the expected slope, 4 standard errors even with heavy tails: false alarms below 1e-4 for
+ * each row; seeds are fixed. */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "sampler/sampler.h"
+
+enum {
+    INTEGRANDS = 6,
+    SIZES = 5,
+    REPLICATES = 300
+};
+
+static const char *const names[INTEGRANDS] = {"step",   "slanted",    "disk",
+                                              "smooth", "half-space", "smooth 4D"};
+static const u32 sizes[SIZES] = {16, 64, 256, 1024, 4096};
+
+static void integrands(const f32 *t, double *values)
+{
+    const double x = t[0], y = t[1], u = t[2], v = t[3];
+    values[0] = x < 1.0 / 3.0; /* at a third or two of a stratum for all N here */
+    values[1] = x + 0.618 * y < 0.7713;
+    values[2] = (x - 0.51) * (x - 0.51) + (y - 0.47) * (y - 0.47) < 0.1153;
+    values[3] = exp(sin(6.283185307179586 * (x + 0.1)) + cos(6.283185307179586 * y));
+    values[4] = x + y + u + v < 2.0;
+    values[5] = exp(-2.0 * ((x - 0.4) * (x - 0.4) + (y - 0.7) * (y - 0.7) + (u - x) * (u - x) +
+                            (v - 0.2) * (v - 0.2)));
+}
+
+/* Variance of the mean of one pattern, for each integrand. */
+static void measure(u32 sampler, u32 size, u32 *count, double *variance)
+{
+    test_pattern drawn = test_pattern_of(sampler, size, CS_ORDER_SEQUENCE);
+    double mean[INTEGRANDS] = {0}, m2[INTEGRANDS] = {0};
+    *count = drawn.pattern.grid.count;
+    for (u32 t = 0; t < REPLICATES; t++) {
+        double sum[INTEGRANDS] = {0};
+        for (u32 i = 0; i < *count; i++) {
+            f32 tuple[CS_DIMENSIONS];
+            double values[INTEGRANDS];
+            cs_draw(&drawn.pattern, drawn.rows.items, cs_pattern_key(11, t, 0), i, 2, tuple);
+            integrands(tuple, values);
+            for (int k = 0; k < INTEGRANDS; k++)
+                sum[k] += values[k];
+        }
+        for (int k = 0; k < INTEGRANDS; k++) {
+            const double delta = sum[k] / *count - mean[k];
+            mean[k] += delta / (t + 1.0);
+            m2[k] += delta * (sum[k] / *count - mean[k]);
+        }
+    }
+    for (int k = 0; k < INTEGRANDS; k++)
+        variance[k] = m2[k] / (REPLICATES - 1.0);
+    test_pattern_free(&drawn);
+}
+
+/* Least-squares slope of log variance over log N; variances of nothing but rounding are kept out.
+ */
+static double slope_of(const u32 *count, double (*variance)[INTEGRANDS], int k)
+{
+    double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+    for (int i = 0; i < SIZES; i++) {
+        const double x = log(count[i]), y = log(variance[i][k]);
+        if (variance[i][k] < 1e-14) continue;
+        n++, sx += x, sy += y, sxx += x * x, sxy += x * y;
+    }
+    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+typedef struct expectation {
+    u32 sampler;
+    int integrand;
+    double low, high; /* of the slope */
+} expectation;
+
+static const expectation expected[] = {
+    {CS_SAMPLER_RANDOM, 0, -1.15, -0.85},      {CS_SAMPLER_RANDOM, 3, -1.15, -0.85},
+    {CS_SAMPLER_RANDOM, 5, -1.15, -0.85},      {CS_SAMPLER_JITTERED, 1, -1.65, -1.35},
+    {CS_SAMPLER_JITTERED, 2, -1.65, -1.35},    {CS_SAMPLER_JITTERED, 3, -2.2, -1.85},
+    {CS_SAMPLER_JITTERED, 4, -1.15, -0.85},    {CS_SAMPLER_JITTERED4D, 4, -1.4, -1.1},
+    {CS_SAMPLER_JITTERED4D, 5, -1.7, -1.35},   {CS_SAMPLER_NROOKS, 0, -9.0, -1.85},
+    {CS_SAMPLER_NROOKS, 1, -1.15, -0.85},      {CS_SAMPLER_NROOKS, 2, -1.15, -0.85},
+    {CS_SAMPLER_MJ, 0, -9.0, -1.85},           {CS_SAMPLER_MJ, 2, -1.65, -1.35},
+    {CS_SAMPLER_MJ, 4, -1.15, -0.85},          {CS_SAMPLER_CMJ, 4, -1.15, -0.85},
+    {CS_SAMPLER_OA, 2, -1.65, -1.35},          {CS_SAMPLER_POISSON, 1, -1.3, -0.85},
+    {CS_SAMPLER_POISSON, 3, -1.2, -0.85},      {CS_SAMPLER_CCVT, 2, -1.75, -1.35},
+    {CS_SAMPLER_CCVT, 4, -1.15, -0.85},        {CS_SAMPLER_SOBOL, 0, -9.0, -1.85},
+    {CS_SAMPLER_SOBOL, 2, -1.75, -1.35},       {CS_SAMPLER_SZ, 2, -1.75, -1.35},
+    {CS_SAMPLER_SOBOL_PAIRS, 2, -1.75, -1.35}, {CS_SAMPLER_SOBOL_PAIRS, 4, -1.15, -0.85},
+};
+
+/* Steeper than jittering where the function is smooth. */
+static const u32 steeper[] = {CS_SAMPLER_CCVT, CS_SAMPLER_SOBOL, CS_SAMPLER_SOBOL_PAIRS,
+                              CS_SAMPLER_SZ};
+
+static void slopes_are_as_in_theory(void **state)
+{
+    static double slope[CS_SAMPLER_COUNT][INTEGRANDS];
+    int wrong = 0;
+    (void)state;
+    printf("| sampler |");
+    for (int k = 0; k < INTEGRANDS; k++)
+        printf(" %s |", names[k]);
+    printf("\n|---|---|---|---|---|---|---|\n");
+    for (u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++) {
+        u32 count[SIZES];
+        double variance[SIZES][INTEGRANDS];
+        for (int i = 0; i < SIZES; i++)
+            measure(sampler, sizes[i], &count[i], variance[i]);
+        printf("| %s |", cs_sampler_name(sampler));
+        for (int k = 0; k < INTEGRANDS; k++)
+            printf(" %.2f |", slope[sampler][k] = slope_of(count, variance, k));
+        printf("\n");
+        fflush(stdout);
+    }
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+        const expectation *e = &expected[i];
+        const double s = slope[e->sampler][e->integrand];
+        if (s >= e->low && s <= e->high) continue;
+        wrong++;
+        printf("%s on %s: %.3f is not in [%g, %g]\n", cs_sampler_name(e->sampler),
+               names[e->integrand], s, e->low, e->high);
+    }
+    for (size_t i = 0; i < sizeof steeper / sizeof *steeper; i++)
+        if (slope[steeper[i]][3] > slope[CS_SAMPLER_JITTERED][3] - 0.15) {
+            wrong++;
+            printf("%s is not steeper than jittering\n", cs_sampler_name(steeper[i]));
+        }
+    assert_int_equal(wrong, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(slopes_are_as_in_theory)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
