@@ -152,8 +152,8 @@ static void upload_rays(bench *state)
 {
     const ray_planes *rays = &state->rays;
     size_t plane = rays->count * sizeof(float);
-    must(state, cs_buffer_write(state->origins, 3 * plane, rays->origins, &state->error));
-    must(state, cs_buffer_write(state->directions, 3 * plane, rays->directions, &state->error));
+    must(state, cs_buffer_write(state->origins, 0, 3 * plane, rays->origins, &state->error));
+    must(state, cs_buffer_write(state->directions, 0, 3 * plane, rays->directions, &state->error));
 }
 
 /* Seconds that the kernel takes for all rays. */
@@ -169,7 +169,7 @@ static double time_kernel(bench *state, int any_hit)
                                      {.buffer = state->hits},
                                      {.buffer = state->nodes},
                                      {.buffer = state->triangles}};
-    must(state, cs_buffer_write(state->distances, rays->count * sizeof(float), rays->reach,
+    must(state, cs_buffer_write(state->distances, 0, rays->count * sizeof(float), rays->reach,
                                 &state->error));
     double start_s = cs_now_s();
     must(state, cs_device_run(state->device, CS_KERNEL_TRACE,

@@ -1,6 +1,7 @@
 #!/bin/bash
 # Image error of every sampler with and without shear, as a Markdown table: the mean over pixels and
-# colours of the variance of one pattern of N samples, from 8 independent patterns a pixel.
+# colours of the variance of one pattern of N samples, from 8 independent patterns a pixel; and the
+# slope of its logarithm over that of N.
 #
 # bench/samplers.sh [-p PROGRAM] [-s SCENE] [-n "16 64 ..."] [-x "SAMPLER ..."] [-- FLAGS...]
 set -eu
@@ -26,13 +27,24 @@ variance() {
         awk '/^variance/ { printf "%.2e", 8 * $2 }'
 }
 
+# slope N VARIANCE N VARIANCE ...: by least squares in logarithms
+slope() {
+    echo "$@" | awk '{ for (i = 1; i < NF; i += 2) { x = log($i); y = log($(i + 1)); n++
+        sx += x; sy += y; sxx += x * x; sxy += x * y }
+        printf "%.2f", (n * sxy - sx * sy) / (n * sxx - sx * sx) }'
+}
+
 flags=("$@")
-echo "| sampler | shear |$(for n in $counts; do printf ' N = %d |' "$n"; done)"
-echo "|---|---|$(for n in $counts; do printf -- '---|'; done)"
+echo "| sampler | shear |$(for n in $counts; do printf ' N = %d |' "$n"; done) slope |"
+echo "|---|---|$(for n in $counts; do printf -- '---|'; done)---|"
 for sampler in $samplers; do
     for shear in none equal-area; do
         line="| $sampler | $shear |"
-        for n in $counts; do line="$line $(variance "$sampler" $shear "$n") |"; done
-        echo "$line"
+        points=
+        for n in $counts; do
+            value=$(variance "$sampler" $shear "$n")
+            line="$line $value |" points="$points $n $value"
+        done
+        echo "$line $(slope $points) |"
     done
 done

@@ -252,6 +252,9 @@ typedef struct clshear_options {
     uint32_t seed;
     const char *sampler; /* a name from clshear_sampler_describe; NULL: the default */
     clshear_shear shear;
+    int extendable; /* keep what `extend` will need: channels Pattern<replicate>.R/G/B */
+    const struct clshear_film *extend; /* go on with this render, made extendable with the same
+                                          arguments but for spp; the sampler must be progressive */
     int (*progress)(void *user, const clshear_progress *progress); /* not 0: stop; may be NULL */
     void *progress_user;
 } clshear_options;
@@ -297,6 +300,10 @@ CLSHEAR_API const float *clshear_film_channel(const clshear_film *film, const ch
 /* Adds a line of text to the metadata of written files; replaces one of that name. */
 CLSHEAR_API clshear_status clshear_film_annotate(clshear_film *film, const char *name,
                                                  const char *text);
+
+/* Reads an EXR written by clshear_film_write. */
+CLSHEAR_API clshear_status clshear_film_read(clshear_context *context, const char *path,
+                                             clshear_film **film);
 
 /* Writes all channels as float32 (.exr), or R G B with the sRGB curve (.png, .jpg, .tif). An
  * existing file is replaced only once the new one is complete. */

@@ -173,6 +173,17 @@ expect 1 "must be 1 to 65536" -- points --sampler ccvt --n 70000
 grep -q "/dev/full: cannot be written" full.txt || wrong "full device: $(cat full.txt)"
 "$program" points --n 100000 2>pipe.txt | head -1 >/dev/null # a closed pipe is no crash
 
+# A render goes on where it ended, and says so when it cannot.
+# shellcheck disable=SC2086
+{
+    expect 0 "" -- "$cornell" $small --quiet --extendable --out more.exr
+    expect 0 "" -- "$cornell" $small --quiet --extend more.exr --spp 64 --out more.exr
+    case $(oiiotool --info -v more.exr) in *"samplesPerPixel: 64"*) ;; *) wrong "not extended" ;; esac
+    refuse 1 "another seed" -- "$cornell" $small --quiet --extend more.exr --spp 128 --seed 4
+    refuse 1 "rendered with --extendable" -- "$cornell" $small --quiet --extend a.exr --spp 128
+    refuse 1 "gone.exr" -- "$cornell" $small --quiet --extend gone.exr --spp 128
+}
+
 # Progress: a line per 10 % in a pipe, the last one 100 %.
 output=$("$program" "$cornell" --width 64 --height 64 --spp 256 --out g.exr 2>&1 >/dev/null)
 [ "$(echo "$output" | grep -c ' %')" -le 11 ] || wrong "too many lines of progress"

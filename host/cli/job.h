@@ -30,6 +30,7 @@ typedef struct cli_number {
 typedef struct cli_job {
     const char *scene;
     const char *settings; /* NULL: the file beside the scene, if there is one */
+    const char *extend;   /* a picture to go on with */
     const char *outputs[CLI_MAX_OUTPUTS];
     int output_count;
     clshear_context_options context;

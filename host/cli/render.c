@@ -212,8 +212,7 @@ static int write_outputs(const cli_job *job, const clshear_context *context, cls
 }
 
 /* From a loaded scene to written files. */
-static int render(cli_job *job, const clshear_context *context, clshear_scene *scene,
-                  const char *command)
+static int render(cli_job *job, clshear_context *context, clshear_scene *scene, const char *command)
 {
     clshear_camera camera;
     clshear_film *film = NULL;
@@ -221,12 +220,17 @@ static int render(cli_job *job, const clshear_context *context, clshear_scene *s
         if (clshear_scene_add_light(scene, &job->lights[i]) != CLSHEAR_OK) return fail(context);
     if (choose_camera(job, scene, &camera) != CLSHEAR_OK) return fail(context);
     tell_choices(job, scene, &camera);
+    clshear_film *base = NULL;
+    if (job->extend != NULL && clshear_film_read(context, job->extend, &base) != CLSHEAR_OK)
+        return fail(context);
+    job->options.extend = base;
     cli_progress progress = cli_progress_start(job->quiet);
     job->options.progress = cli_progress_report;
     job->options.progress_user = &progress;
     cli_catch_interrupt();
     clshear_status status = clshear_render(scene, &camera, &job->options, &film);
     cli_progress_end(&progress);
+    clshear_film_free(base);
     if (status != CLSHEAR_OK && status != CLSHEAR_CANCELLED) return fail(context);
     int code = write_outputs(job, context, film, command);
     if (code == CLI_DONE && job->stats) print_stats(context, scene, film);

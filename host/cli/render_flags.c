@@ -56,6 +56,21 @@ static const char *store_sampler(void *target, const char *value)
     return cli_check_sampler(value);
 }
 
+static const char *store_extendable(void *target, const char *value)
+{
+    cli_job *job = target;
+    (void)value;
+    job->options.extendable = 1;
+    return NULL;
+}
+
+static const char *store_extend(void *target, const char *value)
+{
+    cli_job *job = target;
+    job->extend = value;
+    return NULL;
+}
+
 static const char *store_width(void *target, const char *value)
 {
     cli_job *job = target;
@@ -252,6 +267,8 @@ static const cli_flag flags[] = {
     {"sampler", "NAME", "point set; --list-samplers has them (sz)", store_sampler},
     {"list-samplers", NULL, "list the samplers and stop", store_list_samplers},
     {"shear", "KIND", "equal-area, toroidal or none (equal-area)", store_shear},
+    {"extendable", NULL, "keep in the EXR what --extend needs", store_extendable},
+    {"extend", "FILE", "go on from FILE up to --spp; other flags the same", store_extend},
     {"width", "PX", "image width (512)", store_width},
     {"height", "PX", "image height (512)", store_height},
     {"crop", "X0,X1,Y0,Y1", "render these pixels only", store_crop},

@@ -164,7 +164,7 @@ clshear_status cs_buffer_create(cs_device *device, size_t size, const void *init
     buffer->memory = clCreateBuffer(device->context, CL_MEM_READ_WRITE, size, NULL, &code);
     CS_OPENCL(code, "%s: no memory for a buffer of %zu MB", device->name, size >> 20);
     if (initial != NULL) {
-        CS_TRY(cs_buffer_write(buffer, size, initial, error));
+        CS_TRY(cs_buffer_write(buffer, 0, size, initial, error));
     } else {
         const cl_uint zero = 0;
         CS_OPENCL(clEnqueueFillBuffer(device->queue, buffer->memory, &zero, sizeof zero, 0,
@@ -190,11 +190,12 @@ done:
     return status;
 }
 
-clshear_status cs_buffer_write(cs_buffer *buffer, size_t size, const void *source, cs_error *error)
+clshear_status cs_buffer_write(cs_buffer *buffer, size_t offset, size_t size, const void *source,
+                               cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    CS_OPENCL(clEnqueueWriteBuffer(buffer->queue, buffer->memory, CL_TRUE, 0, size, source, 0, NULL,
-                                   NULL),
+    CS_OPENCL(clEnqueueWriteBuffer(buffer->queue, buffer->memory, CL_TRUE, offset, size, source, 0,
+                                   NULL, NULL),
               "cannot write %zu bytes to the device", size);
 done:
     return status;

@@ -43,7 +43,8 @@ clshear_status cs_buffer_create(cs_device *device, size_t size, const void *init
                                 cs_buffer **buffer, cs_error *error);
 clshear_status cs_buffer_read(const cs_buffer *buffer, size_t offset, size_t size, void *target,
                               cs_error *error);
-clshear_status cs_buffer_write(cs_buffer *buffer, size_t size, const void *source, cs_error *error);
+clshear_status cs_buffer_write(cs_buffer *buffer, size_t offset, size_t size, const void *source,
+                               cs_error *error);
 void cs_buffer_free(cs_buffer *buffer);
 
 /* Runs a kernel on `count` work-items (more are started, to fill the last work-group) and waits. */

@@ -96,6 +96,26 @@ clshear_status clshear_film_annotate(clshear_film *film, const char *name, const
     return CLSHEAR_OK;
 }
 
+const char *cs_film_text(const clshear_film *film, const char *name)
+{
+    const cs_attribute *attributes = film->attributes.items;
+    for (size_t i = 0; i < film->attributes.count; i++)
+        if (attributes[i].kind == CS_ATTRIBUTE_TEXT && strcmp(attributes[i].name, name) == 0)
+            return attributes[i].text;
+    return NULL;
+}
+
+int cs_film_int(const clshear_film *film, const char *name, int *value)
+{
+    const cs_attribute *attributes = film->attributes.items;
+    for (size_t i = 0; i < film->attributes.count; i++)
+        if (attributes[i].kind == CS_ATTRIBUTE_INT && strcmp(attributes[i].name, name) == 0) {
+            *value = attributes[i].integer;
+            return 1;
+        }
+    return 0;
+}
+
 clshear_film_info clshear_film_describe(const clshear_film *film)
 {
     return film->info;
@@ -145,6 +165,43 @@ clshear_status clshear_film_write(clshear_film *film, const char *path)
         .attributes = film->attributes.items,
     };
     return cs_image_write(path, &picture, film->error);
+}
+
+static clshear_status copy_picture(clshear_film *film, const cs_picture *picture)
+{
+    const size_t pixels = (size_t)picture->width * (size_t)picture->height;
+    for (size_t c = 0; c < picture->channel_count; c++) {
+        float *plane = cs_film_add_channel(film, picture->names[c]);
+        if (plane == NULL) return out_of_memory(film);
+        memcpy(plane, picture->planes[c], pixels * sizeof *plane);
+    }
+    for (size_t i = 0; i < picture->attribute_count; i++) {
+        const cs_attribute *a = &picture->attributes[i];
+        clshear_status status =
+            a->kind == CS_ATTRIBUTE_TEXT  ? clshear_film_annotate(film, a->name, a->text)
+            : a->kind == CS_ATTRIBUTE_INT ? cs_film_set_int(film, a->name, a->integer)
+                                          : cs_film_set_float(film, a->name, a->numbers[0]);
+        if (status != CLSHEAR_OK) return status;
+    }
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_film_read(const char *path, cs_error *error, clshear_film **result)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_loaded_picture loaded = {0};
+    clshear_film *film = NULL;
+    CS_TRY(cs_image_read(path, &loaded, error));
+    const cs_picture *p = &loaded.picture;
+    const int window[4] = {p->x, p->x + p->width, p->y, p->y + p->height};
+    CS_TRY(cs_film_create(window, p->full_width, p->full_height, error, &film));
+    CS_TRY(copy_picture(film, p));
+    *result = film;
+    film = NULL;
+done:
+    cs_image_free(&loaded);
+    clshear_film_free(film);
+    return status;
 }
 
 void clshear_film_free(clshear_film *film)

@@ -24,8 +24,15 @@ struct clshear_film {
 clshear_status cs_film_create(const int *window, int full_width, int full_height, cs_error *error,
                               clshear_film **film);
 
+/* A film with the channels, texts, integers and floats of a file. */
+clshear_status cs_film_read(const char *path, cs_error *error, clshear_film **film);
+
 /* Adds a plane of zeros, or NULL when out of memory. */
 float *cs_film_add_channel(clshear_film *film, const char *name);
+
+/* A text or number of the metadata; NULL, or 0, if there is none of that name. */
+const char *cs_film_text(const clshear_film *film, const char *name);
+int cs_film_int(const clshear_film *film, const char *name, int *value);
 
 clshear_status cs_film_set_int(clshear_film *film, const char *name, int32_t value);
 clshear_status cs_film_set_float(clshear_film *film, const char *name, float value);

@@ -4,6 +4,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/imageio.h>
 
 #include <cctype>
@@ -42,6 +43,12 @@ std::string first_line(const std::string &text)
     return text.substr(0, text.find('\n'));
 }
 
+/* Makes the library forget what a file of that name held earlier. */
+void forget(const char *path)
+{
+    OIIO::ImageCache::create(true)->invalidate(OIIO::ustring(path), true);
+}
+
 /* Any number of channels as linear RGBA: grey is repeated, alpha is kept but not used. */
 ImageBuf linear_rgba(const ImageBuf &source)
 {
@@ -60,6 +67,7 @@ ImageBuf linear_rgba(const ImageBuf &source)
 clshear_status read_texels(const char *path, const void *memory, size_t size, cs_texels *texels,
                            cs_error *error)
 {
+    forget(path);
     OIIO::Filesystem::IOMemReader reader(const_cast<void *>(memory), size);
     ImageBuf source(path, 0, 0, nullptr, nullptr, memory != nullptr ? &reader : nullptr);
     if (!source.read(0, 0, true, TypeDesc::FLOAT))
@@ -135,6 +143,7 @@ void describe(const ImageSpec &spec, cs_loaded_picture *loaded)
 
 clshear_status read_picture(const char *path, cs_loaded_picture *loaded, cs_error *error)
 {
+    forget(path);
     ImageBuf source(path);
     if (!source.read(0, 0, true, TypeDesc::FLOAT))
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,

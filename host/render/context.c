@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "film/film.h"
 #include "render/handles.h"
 
 const char *clshear_version(void)
@@ -42,6 +43,11 @@ void clshear_context_free(clshear_context *context)
     cs_tables_free(&context->tables);
     cs_device_close(context->device);
     free(context);
+}
+
+clshear_status clshear_film_read(clshear_context *context, const char *path, clshear_film **film)
+{
+    return cs_film_read(path, &context->error, film);
 }
 
 const char *clshear_message(const clshear_context *context)

@@ -19,6 +19,11 @@ typedef struct cs_job {
     float *shear_px;
     cs_buffer *pixels; /* cs_pixel */
     cs_buffer *shears;
+    /* For extensions, else NULL: means of finished patterns, a plane for each replicate and colour;
+     * and the sums they are taken from, three for each pixel. */
+    float *pattern_means;
+    double *pattern_sums;
+    uint32_t patterns_kept;
     double prepass_s;
     double kernel_s;
 } cs_job;

@@ -1,5 +1,5 @@
 /* Launches: which pixels and which blocks of their patterns, when. */
-#include "render/job.h"
+#include "render/extend.h"
 
 static const double launch_s = 0.15; /* aim for one launch */
 
@@ -107,6 +107,8 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
         .emitters = world->emitters,
     };
     for (frame.replicate = 0; frame.replicate < patterns; frame.replicate++) {
+        clshear_status begun = cs_extend_begin(job, frame.replicate, error);
+        if (begun != CLSHEAR_OK) return begun;
         for (uint32_t block = 0; block < job->pattern.blocks; block = frame.last_block) {
             frame.first_block = block;
             frame.last_block =
@@ -114,6 +116,8 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
             clshear_status status = sweep_pixels(job, &frame, &clockwork, error);
             if (status != CLSHEAR_OK) return status;
         }
+        clshear_status ended = cs_extend_end(job, frame.replicate, error);
+        if (ended != CLSHEAR_OK) return ended;
     }
     return CLSHEAR_OK;
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "oracle/oracle.h"
+#include "render/extend.h"
 #include "scene/camera.h"
 
 clshear_options clshear_options_defaults(void)
@@ -25,6 +26,7 @@ static clshear_status prepare(cs_job *job, cs_error *error)
     cs_accel_depth(job->scene->accel, &job->camera, job->window, job->depth);
     cs_oracle_centre(&job->camera, job->depth, job->pixel_count, job->shear_px);
     job->prepass_s = cs_now_s() - start_s;
+    CS_TRY(cs_extend_prepare(job, error));
     CS_TRY(cs_tables_find(&job->scene->context->tables, device, &job->pattern, &job->rows, error));
     CS_TRY(cs_buffer_create(device, job->pixel_count * sizeof *job->shear_px, job->shear_px,
                             &job->shears, error));
@@ -43,6 +45,7 @@ clshear_status clshear_render(clshear_scene *scene, const clshear_camera *camera
     cs_job job = {.scene = scene, .options = *options, .lens = *camera};
     CS_TRY(cs_job_check(&job, error));
     CS_TRY(cs_camera_frame(camera, options->width, options->height, &job.camera, error));
+    CS_TRY(cs_extend_check(&job, error));
     CS_TRY(prepare(&job, error));
     passes = cs_job_run_passes(&job, error);
     if (passes != CLSHEAR_CANCELLED) CS_TRY(passes);
@@ -58,6 +61,7 @@ clshear_status clshear_render(clshear_scene *scene, const clshear_camera *camera
 done:
     free(job.depth);
     free(job.shear_px);
+    cs_extend_free(&job);
     cs_buffer_free(job.pixels);
     cs_buffer_free(job.shears);
     return status;

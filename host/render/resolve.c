@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "pattern/pattern.h"
-#include "render/job.h"
+#include "render/extend.h"
 
 enum {
     SLICE = 1 << 16 /* pixels read back at once */
@@ -85,7 +85,7 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
         CS_TRY(cs_buffer_read(job->pixels, first * sizeof *slice, count * sizeof *slice, slice,
                               error));
         for (size_t i = 0; i < count; i++) {
-            resolve_pixel(&slice[i], job->pattern.grid.count, first + i, all);
+            resolve_pixel(&slice[i], job->pattern.first + job->pattern.grid.count, first + i, all);
             film->info.samples += slice[i].samples;
             film->info.shadow_rays += slice[i].shadow_rays;
             if (slice[i].patterns < fewest) fewest = slice[i].patterns;
@@ -135,8 +135,9 @@ static clshear_status describe(const cs_job *job, clshear_film *film)
                               job->lens.aperture == CLSHEAR_APERTURE_SQUARE ? "square" : "disk"));
     CS_TRY(cs_film_set_int(film, "clshear.replicates", (int32_t)job->options.replicates));
     CS_TRY(cs_film_set_int(film, "clshear.packet", cs_device_packet(context->device)));
-    CS_TRY(cs_film_set_int(film, "samplesPerPixel",
-                           (int32_t)(job->options.replicates * job->pattern.grid.count)));
+    CS_TRY(cs_film_set_int(
+        film, "samplesPerPixel",
+        (int32_t)(job->options.replicates * (job->pattern.first + job->pattern.grid.count))));
     CS_TRY(cs_film_set_float(film, "clshear.focalDistance", job->camera.focal_distance));
     CS_TRY(cs_film_set_float(film, "clshear.lensRadius", job->lens.lens_radius));
     CS_TRY(cs_film_set_float(film, "clshear.fov", job->lens.fov_deg));
@@ -154,6 +155,7 @@ clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *erro
     CS_TRY(add_planes(film, &all));
     CS_TRY(read_pixels(job, film, &all, error));
     CS_TRY(describe(job, film));
+    CS_TRY(cs_extend_describe(job, film));
     film->info.prepass_s = job->prepass_s;
     film->info.kernel_s = job->kernel_s;
     *result = film;

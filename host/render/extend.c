@@ -1,0 +1,193 @@
+/* Going on with a render: more samples of the same patterns, without redoing those it has. */
+#include "render/extend.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pattern/pattern.h"
+
+enum {
+    SLICE = 1 << 16 /* pixels on their way at once */
+};
+
+static void plane_name(char *name, size_t size, uint32_t replicate, int colour)
+{
+    snprintf(name, size, "Pattern%u.%c", replicate, "RGB"[colour]);
+}
+
+/* What fixes the samples and the picture, but for their number: "key=value;...". */
+static void recipe_of(const cs_job *job, char *text, size_t size)
+{
+    const clshear_options *o = &job->options;
+    const cs_scene *scene = &job->scene->scene;
+    const uint8_t *bytes = (const uint8_t *)&job->camera;
+    const cs_light *lights = scene->lights.items;
+    u32 camera = 0, light = 0;
+    for (size_t i = 0; i < sizeof job->camera; i++)
+        camera = cs_key(camera, bytes[i]);
+    for (size_t i = 0; i < scene->lights.count * sizeof *lights; i++)
+        light = cs_key(light, ((const uint8_t *)lights)[i]);
+    snprintf(text, size,
+             "sampler=%s;seed=%u;replicates=%u;shear=%d;size=%dx%d;camera=%08x;lights=%08x;"
+             "triangles=%zu",
+             cs_sampler_name(job->pattern.sampler), o->seed, o->replicates, (int)o->shear, o->width,
+             o->height, camera, light, job->scene->info.triangles);
+}
+
+/* Name of the first thing in which two recipes differ. */
+static void first_difference(const char *a, const char *b, char *name, size_t size)
+{
+    size_t start = 0, i = 0;
+    for (; a[i] == b[i] && a[i] != '\0'; i++)
+        if (a[i] == ';') start = i + 1;
+    snprintf(name, size, "%.*s", (int)strcspn(a + start, "="), a + start);
+}
+
+clshear_status cs_extend_check(cs_job *job, cs_error *error)
+{
+    const clshear_film *base = job->options.extend;
+    char mine[512], name[32];
+    int samples;
+    if (base == NULL) return CLSHEAR_OK;
+    if (!cs_sampler_is_progressive(job->pattern.sampler))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "sampler %s cannot extend a render: its points depend on their number; "
+                       "progressive ones can",
+                       cs_sampler_name(job->pattern.sampler));
+    recipe_of(job, mine, sizeof mine);
+    const char *theirs = cs_film_text(base, "clshear.recipe");
+    plane_name(name, sizeof name, job->options.replicates - 1, 2);
+    if (theirs == NULL || !cs_film_int(base, "samplesPerPixel", &samples) ||
+        (strcmp(mine, theirs) == 0 && clshear_film_channel(base, name) == NULL))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "the picture to extend does not hold what that takes; it must be a complete "
+                       "EXR rendered with --extendable");
+    if (strcmp(mine, theirs) != 0) {
+        first_difference(mine, theirs, name, sizeof name);
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "the picture to extend was made with another %s; give all flags as before, "
+                       "but for --spp",
+                       name);
+    }
+    if (memcmp(base->window, job->window, sizeof job->window) != 0)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "the picture to extend shows other pixels; give the same --crop");
+    const uint32_t had = (uint32_t)samples / job->options.replicates;
+    if (job->pattern.grid.count <= had)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "the picture to extend has %d samples per pixel already; ask for more",
+                       samples);
+    job->pattern = cs_pattern_of(job->pattern.sampler, had, job->pattern.grid.count - had);
+    return CLSHEAR_OK;
+}
+
+/* Calls `change` for every pixel's state on the device. */
+static clshear_status for_pixels(cs_job *job, uint32_t replicate,
+                                 void (*change)(cs_job *job, uint32_t replicate, size_t index,
+                                                cs_pixel *pixel),
+                                 int write_back, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_pixel *slice = malloc(SLICE * sizeof *slice);
+    CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    for (size_t first = 0; first < job->pixel_count; first += SLICE) {
+        const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
+        const size_t offset = first * sizeof *slice, size = count * sizeof *slice;
+        CS_TRY(cs_buffer_read(job->pixels, offset, size, slice, error));
+        for (size_t i = 0; i < count; i++)
+            change(job, replicate, first + i, &slice[i]);
+        if (write_back) CS_TRY(cs_buffer_write(job->pixels, offset, size, slice, error));
+    }
+done:
+    free(slice);
+    return status;
+}
+
+/* Puts the picture's samples of a replicate into the pixel; before the first, its moments too. */
+static void load(cs_job *job, uint32_t replicate, size_t index, cs_pixel *pixel)
+{
+    static const char *const mean[3] = {"R", "G", "B"};
+    static const char *const variance[3] = {"SampleVariance.R", "SampleVariance.G",
+                                            "SampleVariance.B"};
+    const clshear_film *base = job->options.extend;
+    const uint32_t had = job->pattern.first, all = had * job->options.replicates;
+    for (int c = 0; c < 3; c++) {
+        char name[32];
+        plane_name(name, sizeof name, replicate, c);
+        const double sum = (double)clshear_film_channel(base, name)[index] * had;
+        pixel->sum[c] = (f32)sum;
+        pixel->carry[c] = (f32)(sum - (double)pixel->sum[c]);
+        if (replicate > 0) continue;
+        pixel->sample_mean[c] = clshear_film_channel(base, mean[c])[index];
+        pixel->sample_m2[c] =
+            all > 1 ? clshear_film_channel(base, variance[c])[index] * (f32)(all - 1) : 0.0f;
+    }
+    pixel->pending = had;
+    if (replicate == 0) pixel->samples = all;
+}
+
+/* The mean of the replicate that was finished last: what the sum of means has grown by. */
+static void keep(cs_job *job, uint32_t replicate, size_t index, cs_pixel *pixel)
+{
+    for (size_t c = 0; c < 3; c++) {
+        double *before = &job->pattern_sums[3 * index + c];
+        const double now = (double)pixel->pattern_sum[c] + (double)pixel->pattern_carry[c];
+        job->pattern_means[(3 * replicate + c) * job->pixel_count + index] = (float)(now - *before);
+        *before = now;
+    }
+}
+
+clshear_status cs_extend_prepare(cs_job *job, cs_error *error)
+{
+    const uint32_t most = 16;
+    const size_t planes = 3 * (size_t)job->options.replicates;
+    if (!job->options.extendable && job->options.extend == NULL) return CLSHEAR_OK;
+    if (job->options.replicates > most)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "%u replicates: a render that can be extended has at most %u",
+                       job->options.replicates, most);
+    job->pattern_means = malloc(planes * job->pixel_count * sizeof *job->pattern_means);
+    job->pattern_sums = calloc(3 * job->pixel_count, sizeof *job->pattern_sums);
+    if (job->pattern_means == NULL || job->pattern_sums == NULL)
+        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
+                       job->pixel_count);
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_extend_begin(cs_job *job, uint32_t replicate, cs_error *error)
+{
+    if (job->options.extend == NULL) return CLSHEAR_OK;
+    return for_pixels(job, replicate, load, 1, error);
+}
+
+clshear_status cs_extend_end(cs_job *job, uint32_t replicate, cs_error *error)
+{
+    if (job->pattern_means == NULL) return CLSHEAR_OK;
+    clshear_status status = for_pixels(job, replicate, keep, 0, error);
+    if (status == CLSHEAR_OK) job->patterns_kept++;
+    return status;
+}
+
+clshear_status cs_extend_describe(const cs_job *job, clshear_film *film)
+{
+    char text[512];
+    if (job->patterns_kept < job->options.replicates) return CLSHEAR_OK; /* interrupted */
+    for (uint32_t plane = 0; plane < 3 * job->options.replicates; plane++) {
+        char name[32];
+        plane_name(name, sizeof name, plane / 3, (int)(plane % 3));
+        float *pixels = cs_film_add_channel(film, name);
+        if (pixels == NULL)
+            return cs_fail(film->error, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
+        memcpy(pixels, job->pattern_means + (size_t)plane * job->pixel_count,
+               job->pixel_count * sizeof *pixels);
+    }
+    recipe_of(job, text, sizeof text);
+    return clshear_film_annotate(film, "clshear.recipe", text);
+}
+
+void cs_extend_free(cs_job *job)
+{
+    free(job->pattern_means);
+    free(job->pattern_sums);
+}

@@ -1,0 +1,23 @@
+/* Going on with a render. Everything here does nothing for a job that neither extends one nor is to
+ * be extended. */
+#ifndef CS_RENDER_EXTEND_H
+#define CS_RENDER_EXTEND_H
+
+#include "render/job.h"
+
+/* Whether the job continues the picture it is to extend; makes its pattern begin where that one's
+ * ends. */
+clshear_status cs_extend_check(cs_job *job, cs_error *error);
+
+/* Room for the means of the patterns, which an extension needs one by one. */
+clshear_status cs_extend_prepare(cs_job *job, cs_error *error);
+void cs_extend_free(cs_job *job);
+
+/* Before and after the samples of a replicate are drawn. */
+clshear_status cs_extend_begin(cs_job *job, uint32_t replicate, cs_error *error);
+clshear_status cs_extend_end(cs_job *job, uint32_t replicate, cs_error *error);
+
+/* Adds to the film what its extension needs, unless the render was interrupted. */
+clshear_status cs_extend_describe(const cs_job *job, clshear_film *film);
+
+#endif

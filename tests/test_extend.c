@@ -1,0 +1,153 @@
+/* Renders that go on: the same picture as one that was rendered at once. */
+#include "support.h"
+
+#include <math.h>
+
+typedef struct fixture {
+    clshear_context *context;
+    clshear_scene *scene;
+    clshear_camera camera;
+} fixture;
+
+static int set_up(void **state)
+{
+    fixture *made = calloc(1, sizeof *made);
+    made->context = test_context();
+    made->scene = test_cornell(made->context, &made->camera);
+    *state = made;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    fixture *made = *state;
+    clshear_scene_free(made->scene);
+    clshear_context_free(made->context);
+    free(made);
+    return 0;
+}
+
+static clshear_options options_of(const char *sampler, uint32_t spp)
+{
+    clshear_options options = clshear_options_defaults();
+    options.width = 24;
+    options.height = 24;
+    options.spp = spp;
+    options.sampler = sampler;
+    options.extendable = 1;
+    return options;
+}
+
+static clshear_film *render(fixture *made, const clshear_options *options)
+{
+    clshear_film *film = NULL;
+    test_ok(made->context, clshear_render(made->scene, &made->camera, options, &film));
+    return film;
+}
+
+/* Same up to the order in which float sums are rounded: 1e-4 of the plane's largest value, since
+ * variances are differences of means. */
+static void expect_same(const clshear_film *a, const clshear_film *b)
+{
+    const char *name;
+    const clshear_film_info info = clshear_film_describe(a);
+    for (size_t c = 0; (name = clshear_film_channel_name(a, c)) != NULL; c++) {
+        const float *pa = clshear_film_channel(a, name), *pb = clshear_film_channel(b, name);
+        double most = 0.0, off = 0.0;
+        assert_non_null(pb);
+        for (int i = 0; i < info.width * info.height; i++) {
+            most = fmax(most, fabs((double)pa[i]));
+            off = fmax(off, fabs((double)pa[i] - (double)pb[i]));
+        }
+        if (off > 1e-4 * most) fail_msg("%s differs by %g of %g", name, off, most);
+    }
+}
+
+/* From 100 to 300 samples through a file, then to 1024 in memory, for every progressive sampler;
+ * counts that are no powers of two, and blocks that are cut in the middle. */
+static void extended_equals_whole(void **state)
+{
+    fixture *made = *state;
+    clshear_sampler_info info;
+    int seen = 0;
+    for (size_t s = 0; clshear_sampler_describe(s, &info); s++) {
+        if (!info.progressive) continue;
+        clshear_options options = options_of(info.name, 100);
+        clshear_film *first = render(made, &options), *read = NULL;
+        const char *path = test_path("extend.exr");
+        test_ok(made->context, clshear_film_write(first, path));
+        test_ok(made->context, clshear_film_read(made->context, path, &read));
+        options.spp = 300;
+        options.extend = read;
+        clshear_film *second = render(made, &options);
+        options.spp = 1024;
+        options.extend = second;
+        clshear_film *third = render(made, &options);
+        options.extend = NULL;
+        clshear_film *whole = render(made, &options);
+        assert_true(clshear_film_describe(whole).samples == 24 * 24 * 1024);
+        expect_same(whole, third);
+        clshear_film_free(first);
+        clshear_film_free(read);
+        clshear_film_free(second);
+        clshear_film_free(third);
+        clshear_film_free(whole);
+        seen++;
+    }
+    assert_true(seen >= 5);
+}
+
+static void refuse(fixture *made, const clshear_options *options, const char *words)
+{
+    clshear_film *film = NULL;
+    assert_int_equal(clshear_render(made->scene, &made->camera, options, &film),
+                     CLSHEAR_BAD_ARGUMENT);
+    assert_null(film);
+    if (strstr(clshear_message(made->context), words) == NULL)
+        fail_msg("no \"%s\" in: %s", words, clshear_message(made->context));
+}
+
+static void what_does_not_continue_is_refused(void **state)
+{
+    fixture *made = *state;
+    clshear_options options = options_of("sobol", 64);
+    clshear_film *base = render(made, &options);
+    options.extendable = 0;
+    clshear_film *plain = render(made, &options);
+    options.spp = 128;
+    options.extend = plain;
+    refuse(made, &options, "--extendable");
+    options.extend = base;
+    options.sampler = "mj";
+    refuse(made, &options, "mj cannot extend");
+    options.sampler = "halton";
+    refuse(made, &options, "another sampler");
+    options = options_of("sobol", 128);
+    options.extend = base;
+    options.seed = 1;
+    refuse(made, &options, "another seed");
+    options.seed = 0;
+    options.shear = CLSHEAR_SHEAR_NONE;
+    refuse(made, &options, "another shear");
+    options.shear = CLSHEAR_SHEAR_EQUAL_AREA;
+    options.spp = 64;
+    refuse(made, &options, "64 samples per pixel already");
+    options.spp = 128;
+    options.crop[1] = options.crop[3] = 8;
+    refuse(made, &options, "--crop");
+    options.crop[1] = options.crop[3] = 0;
+    made->camera.focal_distance += 1.0f;
+    refuse(made, &options, "another camera");
+    made->camera.focal_distance -= 1.0f;
+    clshear_film_free(base);
+    clshear_film_free(plain);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(extended_equals_whole),
+        cmocka_unit_test(what_does_not_continue_is_refused),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
