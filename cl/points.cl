@@ -1,6 +1,5 @@
-/* Tuples and their sheared points, written out: for tests, point sets and analysis. */
-#include "frame.h"
-#include "shear.h"
+/* Tuples and their sheared points without tracing: for tests and measurements. */
+#include "draw.h"
 
 /* One work-item writes CS_PACKET consecutive samples of the pattern of `pixel`,
  * CS_POINT_VALUES floats each: the six coordinates of the tuple, then x, y, u, v after the shear.
@@ -27,4 +26,30 @@ __kernel void cs_points(const cs_frame frame, const uint pixel, const float shea
     for (u32 lane = 0u; lane < (u32)CS_PACKET && first + lane < frame.pattern.grid.count; lane++)
         for (u32 i = 0u; i < (u32)CS_POINT_VALUES; i++)
             points[(size_t)(first + lane) * (u32)CS_POINT_VALUES + i] = value[i].lane[lane];
+}
+
+/* Draws as the render kernel does and adds the coordinates up instead of tracing: what sampling
+ * costs by itself. One work-item for each pixel; sums: one float each. */
+__kernel void cs_draw_sum(const cs_frame frame, const float shear, __global const uint *rows,
+                          __global float *sums)
+{
+    cs_place place;
+    if (get_global_id(0) >= frame.pixel_count) return;
+    place.x = 0u;
+    place.y = 0u;
+    place.key = cs_pattern_key(frame.seed, (u32)get_global_id(0), frame.replicate);
+    place.shear = shear;
+    vfloat sum = (vfloat)(0.0f);
+    u32 end = frame.pattern.blocks * (u32)CS_BLOCK;
+    for (u32 start = 0u; start < end; start += (u32)(CS_AHEAD * CS_PACKET)) {
+        cs_drawn drawn[CS_AHEAD];
+        u32 packets = 0u;
+        for (u32 at = start; packets < (u32)CS_AHEAD && at < end; at += (u32)CS_PACKET)
+            cs_draw_packet(&frame, rows, &place, at, end, &drawn[packets++]);
+        for (u32 packet = 0u; packet < packets; packet++) {
+            cs_film_lens point = drawn[packet].point;
+            sum += drawn[packet].active ? point.x + point.y + point.u + point.v : (vfloat)(0.0f);
+        }
+    }
+    sums[get_global_id(0)] = cs_reduce_add(sum);
 }

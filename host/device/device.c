@@ -26,7 +26,8 @@ struct cs_buffer {
     cl_command_queue queue;
 };
 
-static const char *const kernel_names[CS_KERNEL_COUNT] = {"cs_render", "cs_trace", "cs_points"};
+static const char *const kernel_names[CS_KERNEL_COUNT] = {"cs_render", "cs_trace", "cs_points",
+"cs_draw_sum"};
 
 static int is_cpu(cl_device_id id)
 {

@@ -15,6 +15,7 @@ typedef enum cs_kernel {
     CS_KERNEL_RENDER,
     CS_KERNEL_TRACE,
     CS_KERNEL_POINTS,
+    CS_KERNEL_DRAW_SUM,
     CS_KERNEL_COUNT
 } cs_kernel;
 
