@@ -104,9 +104,8 @@ static void make_camera_rays(bench *state)
     camera.fov_deg = 45.0f;
     cs_camera frame;
     must(state, cs_camera_frame(&camera, size, size, &frame, &state->error));
-    float *depth = must_allocate(pixels * sizeof *depth);
-    cs_accel_depth(state->accel, &frame, window, depth);
-    cs_oracle_centre(&frame, depth, pixels, depth);
+    cs_depth *depth = must_allocate(pixels * sizeof *depth);
+    must(state, cs_accel_depth(state->accel, &frame, window, 0, depth, &state->error));
     const cs_pattern pattern = cs_pattern_of(CS_SAMPLER_MJ, 0, (u32)spp);
     ray_planes *rays = &state->rays;
     rays->count = pixels * spp;
@@ -118,8 +117,9 @@ static void make_camera_rays(bench *state)
         u32 key = cs_pattern_key(0, pixel, 0);
         float tuple[CS_DIMENSIONS];
         cs_draw(&pattern, NULL, key, index, 2, tuple);
-        cs_film_lens point = cs_shear(tuple[0], tuple[1], tuple[2], tuple[3], CS_SHEAR_EQUAL_AREA,
-                                      frame.aperture, depth[pixel]);
+        cs_film_lens point =
+            cs_shear(tuple[0], tuple[1], tuple[2], tuple[3], CS_SHEAR_EQUAL_AREA, frame.aperture,
+                     cs_oracle_shear(&frame, &depth[pixel], CS_RULE_CENTRE));
         cs_ray ray = cs_lens_ray(frame, point.x + (float)(pixel % (u32)size),
                                  point.y + (float)(pixel / (u32)size), point.u, point.v);
         for (size_t axis = 0; axis < 3; axis++) {

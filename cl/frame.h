@@ -21,7 +21,7 @@ typedef struct cs_frame {
     u32 crop_y;
     u32 crop_width;
     u32 crop_height;
-    u32 first_pixel; /* in the order of cs_tiled_pixel */
+    u32 first_pixel; /* place in the order in which pixels are drawn */
     u32 pixel_count;
     u32 shear_mode; /* CS_SHEAR_ */
     u32 lights;

@@ -38,9 +38,11 @@ static inline void cs_sample(const cs_frame *frame, const cs_world *world, cs_ro
 /* One work-item draws blocks [first_block, last_block) of one pixel's pattern.
  *
  * Global size: at least frame.pixel_count; any local size. pixels: one cs_pixel for each pixel of
- * the crop, zero at first. shears: the oracle's answer for each pixel of the crop, in pixels.
- * rows: the pattern's table. The others: the scene, see cs_world. */
-__kernel void cs_render(const cs_frame frame, __global cs_pixel *pixels,
+ * the crop, zero at first. order:
+ * the crop's pixels (row by row) in the order in which they are drawn. shears: the oracle's answer
+ * for each pixel of the crop, in pixels. rows: the pattern's table. The others: the scene, see
+ * cs_world. */
+__kernel void cs_render(const cs_frame frame, __global cs_pixel *pixels, __global const uint *order,
                         __global const float *shears, __global const uint *rows,
                         __global const cs_node *nodes, __global const cs_triangle *triangles,
                         __global const cs_face *faces, __global const cs_vertex *vertices,
@@ -51,8 +53,7 @@ __kernel void cs_render(const cs_frame frame, __global cs_pixel *pixels,
     if (get_global_id(0) >= frame.pixel_count) return;
     const cs_world world = {nodes,    triangles, faces,  vertices, materials,
                             textures, texels,    lights, emitters};
-    u32 number = cs_tiled_pixel(frame.first_pixel + (u32)get_global_id(0), frame.crop_width,
-                                frame.crop_height);
+    u32 number = order[frame.first_pixel + (u32)get_global_id(0)];
     cs_place place;
     place.x = frame.crop_x + number % frame.crop_width;
     place.y = frame.crop_y + number / frame.crop_width;

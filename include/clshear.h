@@ -236,6 +236,14 @@ CLSHEAR_API void clshear_points_free(clshear_points *points);
  * Render
  * --------------------------------------------------------------------------------------------- */
 
+/* Which depth a pixel is sheared for. */
+typedef enum clshear_oracle {
+    CLSHEAR_ORACLE_CENTRE = 0, /* what is seen through the middles of pixel and lens */
+    CLSHEAR_ORACLE_MEDIAN = 1, /* the others: of rays all over pixel and lens */
+    CLSHEAR_ORACLE_NEAR = 2,
+    CLSHEAR_ORACLE_FAR = 3
+} clshear_oracle;
+
 typedef struct clshear_progress {
     double fraction;      /* done, 0 to 1 */
     double samples_per_s; /* so far */
@@ -252,6 +260,8 @@ typedef struct clshear_options {
     uint32_t seed;
     const char *sampler; /* a name from clshear_sampler_describe; NULL: the default */
     clshear_shear shear;
+    clshear_oracle oracle;
+    int lens_rays;  /* for the depths of a pixel, 0 to 256 */
     int extendable; /* keep what `extend` will need: channels Pattern<replicate>.R/G/B */
     const struct clshear_film *extend; /* go on with this render, made extendable with the same
                                           arguments but for spp; the sampler must be progressive */

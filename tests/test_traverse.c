@@ -164,12 +164,13 @@ static void hits_equal_embree(void **state)
                               .centre_px = {128, 128}};
     const int window[4] = {0, 256, 0, 256};
     float *rays = malloc(6 * RAYS * sizeof *rays);
-    float *depth = malloc(RAYS * sizeof *depth), *found = malloc(RAYS * sizeof *found);
+    cs_depth *depth = malloc(RAYS * sizeof *depth);
+    float *found = malloc(RAYS * sizeof *found);
     for (int k = 0; k < 2; k++) {
         fixture made;
         u32 wrong = 0, seen = 0;
         build(&made, meshes[k], 60000);
-        cs_accel_depth(made.accel, &camera, window, depth);
+        assert_int_equal(cs_accel_depth(made.accel, &camera, window, 0, depth, &error), CLSHEAR_OK);
         for (u32 i = 0; i < RAYS; i++) {
             const float direction[3] = {((f32)(i % 256) + 0.5f - 128.0f) * camera.pixel_width,
                                         -((f32)(i / 256) + 0.5f - 128.0f) * camera.pixel_width,
@@ -182,8 +183,9 @@ static void hits_equal_embree(void **state)
         }
         trace_device(&made, 8, 0, rays, found);
         for (u32 i = 0; i < RAYS; i++) {
-            seen += isfinite(depth[i]);
-            wrong += found[i] != depth[i] && !(fabsf(found[i] - depth[i]) < 1e-4f * depth[i]);
+            seen += isfinite(depth[i].centre);
+            wrong += found[i] != depth[i].centre &&
+                     !(fabsf(found[i] - depth[i].centre) < 1e-4f * depth[i].centre);
         }
         assert_true(seen > RAYS / 2);
         assert_true(wrong <= RAYS / 10000);

@@ -28,9 +28,21 @@ void cs_accel_free(cs_accel *accel);
  * quality). */
 clshear_status cs_accel_build_bvh(const cs_accel *accel, cs_flat_bvh *bvh, cs_error *error);
 
-/* Camera depth of what the centres of the pixels of a window see through the middle of the lens,
- * row by row; infinite where they see nothing. window: x0, x1, y0, y1. */
-void cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const int *window,
-                    float *depth);
+/* What a pixel sees, as camera depths; infinite where that is nothing. */
+typedef struct cs_depth {
+    f32 centre; /* through the pixel's centre and the lens's */
+    f32 near;   /* the nearest, median and farthest hit of rays all over pixel and lens */
+    f32 median;
+    f32 far;
+    f32 misses; /* fraction of those rays that see nothing */
+} cs_depth;
+
+/* Depths of the pixels of a window, row by row, from a centre ray and `lens_rays` others each (0:
+ * the statistics repeat the centre). window: x0, x1, y0, y1; at most CS_MOST_LENS_RAYS. */
+enum {
+    CS_MOST_LENS_RAYS = 256
+};
+clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const int *window,
+                              int lens_rays, cs_depth *depth, cs_error *error);
 
 #endif

@@ -56,6 +56,25 @@ static const char *store_sampler(void *target, const char *value)
     return cli_check_sampler(value);
 }
 
+static const char *store_oracle(void *target, const char *value)
+{
+    static const char *const names[] = {"centre", "median", "near", "far"};
+    cli_job *job = target;
+    for (int i = 0; i < 4; i++)
+        if (strcmp(value, names[i]) == 0) {
+            job->options.oracle = (clshear_oracle)i;
+            return NULL;
+        }
+    return "centre, median, near or far";
+}
+
+static const char *store_lens_rays(void *target, const char *value)
+{
+    cli_job *job = target;
+    return cli_read_ints(value, 1, 0, 256, &job->options.lens_rays) ? NULL
+                                                                    : "a whole number, 0 to 256";
+}
+
 static const char *store_extendable(void *target, const char *value)
 {
     cli_job *job = target;
@@ -267,6 +286,8 @@ static const cli_flag flags[] = {
     {"sampler", "NAME", "point set; --list-samplers has them (sz)", store_sampler},
     {"list-samplers", NULL, "list the samplers and stop", store_list_samplers},
     {"shear", "KIND", "equal-area, toroidal or none (equal-area)", store_shear},
+    {"oracle", "RULE", "depth to shear for: centre, median, near or far", store_oracle},
+    {"lens-rays", "N", "rays for the depths of a pixel (16)", store_lens_rays},
     {"extendable", NULL, "keep in the EXR what --extend needs", store_extendable},
     {"extend", "FILE", "go on from FILE up to --spp; other flags the same", store_extend},
     {"width", "PX", "image width (512)", store_width},

@@ -27,7 +27,7 @@ struct cs_buffer {
 };
 
 static const char *const kernel_names[CS_KERNEL_COUNT] = {"cs_render", "cs_trace", "cs_points",
-"cs_draw_sum"};
+                                                          "cs_draw_sum"};
 
 static int is_cpu(cl_device_id id)
 {

@@ -4,8 +4,12 @@
 
 #include "lens.h"
 
-void cs_oracle_centre(const cs_camera *camera, const float *depth, size_t count, float *shear_px)
+f32 cs_oracle_shear(const cs_camera *camera, const cs_depth *depth, cs_rule rule)
 {
-    for (size_t i = 0; i < count; i++)
-        shear_px[i] = isfinite(depth[i]) ? cs_shear_of_depth(*camera, depth[i]) : 0.0f;
+    f32 z = INFINITY;
+    if (rule == CS_RULE_CENTRE) z = isfinite(depth->centre) ? depth->centre : depth->median;
+    if (rule == CS_RULE_MEDIAN) z = depth->median;
+    if (rule == CS_RULE_NEAR) z = depth->near;
+    if (rule == CS_RULE_FAR) z = depth->far;
+    return isfinite(z) ? cs_shear_of_depth(*camera, z) : 0.0f;
 }

@@ -1,13 +1,22 @@
-/* The oracle: from what is known of a pixel's depth to the shear of its samples. */
+/* The oracle: from what is known of a pixel's depths to the shear of its samples. A wrong answer
+ * costs variance, never bias. */
 #ifndef CS_ORACLE_ORACLE_H
 #define CS_ORACLE_ORACLE_H
 
-#include <stddef.h>
+#include "accel/accel.h"
 
-#include "shared.h"
+/* Rules, in the order of the public enumeration; then what a pilot may choose besides. */
+typedef enum cs_rule {
+    CS_RULE_CENTRE,
+    CS_RULE_MEDIAN,
+    CS_RULE_NEAR,
+    CS_RULE_FAR,
+    CS_RULE_NONE, /* no shear */
+    CS_RULE_COUNT
+} cs_rule;
 
-/* The signed circle of confusion, in pixels, at the depth of each pixel's centre. Pixels that see
- * nothing (infinite depth) are not sheared. A wrong answer costs variance, never bias. */
-void cs_oracle_centre(const cs_camera *camera, const float *depth, size_t count, float *shear_px);
+/* The signed circle of confusion, in pixels, of the depth that the rule takes. Centres that see
+ * nothing take the median of what the rest of the pixel and lens sees; 0 where that is nothing. */
+f32 cs_oracle_shear(const cs_camera *camera, const cs_depth *depth, cs_rule rule);
 
 #endif

@@ -46,6 +46,8 @@ static clshear_status check_counts(clshear_options *options, cs_error *error)
                        options->replicates, options->spp, options->spp);
     if ((uint32_t)options->shear > CLSHEAR_SHEAR_EQUAL_AREA)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "shear %d is not known", (int)options->shear);
+    if ((uint32_t)options->oracle > CLSHEAR_ORACLE_FAR)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "oracle %d is not known", (int)options->oracle);
     return CLSHEAR_OK;
 }
 

@@ -41,7 +41,10 @@ static clshear_status depth_at(const clshear_scene *scene, int width, int height
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "pixel %d,%d is outside the %d x %d image", x,
                        y, width, height);
     status = cs_camera_frame(camera, width, height, &frame, error);
-    if (status == CLSHEAR_OK) cs_accel_depth(scene->accel, &frame, window, depth);
+    cs_depth found;
+    if (status == CLSHEAR_OK)
+        status = cs_accel_depth(scene->accel, &frame, window, 0, &found, error);
+    if (status == CLSHEAR_OK) *depth = found.centre;
     return status;
 }
 

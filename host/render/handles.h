@@ -8,9 +8,10 @@
 #include "sampler/pattern.h"
 #include "scene/scene.h"
 
-/* Tables of patterns on the device: those used last, oldest first. Making one may take seconds. */
+/* Tables of patterns on the device, used last at the end: more than the batches of a render, which
+ * keep theirs meanwhile. Making one may take seconds. */
 enum {
-    CS_TABLES = 8
+    CS_TABLES = 32
 };
 
 typedef struct cs_tables {

@@ -4,7 +4,11 @@
 
 #include "film/film.h"
 #include "frame.h"
-#include "render/handles.h"
+#include "render/sweep.h"
+
+enum {
+    CS_MOST_BATCHES = 24
+};
 
 typedef struct cs_job {
     clshear_scene *scene;
@@ -12,11 +16,12 @@ typedef struct cs_job {
     clshear_camera lens; /* as the caller gave it */
     cs_camera camera;
     cs_pattern pattern;
-    const cs_buffer *rows; /* the pattern's table; of the context */
-    int window[4];         /* x0, x1, y0, y1 */
+    int window[4]; /* x0, x1, y0, y1 */
     size_t pixel_count;
-    float *depth;
+    cs_depth *depth;
     float *shear_px;
+    cs_batch batches[CS_MOST_BATCHES];
+    size_t batch_count;
     cs_buffer *pixels; /* cs_pixel */
     cs_buffer *shears;
     /* For extensions, else NULL: means of finished patterns, a plane for each replicate and colour;
@@ -30,6 +35,9 @@ typedef struct cs_job {
 
 /* Checks the options and the lens, and chooses window and pattern. */
 clshear_status cs_job_check(cs_job *job, cs_error *error);
+
+/* A sweep over the job's window with its camera, seed and shear. */
+cs_sweep cs_job_sweep(const cs_job *job);
 
 /* Runs all passes. Each launch takes a fraction of a second, so that progress, cancelling and GPU
  * watchdogs work; how the work is cut into launches does not change the result. */

@@ -9,8 +9,12 @@
 
 clshear_options clshear_options_defaults(void)
 {
-    return (clshear_options){
-        .width = 512, .height = 512, .spp = 256, .shear = CLSHEAR_SHEAR_EQUAL_AREA};
+    return (clshear_options){.width = 512,
+                             .height = 512,
+                             .spp = 256,
+                             .shear = CLSHEAR_SHEAR_EQUAL_AREA,
+                             .oracle = CLSHEAR_ORACLE_CENTRE,
+                             .lens_rays = 16};
 }
 
 /* Depth, oracle and the buffers for the passes. */
@@ -23,11 +27,16 @@ static clshear_status prepare(cs_job *job, cs_error *error)
     job->shear_px = malloc(job->pixel_count * sizeof *job->shear_px);
     CS_REQUIRE(job->depth != NULL && job->shear_px != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory for %zu pixels", job->pixel_count);
-    cs_accel_depth(job->scene->accel, &job->camera, job->window, job->depth);
-    cs_oracle_centre(&job->camera, job->depth, job->pixel_count, job->shear_px);
+    CS_TRY(cs_accel_depth(job->scene->accel, &job->camera, job->window, job->options.lens_rays,
+                          job->depth, error));
+    for (size_t i = 0; i < job->pixel_count; i++)
+        job->shear_px[i] =
+            cs_oracle_shear(&job->camera, &job->depth[i], (cs_rule)job->options.oracle);
     job->prepass_s = cs_now_s() - start_s;
     CS_TRY(cs_extend_prepare(job, error));
-    CS_TRY(cs_tables_find(&job->scene->context->tables, device, &job->pattern, &job->rows, error));
+    CS_TRY(cs_batch_create(job->scene->context, &job->pattern, NULL, job->pixel_count,
+                           (u32)(job->window[1] - job->window[0]), &job->batches[0], error));
+    job->batch_count = 1;
     CS_TRY(cs_buffer_create(device, job->pixel_count * sizeof *job->shear_px, job->shear_px,
                             &job->shears, error));
     CS_TRY(
@@ -62,6 +71,8 @@ done:
     free(job.depth);
     free(job.shear_px);
     cs_extend_free(&job);
+    for (size_t b = 0; b < job.batch_count; b++)
+        cs_batch_free(&job.batches[b]);
     cs_buffer_free(job.pixels);
     cs_buffer_free(job.shears);
     return status;

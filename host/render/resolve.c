@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "oracle/oracle.h"
 #include "pattern/pattern.h"
 #include "render/extend.h"
 
@@ -15,8 +16,9 @@ typedef struct planes {
     float *mean[3];
     float *variance[3];
     float *sample_variance[3];
-    float *depth;
+    float *depth[3]; /* centre, near, far */
     float *shear;
+    float *blur;
     float *samples;
 } planes;
 
@@ -35,8 +37,11 @@ static clshear_status add_planes(clshear_film *film, planes *all)
         snprintf(name, sizeof name, "SampleVariance.%s", letters[c]);
         good &= (all->sample_variance[c] = cs_film_add_channel(film, name)) != NULL;
     }
-    good &= (all->depth = cs_film_add_channel(film, "Z")) != NULL;
+    good &= (all->depth[0] = cs_film_add_channel(film, "Z")) != NULL;
+    good &= (all->depth[1] = cs_film_add_channel(film, "Z.near")) != NULL;
+    good &= (all->depth[2] = cs_film_add_channel(film, "Z.far")) != NULL;
     good &= (all->shear = cs_film_add_channel(film, "Shear")) != NULL;
+    good &= (all->blur = cs_film_add_channel(film, "CoC")) != NULL;
     good &= (all->samples = cs_film_add_channel(film, "Samples")) != NULL;
     return good ? CLSHEAR_OK
                 : cs_fail(film->error, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
@@ -91,8 +96,13 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
             if (slice[i].patterns < fewest) fewest = slice[i].patterns;
         }
     }
-    memcpy(all->depth, job->depth, job->pixel_count * sizeof *job->depth);
-    memcpy(all->shear, job->shear_px, job->pixel_count * sizeof *job->shear_px);
+    for (size_t i = 0; i < job->pixel_count; i++) {
+        all->depth[0][i] = job->depth[i].centre;
+        all->depth[1][i] = job->depth[i].near;
+        all->depth[2][i] = job->depth[i].far;
+        all->shear[i] = job->shear_px[i];
+        all->blur[i] = fabsf(cs_oracle_shear(&job->camera, &job->depth[i], CS_RULE_CENTRE));
+    }
     if (fewest < 2) drop_variance(film);
 done:
     free(slice);

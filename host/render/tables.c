@@ -9,9 +9,9 @@ static int is_same(const cs_pattern *a, const cs_pattern *b)
     return a->sampler == b->sampler && a->first == b->first && a->grid.count == b->grid.count;
 }
 
-static void drop(cs_tables *tables, int index)
+/* Takes an entry out and closes the gap. */
+static void remove_entry(cs_tables *tables, int index)
 {
-    cs_buffer_free(tables->rows[index]);
     tables->count--;
     for (int i = index; i < tables->count; i++) {
         tables->rows[i] = tables->rows[i + 1];
@@ -19,22 +19,36 @@ static void drop(cs_tables *tables, int index)
     }
 }
 
+static void drop(cs_tables *tables, int index)
+{
+    cs_buffer_free(tables->rows[index]);
+    remove_entry(tables, index);
+}
+
+static const cs_buffer *append(cs_tables *tables, const cs_pattern *pattern, cs_buffer *rows)
+{
+    tables->pattern[tables->count] = *pattern;
+    tables->rows[tables->count++] = rows;
+    return rows;
+}
+
 clshear_status cs_tables_find(cs_tables *tables, cs_device *device, const cs_pattern *pattern,
                               const cs_buffer **found, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_array rows = {0};
+    cs_buffer *buffer = NULL;
     for (int i = 0; i < tables->count; i++)
         if (is_same(&tables->pattern[i], pattern)) {
-            *found = tables->rows[i];
+            buffer = tables->rows[i];
+            remove_entry(tables, i);
+            *found = append(tables, pattern, buffer);
             return CLSHEAR_OK;
         }
-    if (tables->count == CS_TABLES) drop(tables, 0);
     CS_TRY(cs_rows_make(pattern, CS_ORDER_COHERENT, &rows, error));
-    CS_TRY(cs_buffer_create(device, rows.count * rows.item_size, rows.items,
-                            &tables->rows[tables->count], error));
-    tables->pattern[tables->count] = *pattern;
-    *found = tables->rows[tables->count++];
+    CS_TRY(cs_buffer_create(device, rows.count * rows.item_size, rows.items, &buffer, error));
+    if (tables->count == CS_TABLES) drop(tables, 0);
+    *found = append(tables, pattern, buffer);
 done:
     cs_array_free(&rows);
     return status;

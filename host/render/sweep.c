@@ -1,0 +1,148 @@
+#include "render/sweep.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const double launch_s = 0.15; /* aim for one launch */
+
+clshear_status cs_batch_create(clshear_context *context, const cs_pattern *pattern,
+                               const u32 *pixels, size_t count, u32 width, cs_batch *batch,
+                               cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_device *device = context->device;
+    u32 *order = NULL;
+    batch->pattern = *pattern;
+    batch->pixel_count = count;
+    CS_TRY(cs_tables_find(&context->tables, device, pattern, &batch->rows, error));
+    if (pixels == NULL) {
+        order = malloc(count * sizeof *order);
+        CS_REQUIRE(order != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", count);
+        for (size_t i = 0; i < count; i++)
+            order[i] = cs_tiled_pixel((u32)i, width, (u32)(count / width));
+        pixels = order;
+    }
+    CS_TRY(cs_buffer_create(device, count * sizeof *pixels, pixels, &batch->order, error));
+done:
+    free(order);
+    return status;
+}
+
+void cs_batch_free(cs_batch *batch)
+{
+    cs_buffer_free(batch->order);
+    *batch = (cs_batch){0};
+}
+
+static clshear_status launch(const cs_sweep *sweep, const cs_batch *batch, const cs_frame *frame,
+                             cs_error *error)
+{
+    enum {
+        BEFORE_WORLD = 5
+    };
+    cs_argument arguments[BEFORE_WORLD + CS_WORLD_BUFFERS] = {
+        {.value = frame, .size = sizeof *frame},
+        {.buffer = sweep->pixels},
+        {.buffer = batch->order},
+        {.buffer = sweep->shears},
+        {.buffer = batch->rows}};
+    for (int i = 0; i < CS_WORLD_BUFFERS; i++)
+        arguments[BEFORE_WORLD + i].buffer = sweep->scene->world.buffers[i];
+    return cs_device_run(sweep->scene->context->device, CS_KERNEL_RENDER, frame->pixel_count,
+                         arguments, BEFORE_WORLD + CS_WORLD_BUFFERS, error);
+}
+
+/* Tells the caller how far it is, and asks whether to go on. */
+static clshear_status report(const cs_sweep *sweep, double now_s, cs_error *error)
+{
+    const clshear_options *options = sweep->options;
+    if (options == NULL || options->progress == NULL) return CLSHEAR_OK;
+    const double mean_rate = sweep->done / (now_s - sweep->start_s);
+    const clshear_progress progress = {
+        .fraction = sweep->done / sweep->total,
+        .samples_per_s = mean_rate,
+        .remaining_s = (sweep->total - sweep->done) / mean_rate,
+    };
+    if (options->progress(options->progress_user, &progress) != 0)
+        return cs_fail(error, CLSHEAR_CANCELLED, "cancelled");
+    return CLSHEAR_OK;
+}
+
+static clshear_status timed_launch(cs_sweep *sweep, const cs_batch *batch, const cs_frame *frame,
+                                   cs_error *error)
+{
+    const double before_s = cs_now_s();
+    clshear_status status = launch(sweep, batch, frame, error);
+    if (status != CLSHEAR_OK) return status;
+    const double now_s = cs_now_s(), took_s = now_s - before_s + 1e-6;
+    uint32_t last = frame->last_block * CS_BLOCK;
+    if (last > frame->pattern.grid.count) last = frame->pattern.grid.count;
+    const double samples =
+        (double)(last - frame->first_block * CS_BLOCK) * (double)frame->pixel_count;
+    sweep->kernel_s += took_s;
+    sweep->done += samples;
+    sweep->rate = 0.5 * (sweep->rate + samples / took_s);
+    return report(sweep, now_s, error);
+}
+
+/* Draws blocks [first, last) of the patterns of a batch, some pixels at a time. */
+static clshear_status sweep_batch(cs_sweep *sweep, const cs_batch *batch, u32 first, u32 last,
+                                  cs_error *error)
+{
+    const size_t least = 64;
+    cs_frame frame = sweep->frame;
+    frame.pattern = batch->pattern;
+    frame.first_block = first;
+    frame.last_block = last;
+    for (size_t pixel = 0; pixel < batch->pixel_count; pixel += frame.pixel_count) {
+        const double samples_each = (double)(last - first) * CS_BLOCK;
+        const double affordable = sweep->rate * launch_s / samples_each;
+        const size_t left = batch->pixel_count - pixel;
+        size_t count = affordable >= (double)left   ? left
+                       : affordable < (double)least ? least
+                                                    : (size_t)affordable;
+        if (count > left) count = left;
+        frame.first_pixel = (u32)pixel;
+        frame.pixel_count = (u32)count;
+        clshear_status status = timed_launch(sweep, batch, &frame, error);
+        if (status != CLSHEAR_OK) return status;
+    }
+    return CLSHEAR_OK;
+}
+
+static u32 flushes_of(const cs_batch *batch)
+{
+    return (batch->pattern.blocks + CS_FLUSH_BLOCKS - 1) / CS_FLUSH_BLOCKS;
+}
+
+/* Blocks of a batch that are drawn when `part` of the replicate is: whole flushes, then all. */
+static u32 blocks_at(const cs_batch *batch, double part)
+{
+    if (part >= 1.0) return batch->pattern.blocks;
+    return (u32)(part * flushes_of(batch)) * CS_FLUSH_BLOCKS;
+}
+
+clshear_status cs_sweep_replicate(cs_sweep *sweep, const cs_batch *batches, size_t batch_count,
+                                  u32 replicate, cs_error *error)
+{
+    double samples = 0.0;
+    u32 most = 1;
+    for (size_t b = 0; b < batch_count; b++) {
+        samples += (double)batches[b].pixel_count * batches[b].pattern.grid.count;
+        if (flushes_of(&batches[b]) > most) most = flushes_of(&batches[b]);
+    }
+    sweep->frame.replicate = replicate;
+    for (double part = 0.0, next; part < 1.0; part = next) {
+        /* As little as a launch affords, but a flush of the largest pattern at least. */
+        const double step = sweep->rate * launch_s / samples;
+        next = part + (step > 1.0 / most ? step : 1.0 / most);
+        if (next > 1.0 - 0.5 / most) next = 1.0;
+        for (size_t b = 0; b < batch_count; b++) {
+            const u32 first = blocks_at(&batches[b], part), last = blocks_at(&batches[b], next);
+            if (first == last) continue;
+            clshear_status status = sweep_batch(sweep, &batches[b], first, last, error);
+            if (status != CLSHEAR_OK) return status;
+        }
+    }
+    return CLSHEAR_OK;
+}

@@ -1,0 +1,42 @@
+/* Launches of the render kernel: patterns of one kind for some pixels, in pieces. */
+#ifndef CS_RENDER_SWEEP_H
+#define CS_RENDER_SWEEP_H
+
+#include "frame.h"
+#include "render/handles.h"
+
+/* Pixels that draw patterns of the same size. */
+typedef struct cs_batch {
+    cs_pattern pattern;
+    const cs_buffer *rows; /* the pattern's table; of the context */
+    cs_buffer *order;      /* u32: the pixels, numbered in the window row by row; owned */
+    size_t pixel_count;
+} cs_batch;
+
+/* What all launches of a render have in common, and how far it is. */
+typedef struct cs_sweep {
+    clshear_scene *scene;
+    cs_frame frame;                 /* camera, seed, window, shear mode, lights */
+    const cs_buffer *shears;        /* of every pixel of the window */
+    cs_buffer *pixels;              /* cs_pixel */
+    const clshear_options *options; /* whose callback is told; NULL: nobody */
+    double start_s;
+    double rate;  /* samples per second of the last launches */
+    double done;  /* samples */
+    double total; /* samples; 0: unknown */
+    double kernel_s;
+} cs_sweep;
+
+/* A batch of the pixels listed in `pixels`; all `count` of a window of this width, in tiles, where
+ * that is NULL. */
+clshear_status cs_batch_create(clshear_context *context, const cs_pattern *pattern,
+                               const u32 *pixels, size_t count, u32 width, cs_batch *batch,
+                               cs_error *error);
+void cs_batch_free(cs_batch *batch);
+
+/* Draws one replicate of every batch's patterns: of all of them a part, then the next part, so that
+ * an interrupted picture is even. How the work is cut does not change a bit of the result. */
+clshear_status cs_sweep_replicate(cs_sweep *sweep, const cs_batch *batches, size_t batch_count,
+                                  u32 replicate, cs_error *error);
+
+#endif
