@@ -77,11 +77,11 @@ static void summarise(f32 *all, u32 count, cs_depth *depth)
     depth->far = hits > 0 ? all[hits - 1] : INFINITY;
 }
 
-static void depths_of_pixel(const prepass *work, u32 x, u32 y, u32 number, cs_depth *depth)
+static void depths_of_pixel(const prepass *work, u32 x, u32 y, cs_depth *depth)
 {
     cs_ray rays[WIDTH];
     f32 all[CS_MOST_LENS_RAYS];
-    const u32 key = cs_pattern_key(0, number, 0);
+    const u32 key = cs_pattern_key(0, y << 16 ^ x, 0);
     for (u32 first = 0; first < work->lens_rays; first += WIDTH) {
         u32 count = 0;
         for (; count < WIDTH && first + count < work->lens_rays; count++) {
@@ -119,7 +119,7 @@ static void depths_of_range(void *user, size_t begin, size_t end)
         for (int i = 0; i < count; i++) {
             cs_depth *depth = &work->depth[first + (size_t)i];
             depth->centre = centre[i];
-            depths_of_pixel(work, x[i], y[i], (u32)(first + (size_t)i), depth);
+            depths_of_pixel(work, x[i], y[i], depth);
         }
     }
 }
