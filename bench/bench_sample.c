@@ -1,9 +1,10 @@
 /* What drawing and shearing costs: tuples per second of every sampler, alone and as a share of the
  * Cornell box's frame. Both are measured in turn, several rounds; medians are printed.
  *
- * bench_sample [SCENE [SAMPLES [ROUNDS]]] */
+ * bench_sample [SCENE [SAMPLES [ROUNDS [SAMPLER]]]] */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "frame.h"
 #include "pattern/pattern.h"
@@ -120,7 +121,8 @@ int main(int argc, char **argv)
                    "|---|---|---|---|\n",
                    disk ? "disk" : "square", shear ? "equal-area" : "none");
             for (u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
-                measure(&state, sampler, rounds);
+                if (argc < 5 || strcmp(argv[4], cs_sampler_name(sampler)) == 0)
+                    measure(&state, sampler, rounds);
         }
     }
     clshear_scene_free(state.scene);

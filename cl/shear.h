@@ -31,27 +31,28 @@ typedef struct cs_film_lens {
  * t = x + blur * lens is a sum of two uniform variables; its density is a trapezoid whose inverse
  * cumulative distribution is closed. Below blur 1 the lens coordinate is drawn first, which keeps
  * the map well conditioned down to a pixel in focus. */
-static inline vfloat cs_trapezoid(vfloat across, vfloat along, vfloat blur, vfloat *x)
+static inline vfloat cs_trapezoid(vfloat across, vfloat along, f32 blur, vfloat *x)
 {
-    vfloat narrow = cs_min(blur, (vfloat)(1.0f));
-    vfloat wide = cs_max(blur, (vfloat)(1.0f));
-    vfloat ramp = 0.5f * narrow / wide;
+    f32 narrow = cs_min(blur, 1.0f);
+    f32 wide = cs_max(blur, 1.0f);
+    f32 ramp = 0.5f * narrow / wide;
+    f32 inverse = 1.0f / blur;
     vfloat mirrored = cs_min(across, 1.0f - across);
     vfloat rising = cs_sqrt(2.0f * narrow * wide * mirrored);
     vfloat flat = narrow + (across - ramp) * wide;
     vfloat t = across > 0.5f ? 1.0f + blur - rising : rising;
     t = mirrored < ramp ? t : flat;
-
-    vfloat x_low = cs_max(t - blur, (vfloat)(0.0f));
-    vfloat x_high = cs_min(t, (vfloat)(1.0f));
-    vfloat x_first = x_low + (x_high - x_low) * along;
-
-    vfloat lens_low = cs_max((t - 1.0f) / blur, (vfloat)(0.0f));
-    vfloat lens_high = cs_min(t / blur, (vfloat)(1.0f));
-    vfloat lens_first = lens_low + (lens_high - lens_low) * (1.0f - along);
-
-    *x = blur < 1.0f ? t - blur * lens_first : x_first;
-    return blur < 1.0f ? lens_first : (t - x_first) / blur;
+    if (blur < 1.0f) {
+        vfloat low = cs_max((t - 1.0f) * inverse, (vfloat)(0.0f));
+        vfloat high = cs_min(t * inverse, (vfloat)(1.0f));
+        vfloat lens = low + (high - low) * (1.0f - along);
+        *x = t - blur * lens;
+        return lens;
+    }
+    vfloat low = cs_max(t - blur, (vfloat)(0.0f));
+    vfloat high = cs_min(t, (vfloat)(1.0f));
+    *x = low + (high - low) * along;
+    return (t - *x) * inverse;
 }
 
 /* Blurs below this are in focus: the pixel's own width hides them, and the maps divide by them. */
@@ -59,8 +60,8 @@ static inline vfloat cs_trapezoid(vfloat across, vfloat along, vfloat blur, vflo
 
 static inline cs_film_lens cs_equal_area_square(vfloat a, vfloat b, vfloat c, vfloat d, f32 shear)
 {
-    vfloat blur = (vfloat)(shear < 0.0f ? -shear : shear);
-    blur = cs_max(blur, (vfloat)(CS_LEAST_BLUR));
+    f32 blur = shear < 0.0f ? -shear : shear;
+    blur = cs_max(blur, CS_LEAST_BLUR);
     f32 sign = shear < 0.0f ? -1.0f : 1.0f;
     cs_film_lens point;
     point.u = sign * (cs_trapezoid(a, c, blur, &point.x) - 0.5f);

@@ -10,9 +10,9 @@ set(floor_host/scene 4)
 set(floor_host/film 4)
 set(floor_host/device 4)
 set(floor_host/accel 5)
-set(floor_host/oracle 5)
-set(floor_host/render 6)
-set(floor_host/cli 7)
+set(floor_host/oracle 6)
+set(floor_host/render 7)
+set(floor_host/cli 8)
 
 # Inside cl/, file by file.
 set(kernel_floors
