@@ -299,8 +299,8 @@ CLSHEAR_API clshear_film_info clshear_film_describe(const clshear_film *film);
 
 /* Name of channel `index`, or NULL past the last one: R G B (mean radiance), Variance.R/G/B (of
  * that mean, from the replicates; absent with fewer than two), SampleVariance.R/G/B (of one
- * sample), Z (camera depth at the pixel's centre, infinite where nothing is seen), Shear (px),
- * Samples. */
+ * sample), Z (camera depth at the pixel's centre, infinite where nothing is seen), Z.near, Z.far
+ * (of the lens rays), Shear (px), CoC (circle of confusion at the centre, px), Samples. */
 CLSHEAR_API const char *clshear_film_channel_name(const clshear_film *film, size_t index);
 
 /* The pixels of a channel, row by row from the top, or NULL if there is no such channel. Owned by
