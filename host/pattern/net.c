@@ -60,7 +60,7 @@ static int rows_of_net(cs_table *table, const generator *matrices)
  * 1 to 4): v_c = v_{c-s} ^ v_{c-s} >> s ^ a_1 v_{c-1} ^ ... with v_c = m_c 2^(31-c). */
 static void sobol_matrix(u32 degree, u32 coefficients, const u32 *initial, generator *matrix)
 {
-    u32 direction[BITS];
+    u32 direction[BITS] = {0};
     for (u32 c = 0; c < BITS; c++) {
         if (c < degree) {
             direction[c] = initial[c] << (BITS - 1 - c);

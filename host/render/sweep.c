@@ -132,10 +132,11 @@ clshear_status cs_sweep_replicate(cs_sweep *sweep, const cs_batch *batches, size
         if (flushes_of(&batches[b]) > most) most = flushes_of(&batches[b]);
     }
     sweep->frame.replicate = replicate;
-    for (double part = 0.0, next; part < 1.0; part = next) {
+    double part = 0.0;
+    while (part < 1.0) {
         /* As little as a launch affords, but a flush of the largest pattern at least. */
         const double step = sweep->rate * launch_s / samples;
-        next = part + (step > 1.0 / most ? step : 1.0 / most);
+        double next = part + (step > 1.0 / most ? step : 1.0 / most);
         if (next > 1.0 - 0.5 / most) next = 1.0;
         for (size_t b = 0; b < batch_count; b++) {
             const u32 first = blocks_at(&batches[b], part), last = blocks_at(&batches[b], next);
@@ -143,6 +144,7 @@ clshear_status cs_sweep_replicate(cs_sweep *sweep, const cs_batch *batches, size
             clshear_status status = sweep_batch(sweep, &batches[b], first, last, error);
             if (status != CLSHEAR_OK) return status;
         }
+        part = next;
     }
     return CLSHEAR_OK;
 }
