@@ -33,7 +33,7 @@ static inline u32 cs_grid_columns(u32 count)
     u32 root = 1u;
     while ((root + 1u) * (root + 1u) <= count)
         root++;
-    for (u32 columns = root; 4u * columns * columns >= count; columns--)
+    for (u32 columns = root; columns > 1u && 4u * columns * columns >= count; columns--)
         if (count % columns == 0u) return columns;
     return root * (root + 1u) < count ? root + 1u : root;
 }

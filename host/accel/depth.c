@@ -80,12 +80,12 @@ static void summarise(f32 *all, u32 count, cs_depth *depth)
 static void depths_of_pixel(const prepass *work, u32 x, u32 y, cs_depth *depth)
 {
     cs_ray rays[WIDTH];
-    f32 all[CS_MOST_LENS_RAYS];
+    f32 all[CS_MOST_LENS_RAYS] = {0};
     const u32 key = cs_pattern_key(0, y << 16 ^ x, 0);
     for (u32 first = 0; first < work->lens_rays; first += WIDTH) {
         u32 count = 0;
         for (; count < WIDTH && first + count < work->lens_rays; count++) {
-            f32 t[CS_DIMENSIONS];
+            f32 t[CS_DIMENSIONS] = {0};
             cs_draw(&work->pattern, work->rows, key, first + count, 2, t);
             const cs_film_lens p = cs_unsheared(t[0], t[1], t[2], t[3], work->camera->aperture);
             rays[count] = cs_lens_ray(*work->camera, (f32)x + p.x, (f32)y + p.y, p.u, p.v);

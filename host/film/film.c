@@ -8,7 +8,10 @@ clshear_status cs_film_create(const int *window, int full_width, int full_height
                               clshear_film **result)
 {
     clshear_film *film = calloc(1, sizeof *film);
-    if (film == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    if (film == NULL) {
+        cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+        return CLSHEAR_OUT_OF_MEMORY;
+    }
     film->error = error;
     film->channels.item_size = sizeof(cs_channel);
     film->attributes.item_size = sizeof(cs_attribute);

@@ -82,7 +82,10 @@ int cs_rows_oa(cs_table *table)
 {
     const u32 q = table->pattern->grid.columns;
     field *f = malloc(sizeof *f);
-    if (f == NULL) return 0;
+    if (f == NULL || q < 3) { /* there is no smaller array */
+        free(f);
+        return 0;
+    }
     *f = field_of(q);
     const u32 x = f->power[1];
     for (u32 run = 0; run < q * q; run++) {
@@ -100,7 +103,10 @@ int cs_rows_oa3(cs_table *table)
 {
     const u32 q = table->pattern->grid.columns;
     field *f = malloc(sizeof *f);
-    if (f == NULL) return 0;
+    if (f == NULL || q < 3) { /* there is no smaller array */
+        free(f);
+        return 0;
+    }
     *f = field_of(q);
     const u32 x = f->power[1], square = multiply(f, x, x);
     for (u32 run = 0; run < q * q * q; run++) {

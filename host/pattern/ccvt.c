@@ -101,7 +101,7 @@ static int reserve(raster *r)
 {
     const size_t pixels = (size_t)r->side * (size_t)r->side;
     r->weight = calloc(r->count, sizeof *r->weight);
-    r->distance = malloc(pixels * sizeof *r->distance);
+    r->distance = calloc(pixels, sizeof *r->distance);
     r->owner = calloc(pixels, sizeof *r->owner);
     r->sums = malloc(3 * (size_t)r->count * sizeof *r->sums);
     return r->weight != NULL && r->distance != NULL && r->owner != NULL && r->sums != NULL;

@@ -171,10 +171,8 @@ cs_pattern cs_pattern_of(u32 number, u32 first, u32 count)
     pattern.grid = cs_grid_of(count);
     if (number == CS_SAMPLER_OA || number == CS_SAMPLER_OA3)
         pattern.grid = cs_grid_on(count, root_of(count, number == CS_SAMPLER_OA ? 2 : 3));
-    if (number == CS_SAMPLER_JITTERED4D) {
-        hypergrid(count, pattern.shape);
+    if (number == CS_SAMPLER_JITTERED4D && hypergrid(count, pattern.shape))
         pattern.grid = cs_grid_on(count, pattern.shape[0] * pattern.shape[1]);
-    }
     if (number == CS_SAMPLER_HALTON) {
         const u32 bases[4] = {2, 3, 5, 7};
         for (int d = 0; d < 4; d++)
