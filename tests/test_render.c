@@ -137,41 +137,64 @@ static void a_crop_is_part_of_the_whole(void **state)
     clshear_film_free(part);
 }
 
-/* All shears estimate the same image. 32 replicates each; the image means differ by less than 5
- * standard errors (false alarms 6e-7), and chi-square of the pixels' z-scores, whose t distribution
- * with about 60 degrees of freedom has variance 1.03, stays below 1.25 a pixel: with 2304 pixels
- * chance alone gives 1.03 +- 0.03. Pixels that hardly vary are left out: their variance is
- * rounding.
- */
+/* Mean and variance of every pixel, from 32 replicates of about 64 samples. */
+typedef struct estimates {
+    float mean[PIXELS], variance[PIXELS];
+} estimates;
+
+static void measure(fixture *made, const char *sampler, clshear_shear shear, uint32_t seed,
+                    estimates *result)
+{
+    clshear_options options = small(32 * 64, 32);
+    options.seed = seed;
+    options.sampler = sampler;
+    options.shear = shear;
+    clshear_film *film = render(made, &options);
+    memcpy(result->mean, clshear_film_channel(film, "R"), sizeof result->mean);
+    memcpy(result->variance, clshear_film_channel(film, "Variance.R"), sizeof result->variance);
+    clshear_film_free(film);
+}
+
+/* The image means differ by less than 5 standard errors (false alarms 6e-7), and chi-square of the
+ * pixels' z-scores, whose t distribution with about 60 degrees of freedom has variance 1.03, stays
+ * below 1.25 a pixel: with 2304 pixels chance alone gives 1.03 +- 0.03. Pixels that hardly vary are
+ * left out: their variance is rounding. */
+static void expect_agreement(const estimates *a, const estimates *b, const char *what)
+{
+    double difference = 0.0, error = 0.0, chi = 0.0, used = 0.0;
+    for (int p = 0; p < PIXELS; p++) {
+        double d = (double)a->mean[p] - (double)b->mean[p];
+        double v = (double)a->variance[p] + (double)b->variance[p];
+        difference += d;
+        error += v;
+        if (v < 1e-12 * a->mean[p] * a->mean[p] || v == 0.0) continue;
+        chi += d * d / v;
+        used += 1.0;
+    }
+    if (fabs(difference) >= 5.0 * sqrt(error) || used <= PIXELS / 2 || chi / used >= 1.25)
+        fail_msg("%s: %g standard errors, chi-square %g a pixel", what, difference / sqrt(error),
+                 chi / used);
+}
+
 static void shears_agree(void **state)
 {
-    fixture *made = *state;
-    float mean[3][PIXELS], variance[3][PIXELS];
-    for (int shear = 0; shear < 3; shear++) {
-        clshear_options options = small(32 * 64, 32);
-        options.seed = 40u + (uint32_t)shear;
-        options.shear = (clshear_shear)shear;
-        clshear_film *film = render(made, &options);
-        memcpy(mean[shear], clshear_film_channel(film, "R"), sizeof mean[shear]);
-        memcpy(variance[shear], clshear_film_channel(film, "Variance.R"), sizeof variance[shear]);
-        clshear_film_free(film);
+    static estimates of[3];
+    for (int shear = 0; shear < 3; shear++)
+        measure(*state, "mj", (clshear_shear)shear, 40u + (uint32_t)shear, &of[shear]);
+    expect_agreement(&of[0], &of[1], "none and toroidal");
+    expect_agreement(&of[0], &of[2], "none and equal-area");
+    expect_agreement(&of[1], &of[2], "toroidal and equal-area");
+}
+
+static void samplers_agree(void **state)
+{
+    static estimates reference, of;
+    clshear_sampler_info info;
+    measure(*state, "random", CLSHEAR_SHEAR_NONE, 99, &reference);
+    for (uint32_t i = 0; clshear_sampler_describe(i, &info); i++) {
+        measure(*state, info.name, CLSHEAR_SHEAR_EQUAL_AREA, 50u + i, &of);
+        expect_agreement(&reference, &of, info.name);
     }
-    for (int a = 0; a < 3; a++)
-        for (int b = a + 1; b < 3; b++) {
-            double difference = 0.0, error = 0.0, chi = 0.0, used = 0.0;
-            for (int p = 0; p < PIXELS; p++) {
-                double d = (double)mean[a][p] - (double)mean[b][p];
-                double v = (double)variance[a][p] + (double)variance[b][p];
-                difference += d;
-                error += v;
-                if (v < 1e-12 * mean[a][p] * mean[a][p] || v == 0.0) continue;
-                chi += d * d / v;
-                used += 1.0;
-            }
-            assert_true(fabs(difference) < 5.0 * sqrt(error));
-            assert_true(used > PIXELS / 2);
-            assert_true(chi / used < 1.25);
-        }
 }
 
 /* The Variance channel is the variance of the pixel's mean. Over 64 seeds of 2 replicates of 32
@@ -325,6 +348,7 @@ int main(void)
         cmocka_unit_test(packet_widths_agree),
         cmocka_unit_test(a_crop_is_part_of_the_whole),
         cmocka_unit_test(shears_agree),
+        cmocka_unit_test(samplers_agree),
         cmocka_unit_test(variance_channel_is_honest),
         cmocka_unit_test(interrupted_renders_are_usable),
         cmocka_unit_test(counts_and_channels),
