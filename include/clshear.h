@@ -241,7 +241,9 @@ typedef enum clshear_oracle {
     CLSHEAR_ORACLE_CENTRE = 0, /* what is seen through the middles of pixel and lens */
     CLSHEAR_ORACLE_MEDIAN = 1, /* the others: of rays all over pixel and lens */
     CLSHEAR_ORACLE_NEAR = 2,
-    CLSHEAR_ORACLE_FAR = 3
+    CLSHEAR_ORACLE_FAR = 3,
+    CLSHEAR_ORACLE_PILOT = 4 /* tries centre, near, far and no shear, and takes what is clearly
+                                best; fewer than 64 samples per pixel: centre */
 } clshear_oracle;
 
 typedef struct clshear_progress {
@@ -261,6 +263,7 @@ typedef struct clshear_options {
     const char *sampler; /* a name from clshear_sampler_describe; NULL: the default */
     clshear_shear shear;
     clshear_oracle oracle;
+    int adaptive;   /* share the samples out by the variance that a pilot finds; spp is the mean */
     int lens_rays;  /* for the depths of a pixel, 0 to 256 */
     int extendable; /* keep what `extend` will need: channels Pattern<replicate>.R/G/B */
     const struct clshear_film *extend; /* go on with this render, made extendable with the same
@@ -288,11 +291,13 @@ typedef struct clshear_film_info {
     int width; /* of the crop */
     int height;
     size_t channels;
-    uint64_t samples;     /* traced, of all pixels */
-    uint64_t shadow_rays; /* traced besides one camera ray for each sample */
-    double prepass_s;     /* depth of every pixel */
-    double kernel_s;      /* on the device */
-    double render_s;      /* all of clshear_render */
+    uint64_t samples;       /* traced, of all pixels */
+    uint64_t shadow_rays;   /* traced besides one camera ray for each sample */
+    double prepass_s;       /* depth of every pixel */
+    double pilot_s;         /* finding shears and sharing samples out */
+    uint64_t pilot_samples; /* traced for that and thrown away */
+    double kernel_s;        /* on the device, pilot included */
+    double render_s;        /* all of clshear_render */
 } clshear_film_info;
 
 CLSHEAR_API clshear_film_info clshear_film_describe(const clshear_film *film);
@@ -300,7 +305,8 @@ CLSHEAR_API clshear_film_info clshear_film_describe(const clshear_film *film);
 /* Name of channel `index`, or NULL past the last one: R G B (mean radiance), Variance.R/G/B (of
  * that mean, from the replicates; absent with fewer than two), SampleVariance.R/G/B (of one
  * sample), Z (camera depth at the pixel's centre, infinite where nothing is seen), Z.near, Z.far
- * (of the lens rays), Shear (px), CoC (circle of confusion at the centre, px), Samples. */
+ * (of the lens rays), Shear (px), CoC (circle of confusion at the centre, px), Oracle (the rule
+ * taken: 0 centre, 1 median, 2 near, 3 far, 4 no shear), Samples. */
 CLSHEAR_API const char *clshear_film_channel_name(const clshear_film *film, size_t index);
 
 /* The pixels of a channel, row by row from the top, or NULL if there is no such channel. Owned by

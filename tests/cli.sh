@@ -199,7 +199,7 @@ wait $child
 [ $? -eq 130 ] || wrong "interrupted: exit code"
 grep -q "h.exr holds the samples so far" h.txt || wrong "interrupted: $(cat h.txt)"
 [ -s h.exr ] || wrong "interrupted: no picture"
-oiiotool --info h.exr | grep -q "64 x   64, 12 channel" || wrong "interrupted: bad file"
+oiiotool --info h.exr | grep -q "64 x   64, 13 channel" || wrong "interrupted: bad file"
 
 # A full disk: one line, exit 1, the old picture untouched and nothing left behind.
 echo old >kept.exr

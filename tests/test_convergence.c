@@ -64,6 +64,7 @@ static fit measure(fixture *made, int x, int y, const char *sampler, clshear_she
         options.replicates = REPLICATES;
         options.sampler = sampler;
         options.shear = shear;
+        options.oracle = CLSHEAR_ORACLE_CENTRE;
         test_ok(made->context, clshear_render(made->scene, &made->camera, &options, &film));
         result.variance[k] = REPLICATES * (double)*clshear_film_channel(film, "Variance.G");
         result.mean = (double)*clshear_film_channel(film, "G");

@@ -189,6 +189,8 @@ static void print_stats(const clshear_context *context, const clshear_scene *sce
     printf("load         %.3f s\n", world.load_s);
     printf("build        %.3f s\n", world.build_s);
     printf("prepass      %.3f s\n", info.prepass_s);
+    printf("pilot        %.3f s, %.1f %% more samples\n", info.pilot_s,
+           100.0 * (double)info.pilot_samples / (double)info.samples);
     printf("kernels      %.3f s\n", info.kernel_s);
     printf("render       %.3f s, prepass and kernels included\n", info.render_s);
     printf("samples      %.3f M, %.2f M/s\n", 1e-6 * (double)info.samples,

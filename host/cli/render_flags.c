@@ -58,14 +58,22 @@ static const char *store_sampler(void *target, const char *value)
 
 static const char *store_oracle(void *target, const char *value)
 {
-    static const char *const names[] = {"centre", "median", "near", "far"};
+    static const char *const names[] = {"centre", "median", "near", "far", "pilot"};
     cli_job *job = target;
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < 5; i++)
         if (strcmp(value, names[i]) == 0) {
             job->options.oracle = (clshear_oracle)i;
             return NULL;
         }
-    return "centre, median, near or far";
+    return "pilot, centre, median, near or far";
+}
+
+static const char *store_adaptive(void *target, const char *value)
+{
+    cli_job *job = target;
+    (void)value;
+    job->options.adaptive = 1;
+    return NULL;
 }
 
 static const char *store_lens_rays(void *target, const char *value)
@@ -286,7 +294,8 @@ static const cli_flag flags[] = {
     {"sampler", "NAME", "point set; --list-samplers has them (sz)", store_sampler},
     {"list-samplers", NULL, "list the samplers and stop", store_list_samplers},
     {"shear", "KIND", "equal-area, toroidal or none (equal-area)", store_shear},
-    {"oracle", "RULE", "depth to shear for: centre, median, near or far", store_oracle},
+    {"oracle", "RULE", "pilot, centre, median, near or far (pilot)", store_oracle},
+    {"adaptive", NULL, "more samples where they are needed; --spp is the mean", store_adaptive},
     {"lens-rays", "N", "rays for the depths of a pixel (16)", store_lens_rays},
     {"extendable", NULL, "keep in the EXR what --extend needs", store_extendable},
     {"extend", "FILE", "go on from FILE up to --spp; other flags the same", store_extend},

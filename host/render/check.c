@@ -46,7 +46,7 @@ static clshear_status check_counts(clshear_options *options, cs_error *error)
                        options->replicates, options->spp, options->spp);
     if ((uint32_t)options->shear > CLSHEAR_SHEAR_EQUAL_AREA)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "shear %d is not known", (int)options->shear);
-    if ((uint32_t)options->oracle > CLSHEAR_ORACLE_FAR)
+    if ((uint32_t)options->oracle > CLSHEAR_ORACLE_PILOT)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "oracle %d is not known", (int)options->oracle);
     return CLSHEAR_OK;
 }

@@ -49,6 +49,9 @@ clshear_status cs_extend_check(cs_job *job, cs_error *error)
     const clshear_film *base = job->options.extend;
     char mine[512], name[32];
     int samples;
+    if ((base != NULL || job->options.extendable) && job->options.adaptive)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "a render that is shared out adaptively cannot be extended");
     if (base == NULL) return CLSHEAR_OK;
     if (!cs_sampler_is_progressive(job->pattern.sampler))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,

@@ -20,6 +20,9 @@ typedef struct cs_job {
     size_t pixel_count;
     cs_depth *depth;
     float *shear_px;
+    uint8_t *rule; /* cs_rule of each pixel */
+    u32 *samples;  /* in a pattern of each pixel; NULL: the same for all */
+    double pilot_samples;
     cs_batch batches[CS_MOST_BATCHES];
     size_t batch_count;
     cs_buffer *pixels; /* cs_pixel */
@@ -30,11 +33,16 @@ typedef struct cs_job {
     double *pattern_sums;
     uint32_t patterns_kept;
     double prepass_s;
+    double pilot_s;
     double kernel_s;
 } cs_job;
 
 /* Checks the options and the lens, and chooses window and pattern. */
 clshear_status cs_job_check(cs_job *job, cs_error *error);
+
+/* Depths, shears, batches and buffers. When it is cancelled, the job can still be resolved. */
+clshear_status cs_job_plan(cs_job *job, cs_error *error);
+void cs_job_free(cs_job *job);
 
 /* A sweep over the job's window with its camera, seed and shear. */
 cs_sweep cs_job_sweep(const cs_job *job);

@@ -19,6 +19,7 @@ typedef struct planes {
     float *depth[3]; /* centre, near, far */
     float *shear;
     float *blur;
+    float *rule;
     float *samples;
 } planes;
 
@@ -42,6 +43,7 @@ static clshear_status add_planes(clshear_film *film, planes *all)
     good &= (all->depth[2] = cs_film_add_channel(film, "Z.far")) != NULL;
     good &= (all->shear = cs_film_add_channel(film, "Shear")) != NULL;
     good &= (all->blur = cs_film_add_channel(film, "CoC")) != NULL;
+    good &= (all->rule = cs_film_add_channel(film, "Oracle")) != NULL;
     good &= (all->samples = cs_film_add_channel(film, "Samples")) != NULL;
     return good ? CLSHEAR_OK
                 : cs_fail(film->error, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
@@ -79,6 +81,13 @@ static void drop_variance(clshear_film *film)
     film->info.channels = kept;
 }
 
+/* Samples in a finished pattern of a pixel. */
+static uint32_t pattern_of(const cs_job *job, size_t index)
+{
+    return job->samples != NULL ? job->samples[index]
+                                : job->pattern.first + job->pattern.grid.count;
+}
+
 static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
@@ -90,7 +99,7 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
         CS_TRY(cs_buffer_read(job->pixels, first * sizeof *slice, count * sizeof *slice, slice,
                               error));
         for (size_t i = 0; i < count; i++) {
-            resolve_pixel(&slice[i], job->pattern.first + job->pattern.grid.count, first + i, all);
+            resolve_pixel(&slice[i], pattern_of(job, first + i), first + i, all);
             film->info.samples += slice[i].samples;
             film->info.shadow_rays += slice[i].shadow_rays;
             if (slice[i].patterns < fewest) fewest = slice[i].patterns;
@@ -101,6 +110,7 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
         all->depth[1][i] = job->depth[i].near;
         all->depth[2][i] = job->depth[i].far;
         all->shear[i] = job->shear_px[i];
+        all->rule[i] = (float)job->rule[i];
         all->blur[i] = fabsf(cs_oracle_shear(&job->camera, &job->depth[i], CS_RULE_CENTRE));
     }
     if (fewest < 2) drop_variance(film);
@@ -127,6 +137,7 @@ static void world_to_camera(const cs_camera *camera, float *matrix)
 static clshear_status describe(const cs_job *job, clshear_film *film)
 {
     static const char *const shears[] = {"none", "toroidal", "equal-area"};
+    static const char *const rules[] = {"centre", "median", "near", "far", "pilot"};
     clshear_status status = CLSHEAR_OK;
     clshear_context *context = job->scene->context;
     char seed[16];
@@ -143,6 +154,8 @@ static clshear_status describe(const cs_job *job, clshear_film *film)
     CS_TRY(
         clshear_film_annotate(film, "clshear.aperture",
                               job->lens.aperture == CLSHEAR_APERTURE_SQUARE ? "square" : "disk"));
+    CS_TRY(clshear_film_annotate(film, "clshear.oracle", rules[job->options.oracle]));
+    CS_TRY(cs_film_set_int(film, "clshear.adaptive", job->options.adaptive != 0));
     CS_TRY(cs_film_set_int(film, "clshear.replicates", (int32_t)job->options.replicates));
     CS_TRY(cs_film_set_int(film, "clshear.packet", cs_device_packet(context->device)));
     CS_TRY(cs_film_set_int(
@@ -167,6 +180,8 @@ clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *erro
     CS_TRY(describe(job, film));
     CS_TRY(cs_extend_describe(job, film));
     film->info.prepass_s = job->prepass_s;
+    film->info.pilot_s = job->pilot_s;
+    film->info.pilot_samples = (uint64_t)job->pilot_samples;
     film->info.kernel_s = job->kernel_s;
     *result = film;
     film = NULL;

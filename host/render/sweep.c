@@ -59,9 +59,9 @@ static clshear_status report(const cs_sweep *sweep, double now_s, cs_error *erro
     if (options == NULL || options->progress == NULL) return CLSHEAR_OK;
     const double mean_rate = sweep->done / (now_s - sweep->start_s);
     const clshear_progress progress = {
-        .fraction = sweep->done / sweep->total,
+        .fraction = sweep->total > 0.0 ? sweep->done / sweep->total : 0.0,
         .samples_per_s = mean_rate,
-        .remaining_s = (sweep->total - sweep->done) / mean_rate,
+        .remaining_s = sweep->total > 0.0 ? (sweep->total - sweep->done) / mean_rate : 0.0,
     };
     if (options->progress(options->progress_user, &progress) != 0)
         return cs_fail(error, CLSHEAR_CANCELLED, "cancelled");

@@ -1,0 +1,32 @@
+/* What a pilot render says: which shear suits a pixel, and how many samples it deserves. Pure
+ * statistics; the pilot's samples are traced and thrown away by the floor above. */
+#ifndef CS_ORACLE_PILOT_H
+#define CS_ORACLE_PILOT_H
+
+#include "base/status.h"
+#include "oracle/oracle.h"
+
+/* Evidence on one candidate: variances of small patterns with its shear and, drawn with the same
+ * random numbers, with the prior's; both where the pilot looked and the shears differ, else
+ * negative. A value for each pixel of the window. */
+typedef struct cs_evidence {
+    const f32 *variance;
+    const f32 *prior;
+} cs_evidence;
+
+/* Chooses a rule for every pixel. `evidence` has an entry for each rule; that of `prior` is not
+ * looked at. The ratio of variances is taken over the evidence in a window of `radius` pixels
+ * around the pixel, drawn towards that of the whole picture where the window holds little, and must
+ * be clear before the prior is given up. Fails when out of memory. */
+clshear_status cs_pilot_choose(const cs_evidence *evidence, cs_rule prior, int width, int height,
+                               int radius, uint8_t *rules, cs_error *error);
+
+/* Numbers of samples for a mean of `mean` a pixel, powers of two between a floor and 16 times the
+ * mean: in proportion to (V (1/A + W/B))^0.4, which is best where variance falls as N^-1.5. V is
+ * the pixel's variance with equal samples, smoothed over 3 x 3 pixels; W = 1/(I^2 + e^2) weights it
+ * for the relative error, with e a hundredth of the mean of the intensity I; A and B are the sums
+ * of V and V W, so that absolute and relative error count alike. */
+clshear_status cs_share_samples(const f32 *variance, const f32 *intensity, int width, int height,
+                                u32 mean, u32 *samples, cs_error *error);
+
+#endif

@@ -1,0 +1,218 @@
+/* Pilots: small renders that are thrown away, before the samples that count are drawn. */
+#include "render/pilot.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "oracle/pilot.h"
+#include "pattern/pattern.h"
+
+enum {
+    CHOICE_SAMPLES = 32, /* patterns by which shears are judged */
+    CHOICE_REPLICATES = 2,
+    SHARE_SAMPLES = 16, /* patterns by which samples are shared out */
+    SHARE_REPLICATES = 4,
+    SLICE = 1 << 16
+};
+
+/* Where a pilot's results go, for each pixel of the window: negative where it did not look. */
+typedef struct outcome {
+    f32 *variance; /* of a pattern's mean, averaged over colours */
+    f32 *intensity;
+} outcome;
+
+static clshear_status read_outcome(const cs_job *job, const cs_buffer *pixels,
+                                   const outcome *result, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_pixel *slice = malloc(SLICE * sizeof *slice);
+    CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    for (size_t first = 0; first < job->pixel_count; first += SLICE) {
+        const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
+        CS_TRY(cs_buffer_read(pixels, first * sizeof *slice, count * sizeof *slice, slice, error));
+        for (size_t i = 0; i < count; i++) {
+            const cs_pixel *p = &slice[i];
+            f32 m2 = 0.0f, sum = 0.0f;
+            for (int c = 0; c < 3; c++)
+                m2 += p->pattern_m2[c], sum += p->pattern_sum[c];
+            const int looked = p->patterns > 1;
+            result->variance[first + i] = looked ? m2 / (3.0f * (f32)(p->patterns - 1)) : -1.0f;
+            if (result->intensity != NULL)
+                result->intensity[first + i] = looked ? sum / (3.0f * (f32)p->patterns) : 0.0f;
+        }
+    }
+done:
+    free(slice);
+    return status;
+}
+
+/* Renders `replicates` patterns of `samples` for the listed pixels (NULL: all) with given shears.
+ */
+static clshear_status run(cs_job *job, const f32 *shears, const u32 *list, size_t count,
+                          u32 samples, u32 replicates, const outcome *result, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    clshear_context *context = job->scene->context;
+    cs_buffer *shear_buffer = NULL, *pixels = NULL;
+    cs_batch batch = {0};
+    const u32 sampler = job->pattern.sampler, width = (u32)(job->window[1] - job->window[0]);
+    const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, samples));
+    cs_sweep sweep = cs_job_sweep(job);
+    CS_TRY(cs_buffer_create(context->device, job->pixel_count * sizeof(cs_pixel), NULL, &pixels,
+                            error));
+    if (count > 0) {
+        CS_TRY(cs_buffer_create(context->device, job->pixel_count * sizeof *shears, shears,
+                                &shear_buffer, error));
+        CS_TRY(cs_batch_create(context, &pattern, list, count, width, &batch, error));
+        sweep.frame.seed = cs_key(job->options.seed, 0x70696c6fu); /* its own random numbers */
+        sweep.frame.shear_mode = CLSHEAR_SHEAR_EQUAL_AREA;
+        sweep.shears = shear_buffer;
+        sweep.pixels = pixels;
+        sweep.options = &job->options;
+        for (u32 replicate = 0; replicate < replicates; replicate++)
+            CS_TRY(cs_sweep_replicate(&sweep, &batch, 1, replicate, error));
+        job->pilot_samples += sweep.done;
+    }
+    CS_TRY(read_outcome(job, pixels, result, error));
+done:
+    job->kernel_s += sweep.kernel_s;
+    cs_batch_free(&batch);
+    cs_buffer_free(shear_buffer);
+    cs_buffer_free(pixels);
+    return status;
+}
+
+/* Whether two shears make a difference that a pixel could notice. */
+static int differ(f32 a, f32 b)
+{
+    return fabsf(a - b) > 0.01f * (1.0f + fabsf(a));
+}
+
+typedef struct choice {
+    f32 *shears[CS_RULE_COUNT];
+    f32 *variance[CS_RULE_COUNT];
+    u32 *list;
+    uint8_t *rules;
+} choice;
+
+static const cs_rule prior_rule = CS_RULE_CENTRE;
+
+static int reserve(choice *c, size_t pixels)
+{
+    int good = (c->list = malloc(pixels * sizeof *c->list)) != NULL;
+    good &= (c->rules = malloc(pixels)) != NULL;
+    for (int r = 0; r < CS_RULE_COUNT; r++) {
+        good &= (c->shears[r] = malloc(pixels * sizeof(f32))) != NULL;
+        good &= (c->variance[r] = malloc(pixels * sizeof(f32))) != NULL;
+    }
+    return good;
+}
+
+static void release(choice *c)
+{
+    free(c->list);
+    free(c->rules);
+    for (int r = 0; r < CS_RULE_COUNT; r++) {
+        free(c->shears[r]);
+        free(c->variance[r]);
+    }
+}
+
+/* Rules tried against the prior. The median is the centre nearly everywhere. */
+static int is_candidate(int rule)
+{
+    return rule == CS_RULE_NEAR || rule == CS_RULE_FAR || rule == CS_RULE_NONE;
+}
+
+/* The fraction of pixels that the budget affords, when each is tried with all its candidates. */
+static double affordable_part(const cs_job *job, const choice *c)
+{
+    const double budget = 0.07 * (double)job->options.spp * (double)job->pixel_count;
+    double tries = 0.0;
+    for (size_t i = 0; i < job->pixel_count; i++) {
+        int candidates = 0;
+        for (int r = 0; r < CS_RULE_COUNT; r++)
+            candidates += is_candidate(r) && differ(c->shears[prior_rule][i], c->shears[r][i]);
+        if (candidates > 0) tries += candidates + 1;
+    }
+    const double cost = tries * CHOICE_SAMPLES * CHOICE_REPLICATES;
+    return cost > budget ? budget / cost : 1.0;
+}
+
+/* Lists the pixels of the pilot in which `rule` differs from the prior; for the prior itself those
+ * that any candidate differs in. */
+static size_t list_pixels(const cs_job *job, choice *c, int rule, double part)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < job->pixel_count; i++) {
+        const u32 width = (u32)(job->window[1] - job->window[0]);
+        const u32 x = (u32)job->window[0] + (u32)i % width,
+                  y = (u32)job->window[2] + (u32)i / width;
+        const double lot = (double)cs_hash((y << 16 ^ x) + 1u) * 0x1p-32;
+        int wanted = 0;
+        for (int r = 0; r < CS_RULE_COUNT; r++)
+            wanted |= is_candidate(r) && (r == rule || rule == (int)prior_rule) &&
+                      differ(c->shears[prior_rule][i], c->shears[r][i]);
+        if (wanted && lot < part) c->list[count++] = (u32)i;
+    }
+    return count;
+}
+
+static clshear_status try_rules(cs_job *job, choice *c, double part, cs_error *error)
+{
+    for (int rule = 0; rule < CS_RULE_COUNT; rule++) {
+        if (rule != (int)prior_rule && !is_candidate(rule)) continue;
+        const size_t count = list_pixels(job, c, rule, part);
+        const outcome result = {.variance = c->variance[rule]};
+        clshear_status status = run(job, c->shears[rule], c->list, count, CHOICE_SAMPLES,
+                                    CHOICE_REPLICATES, &result, error);
+        if (status != CLSHEAR_OK) return status;
+    }
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_pilot_shears(cs_job *job, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const int width = job->window[1] - job->window[0], height = job->window[3] - job->window[2];
+    choice c = {0};
+    cs_evidence evidence[CS_RULE_COUNT] = {{0}};
+    CS_REQUIRE(reserve(&c, job->pixel_count), CLSHEAR_OUT_OF_MEMORY,
+               "out of memory for the pilot of %zu pixels", job->pixel_count);
+    for (int r = 0; r < CS_RULE_COUNT; r++)
+        for (size_t i = 0; i < job->pixel_count; i++)
+            c.shears[r][i] = cs_oracle_shear(&job->camera, &job->depth[i], (cs_rule)r);
+    const double part = affordable_part(job, &c);
+    CS_TRY(try_rules(job, &c, part, error));
+    for (int r = 0; r < CS_RULE_COUNT; r++)
+        if (is_candidate(r)) evidence[r] = (cs_evidence){c.variance[r], c.variance[prior_rule]};
+    /* A window holds about a hundred pixels of the pilot. */
+    const int radius = (int)ceil(5.0 / sqrt(part > 1e-4 ? part : 1e-4));
+    CS_TRY(cs_pilot_choose(evidence, prior_rule, width, height, radius, c.rules, error));
+    for (size_t i = 0; i < job->pixel_count; i++) {
+        job->rule[i] = c.rules[i];
+        job->shear_px[i] = c.shears[c.rules[i]][i];
+    }
+done:
+    release(&c);
+    return status;
+}
+
+clshear_status cs_pilot_samples(cs_job *job, u32 *samples, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const int width = job->window[1] - job->window[0], height = job->window[3] - job->window[2];
+    outcome result = {.variance = malloc(job->pixel_count * sizeof(f32)),
+                      .intensity = malloc(job->pixel_count * sizeof(f32))};
+    CS_REQUIRE(result.variance != NULL && result.intensity != NULL, CLSHEAR_OUT_OF_MEMORY,
+               "out of memory for the pilot of %zu pixels", job->pixel_count);
+    CS_TRY(run(job, job->shear_px, NULL, job->pixel_count, SHARE_SAMPLES, SHARE_REPLICATES, &result,
+               error));
+    CS_TRY(cs_share_samples(result.variance, result.intensity, width, height,
+                            job->pattern.grid.count, samples, error));
+done:
+    free(result.variance);
+    free(result.intensity);
+    return status;
+}

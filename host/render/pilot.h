@@ -1,0 +1,15 @@
+/* Pilots: small renders that are thrown away, before the samples that count are drawn. */
+#ifndef CS_RENDER_PILOT_H
+#define CS_RENDER_PILOT_H
+
+#include "render/job.h"
+
+/* Fills the job's rules and shears by trying candidates on part of the pixels: at most 7 % of the
+ * render's samples. */
+clshear_status cs_pilot_shears(cs_job *job, cs_error *error);
+
+/* Shares the replicate's samples out among the pixels: `samples`, one for each, powers of two whose
+ * mean is at most that of the job's pattern. Costs 64 samples a pixel. */
+clshear_status cs_pilot_samples(cs_job *job, u32 *samples, cs_error *error);
+
+#endif

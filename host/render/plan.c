@@ -1,0 +1,121 @@
+/* Before the passes: depths, the oracle's shears, how many samples each pixel gets, and the
+ * buffers. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "oracle/oracle.h"
+#include "pattern/pattern.h"
+#include "render/extend.h"
+#include "render/pilot.h"
+
+/* Fewer samples than this leave a pilot nothing to find out with. */
+static const u32 least_spp_for_pilot = 64;
+
+static clshear_status reserve(cs_job *job, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_device *device = job->scene->context->device;
+    job->depth = malloc(job->pixel_count * sizeof *job->depth);
+    job->shear_px = malloc(job->pixel_count * sizeof *job->shear_px);
+    job->rule = malloc(job->pixel_count);
+    CS_REQUIRE(job->depth != NULL && job->shear_px != NULL && job->rule != NULL,
+               CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", job->pixel_count);
+    CS_TRY(
+        cs_buffer_create(device, job->pixel_count * sizeof(cs_pixel), NULL, &job->pixels, error));
+    CS_TRY(cs_extend_prepare(job, error));
+done:
+    return status;
+}
+
+/* Rules and shears of all pixels; those of the picture that is extended, if there is one. */
+static clshear_status choose_shears(cs_job *job, cs_error *error)
+{
+    const clshear_options *options = &job->options;
+    const float *extended =
+        options->extend != NULL ? clshear_film_channel(options->extend, "Shear") : NULL;
+    const int pilot = options->oracle == CLSHEAR_ORACLE_PILOT;
+    const cs_rule rule = pilot ? CS_RULE_CENTRE : (cs_rule)options->oracle;
+    for (size_t i = 0; i < job->pixel_count; i++) {
+        job->rule[i] = (uint8_t)rule;
+        job->shear_px[i] =
+            extended != NULL ? extended[i] : cs_oracle_shear(&job->camera, &job->depth[i], rule);
+    }
+    if (!pilot || extended != NULL || options->spp < least_spp_for_pilot ||
+        options->shear != CLSHEAR_SHEAR_EQUAL_AREA)
+        return CLSHEAR_OK;
+    return cs_pilot_shears(job, error);
+}
+
+/* A batch for each number of samples. */
+static clshear_status batch_by_samples(cs_job *job, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const u32 width = (u32)(job->window[1] - job->window[0]);
+    const u32 height = (u32)(job->pixel_count / width), sampler = job->pattern.sampler;
+    u32 *list = malloc(job->pixel_count * sizeof *list);
+    CS_REQUIRE(list != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
+               job->pixel_count);
+    for (u32 wanted = 1; wanted <= CS_MAX_PATTERN; wanted *= 2) {
+        size_t count = 0;
+        for (size_t i = 0; i < job->pixel_count; i++) {
+            const u32 pixel = cs_tiled_pixel((u32)i, width, height);
+            if (job->samples[pixel] == wanted) list[count++] = pixel;
+        }
+        if (count == 0) continue;
+        const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, wanted));
+        CS_TRY(cs_batch_create(job->scene->context, &pattern, list, count, width,
+                               &job->batches[job->batch_count], error));
+        job->batch_count++;
+    }
+    for (size_t i = 0; i < job->pixel_count; i++)
+        job->samples[i] = cs_sampler_count(sampler, job->samples[i]);
+done:
+    free(list);
+    return status;
+}
+
+static clshear_status plan_batches(cs_job *job, cs_error *error)
+{
+    const u32 width = (u32)(job->window[1] - job->window[0]);
+    if (!job->options.adaptive) {
+        job->batch_count = 1;
+        return cs_batch_create(job->scene->context, &job->pattern, NULL, job->pixel_count, width,
+                               &job->batches[0], error);
+    }
+    job->samples = calloc(job->pixel_count, sizeof *job->samples);
+    if (job->samples == NULL)
+        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
+                       job->pixel_count);
+    clshear_status status = cs_pilot_samples(job, job->samples, error);
+    return status == CLSHEAR_OK ? batch_by_samples(job, error) : status;
+}
+
+clshear_status cs_job_plan(cs_job *job, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const double start_s = cs_now_s();
+    CS_TRY(reserve(job, error));
+    CS_TRY(cs_accel_depth(job->scene->accel, &job->camera, job->window, job->options.lens_rays,
+                          job->depth, error));
+    job->prepass_s = cs_now_s() - start_s;
+    CS_TRY(choose_shears(job, error));
+    CS_TRY(plan_batches(job, error));
+    job->pilot_s = cs_now_s() - start_s - job->prepass_s;
+    CS_TRY(cs_buffer_create(job->scene->context->device, job->pixel_count * sizeof *job->shear_px,
+                            job->shear_px, &job->shears, error));
+done:
+    return status;
+}
+
+void cs_job_free(cs_job *job)
+{
+    free(job->depth);
+    free(job->shear_px);
+    free(job->rule);
+    free(job->samples);
+    cs_extend_free(job);
+    for (size_t b = 0; b < job->batch_count; b++)
+        cs_batch_free(&job->batches[b]);
+    cs_buffer_free(job->pixels);
+    cs_buffer_free(job->shears);
+}
