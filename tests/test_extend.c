@@ -35,6 +35,7 @@ static clshear_options options_of(const char *sampler, uint32_t spp)
     options.spp = spp;
     options.sampler = sampler;
     options.extendable = 1;
+    options.oracle = CLSHEAR_ORACLE_CENTRE; /* a pilot chooses by the samples it may spend */
     return options;
 }
 
@@ -97,6 +98,56 @@ static void extended_equals_whole(void **state)
     assert_true(seen >= 5);
 }
 
+/* What the pilot chose for the first part stays. */
+static void the_choice_of_the_pilot_stays(void **state)
+{
+    fixture *made = *state;
+    clshear_options options = options_of("sz", 128);
+    options.oracle = CLSHEAR_ORACLE_PILOT;
+    clshear_film *first = render(made, &options);
+    options.spp = 512;
+    options.extend = first;
+    clshear_film *second = render(made, &options);
+    assert_memory_equal(clshear_film_channel(first, "Shear"), clshear_film_channel(second, "Shear"),
+                        24 * 24 * sizeof(float));
+    assert_true(clshear_film_describe(second).pilot_samples == 0);
+    clshear_film_free(first);
+    clshear_film_free(second);
+}
+
+/* Stops after a few launches. */
+static int stop(void *user, const clshear_progress *progress)
+{
+    (void)progress;
+    return ++*(int *)user >= 3;
+}
+
+/* An extension that is interrupted has lost nothing of the picture it began with: its mean is that
+ * picture's within what the new samples add, and its counts are true. */
+static void an_interrupted_extension_is_whole(void **state)
+{
+    fixture *made = *state;
+    clshear_options options = options_of("sz", 4096);
+    clshear_film *first = render(made, &options), *second = NULL;
+    int calls = 0;
+    options.extend = first;
+    options.progress = stop;
+    options.progress_user = &calls;
+    options.spp = 2000000;
+    assert_int_equal(clshear_render(made->scene, &made->camera, &options, &second),
+                     CLSHEAR_CANCELLED);
+    const float *a = clshear_film_channel(first, "G"), *b = clshear_film_channel(second, "G");
+    double whole = 0.0, off = 0.0;
+    for (int i = 0; i < 24 * 24; i++) {
+        whole += (double)a[i];
+        off += fabs((double)a[i] - (double)b[i]);
+        assert_true(clshear_film_channel(second, "Samples")[i] >= 4096.0f);
+    }
+    assert_true(off < 0.01 * whole);
+    clshear_film_free(first);
+    clshear_film_free(second);
+}
+
 static void refuse(fixture *made, const clshear_options *options, const char *words)
 {
     clshear_film *film = NULL;
@@ -112,6 +163,11 @@ static void what_does_not_continue_is_refused(void **state)
     fixture *made = *state;
     clshear_options options = options_of("sobol", 64);
     clshear_film *base = render(made, &options);
+    options.sampler = "mj";
+    clshear_film *none = NULL;
+    assert_int_equal(clshear_render(made->scene, &made->camera, &options, &none),
+                     CLSHEAR_BAD_ARGUMENT);
+    options.sampler = "sobol";
     options.extendable = 0;
     clshear_film *plain = render(made, &options);
     options.spp = 128;
@@ -147,6 +203,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(extended_equals_whole),
+        cmocka_unit_test(an_interrupted_extension_is_whole),
+        cmocka_unit_test(the_choice_of_the_pilot_stays),
         cmocka_unit_test(what_does_not_continue_is_refused),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -1,10 +1,11 @@
-/* The oracle: depth to shear, without tracing. */
+/* The oracle: depth to shear, evidence to choice, variance to samples; without tracing. */
 #include "support.h"
 
 #include <math.h>
 
+#include "hash.h"
 #include "lens.h"
-#include "oracle/oracle.h"
+#include "oracle/pilot.h"
 
 /* s = A / w * (F / z - 1): positive in front of the focal plane, zero on it, negative behind; what
  * sees nothing is not sheared. */
@@ -39,9 +40,94 @@ static void rules_take_their_depths(void **state)
     assert_true(fabsf(cs_oracle_shear(&camera, &depth, CS_RULE_CENTRE) - 60.0f) < 1e-4f);
 }
 
+enum {
+    SIDE = 64,
+    PIXELS = SIDE * SIDE
+};
+
+static f32 uniform(u32 index)
+{
+    return (f32)(cs_hash(index + 1u) >> 8) * 0x1p-24f;
+}
+
+/* The nearest depth has a third of the prior's variance on the left and three times it on the
+ * right, under exponential noise; the pilot looked at a quarter of the pixels. Far is hardly
+ * better, which is not clear enough. Windows hold 110 values: their mean of exponentials is off by
+ * 10 %, so that a wrong choice well inside either half is out of the question. */
+static void clear_evidence_decides(void **state)
+{
+    static f32 prior[PIXELS], near[PIXELS], far[PIXELS];
+    static uint8_t rules[PIXELS];
+    cs_evidence evidence[CS_RULE_COUNT] = {{0}};
+    cs_error error;
+    (void)state;
+    for (u32 i = 0; i < PIXELS; i++) {
+        const int looked = cs_hash(i ^ 77u) % 4u == 0u, left = i % SIDE < SIDE / 2;
+        prior[i] = looked ? -logf(uniform(3 * i) + 1e-6f) : -1.0f;
+        near[i] = looked ? -logf(uniform(3 * i + 1) + 1e-6f) * (left ? 0.33f : 3.0f) : -1.0f;
+        far[i] = looked ? prior[i] * 0.95f : -1.0f;
+    }
+    evidence[CS_RULE_NEAR] = (cs_evidence){near, prior};
+    evidence[CS_RULE_FAR] = (cs_evidence){far, prior};
+    assert_int_equal(cs_pilot_choose(evidence, CS_RULE_CENTRE, SIDE, SIDE, 10, rules, &error),
+                     CLSHEAR_OK);
+    for (u32 i = 0; i < PIXELS; i++) {
+        const u32 x = i % SIDE, y = i / SIDE;
+        if (x < 10 || x >= SIDE - 10 || y < 10 || y >= SIDE - 10)
+            continue; /* windows are cut off */
+        if (x < SIDE / 2 - 10) assert_int_equal(rules[i], CS_RULE_NEAR);
+        if (x >= SIDE / 2 + 10) assert_int_equal(rules[i], CS_RULE_CENTRE);
+    }
+}
+
+static void without_evidence_the_prior_stays(void **state)
+{
+    static f32 nothing[PIXELS];
+    static uint8_t rules[PIXELS];
+    cs_evidence evidence[CS_RULE_COUNT] = {{0}};
+    cs_error error;
+    (void)state;
+    for (u32 i = 0; i < PIXELS; i++)
+        nothing[i] = -1.0f;
+    evidence[CS_RULE_NEAR] = (cs_evidence){nothing, nothing};
+    assert_int_equal(cs_pilot_choose(evidence, CS_RULE_MEDIAN, SIDE, SIDE, 5, rules, &error),
+                     CLSHEAR_OK);
+    for (u32 i = 0; i < PIXELS; i++)
+        assert_int_equal(rules[i], CS_RULE_MEDIAN);
+}
+
+/* The total is kept, limits hold, and what varies more gets more: a block of pixels with 1000 times
+ * the variance gets about 1000^0.4 = 16 times the samples. */
+static void samples_follow_variance(void **state)
+{
+    static f32 variance[PIXELS], intensity[PIXELS];
+    static u32 samples[PIXELS];
+    double total = 0.0;
+    cs_error error;
+    (void)state;
+    for (u32 i = 0; i < PIXELS; i++) {
+        const int block = i % SIDE >= 20 && i % SIDE < 32 && i / SIDE >= 20 && i / SIDE < 32;
+        variance[i] = block ? 1.0f : 1e-3f;
+        intensity[i] = 1.0f;
+    }
+    assert_int_equal(cs_share_samples(variance, intensity, SIDE, SIDE, 1000, samples, &error),
+                     CLSHEAR_OK);
+    for (u32 i = 0; i < PIXELS; i++) {
+        total += samples[i];
+        assert_int_equal(samples[i] & (samples[i] - 1), 0);
+        assert_true(samples[i] >= 125 && samples[i] <= 16384);
+    }
+    assert_true(total <= 1000.0 * PIXELS && total > 500.0 * PIXELS);
+    const u32 inside = samples[26 * SIDE + 26], outside = samples[5 * SIDE + 5];
+    assert_true(inside == 16 * outside);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(depth_becomes_shear),
-                                       cmocka_unit_test(rules_take_their_depths)};
+                                       cmocka_unit_test(rules_take_their_depths),
+                                       cmocka_unit_test(clear_evidence_decides),
+                                       cmocka_unit_test(without_evidence_the_prior_stays),
+                                       cmocka_unit_test(samples_follow_variance)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

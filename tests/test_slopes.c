@@ -87,19 +87,22 @@ typedef struct expectation {
 } expectation;
 
 static const expectation expected[] = {
-    {CS_SAMPLER_RANDOM, 0, -1.15, -0.85},      {CS_SAMPLER_RANDOM, 3, -1.15, -0.85},
-    {CS_SAMPLER_RANDOM, 5, -1.15, -0.85},      {CS_SAMPLER_JITTERED, 1, -1.65, -1.35},
-    {CS_SAMPLER_JITTERED, 2, -1.65, -1.35},    {CS_SAMPLER_JITTERED, 3, -2.2, -1.85},
-    {CS_SAMPLER_JITTERED, 4, -1.15, -0.85},    {CS_SAMPLER_JITTERED4D, 4, -1.4, -1.1},
-    {CS_SAMPLER_JITTERED4D, 5, -1.7, -1.35},   {CS_SAMPLER_NROOKS, 0, -9.0, -1.85},
-    {CS_SAMPLER_NROOKS, 1, -1.15, -0.85},      {CS_SAMPLER_NROOKS, 2, -1.15, -0.85},
-    {CS_SAMPLER_MJ, 0, -9.0, -1.85},           {CS_SAMPLER_MJ, 2, -1.65, -1.35},
-    {CS_SAMPLER_MJ, 4, -1.15, -0.85},          {CS_SAMPLER_CMJ, 4, -1.15, -0.85},
-    {CS_SAMPLER_OA, 2, -1.65, -1.35},          {CS_SAMPLER_POISSON, 1, -1.3, -0.85},
-    {CS_SAMPLER_POISSON, 3, -1.2, -0.85},      {CS_SAMPLER_CCVT, 2, -1.75, -1.35},
-    {CS_SAMPLER_CCVT, 4, -1.15, -0.85},        {CS_SAMPLER_SOBOL, 0, -9.0, -1.85},
-    {CS_SAMPLER_SOBOL, 2, -1.75, -1.35},       {CS_SAMPLER_SZ, 2, -1.75, -1.35},
-    {CS_SAMPLER_SOBOL_PAIRS, 2, -1.75, -1.35}, {CS_SAMPLER_SOBOL_PAIRS, 4, -1.15, -0.85},
+    {CS_SAMPLER_HALTON, 2, -1.75, -1.35},      {CS_SAMPLER_HALTON, 4, -1.45, -1.05},
+    {CS_SAMPLER_OA3, 2, -1.5, -1.1},           {CS_SAMPLER_OA3, 0, -9.0, -1.85},
+    {CS_SAMPLER_RANK1, 0, -9.0, -1.85},        {CS_SAMPLER_RANDOM, 0, -1.15, -0.85},
+    {CS_SAMPLER_RANDOM, 3, -1.15, -0.85},      {CS_SAMPLER_RANDOM, 5, -1.15, -0.85},
+    {CS_SAMPLER_JITTERED, 1, -1.65, -1.35},    {CS_SAMPLER_JITTERED, 2, -1.65, -1.35},
+    {CS_SAMPLER_JITTERED, 3, -2.2, -1.85},     {CS_SAMPLER_JITTERED, 4, -1.15, -0.85},
+    {CS_SAMPLER_JITTERED4D, 4, -1.4, -1.1},    {CS_SAMPLER_JITTERED4D, 5, -1.7, -1.35},
+    {CS_SAMPLER_NROOKS, 0, -9.0, -1.85},       {CS_SAMPLER_NROOKS, 1, -1.15, -0.85},
+    {CS_SAMPLER_NROOKS, 2, -1.15, -0.85},      {CS_SAMPLER_MJ, 0, -9.0, -1.85},
+    {CS_SAMPLER_MJ, 2, -1.65, -1.35},          {CS_SAMPLER_MJ, 4, -1.15, -0.85},
+    {CS_SAMPLER_CMJ, 4, -1.15, -0.85},         {CS_SAMPLER_OA, 2, -1.65, -1.35},
+    {CS_SAMPLER_POISSON, 1, -1.3, -0.85},      {CS_SAMPLER_POISSON, 3, -1.2, -0.85},
+    {CS_SAMPLER_CCVT, 2, -1.75, -1.35},        {CS_SAMPLER_CCVT, 4, -1.15, -0.85},
+    {CS_SAMPLER_SOBOL, 0, -9.0, -1.85},        {CS_SAMPLER_SOBOL, 2, -1.75, -1.35},
+    {CS_SAMPLER_SZ, 2, -1.75, -1.35},          {CS_SAMPLER_SOBOL_PAIRS, 2, -1.75, -1.35},
+    {CS_SAMPLER_SOBOL_PAIRS, 4, -1.15, -0.85},
 };
 
 /* Steeper than jittering where the function is smooth. */
@@ -135,7 +138,7 @@ static void slopes_are_as_in_theory(void **state)
                names[e->integrand], s, e->low, e->high);
     }
     for (size_t i = 0; i < sizeof steeper / sizeof *steeper; i++)
-        if (slope[steeper[i]][3] > slope[CS_SAMPLER_JITTERED][3] - 0.15) {
+        if (!(slope[steeper[i]][3] <= slope[CS_SAMPLER_JITTERED][3] - 0.15)) {
             wrong++;
             printf("%s is not steeper than jittering\n", cs_sampler_name(steeper[i]));
         }

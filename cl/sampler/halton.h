@@ -42,24 +42,20 @@ static inline vfloat cs_halton_axis(vuint digits, u32 key, u32 base, u32 bits, u
     return (cs_to_vfloat(value * scale + tail) + 0.5f) * (1.0f / (f32)full);
 }
 
-/* Film by bases 2 and 3, lens by 5 and 7. The light gets the first pair of another element. */
+/* Film by bases 2 and 3, lens by 5 and 7. The light gets a (0,2)-pair. */
 static inline void cs_draw_halton(const cs_pattern *pattern, cs_rows rows, u32 key, vuint index,
                                   u32 pairs, vfloat *tuple)
 {
     const u32 *used = pattern->shape;
-    tuple[0] = cs_scrambled(cs_row(pattern, rows, 0u, index), key, 0u);
+    vuint element = cs_row(pattern, rows, 0u, index);
+    tuple[0] = cs_scrambled(element, key, 0u);
     tuple[1] = cs_halton_axis(cs_row(pattern, rows, 1u, index), cs_key(key, CS_KEY_DIMENSION + 1),
                               3u, CS_HALTON_BITS3, used[1], CS_HALTON_DIGITS3);
     tuple[2] = cs_halton_axis(cs_row(pattern, rows, 2u, index), cs_key(key, CS_KEY_DIMENSION + 2),
                               5u, CS_HALTON_BITS5, used[2], CS_HALTON_DIGITS5);
     tuple[3] = cs_halton_axis(cs_row(pattern, rows, 3u, index), cs_key(key, CS_KEY_DIMENSION + 3),
                               7u, CS_HALTON_BITS7, used[3], CS_HALTON_DIGITS7);
-    if (pairs <= CS_PAIR_EMITTER) return;
-    vuint partner = cs_partner(pattern, key, CS_PAIR_EMITTER, index);
-    tuple[4] = cs_scrambled(cs_row_anywhere(pattern, rows, 0u, partner), key, 4u);
-    tuple[5] = cs_halton_axis(cs_row_anywhere(pattern, rows, 1u, partner),
-                              cs_key(key, CS_KEY_DIMENSION + 5), 3u, CS_HALTON_BITS3, used[1],
-                              CS_HALTON_DIGITS3);
+    if (pairs > CS_PAIR_EMITTER) cs_draw_shuffled_pair(element, key, CS_PAIR_EMITTER, tuple);
 }
 
 #endif

@@ -13,10 +13,12 @@ static inline void cs_draw_random(const cs_pattern *pattern, cs_rows rows, u32 k
         tuple[d] = cs_unit(cs_key_lanes(cs_key(key, CS_KEY_DIMENSION + d), pattern->first + index));
 }
 
-/* A place in a stratum, by the 13 upper bits; clear of its ends by more than rounding. */
+/* A place in a stratum, by the upper 13 bits, or 10 where there are many strata: so few that
+ * rounding stays clear of the stratum's ends. At most 2048 strata. */
 static inline vfloat cs_jittered(vuint stratum, u32 strata, vuint bits)
 {
-    vfloat jitter = (cs_to_vfloat(bits >> 19) + 0.5f) * 0x1p-13f;
+    u32 shift = strata > 256u ? 22u : 19u;
+    vfloat jitter = (cs_to_vfloat(bits >> shift) + 0.5f) * (1.0f / (f32)(1u << (32u - shift)));
     return (cs_to_vfloat(stratum) + jitter) * (1.0f / (f32)strata);
 }
 

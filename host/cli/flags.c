@@ -23,8 +23,10 @@ int cli_read_floats(const char *text, int count, float *values)
 {
     double numbers[8];
     if (!cli_read_numbers(text, count, numbers)) return 0;
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; i++) {
         values[i] = (float)numbers[i];
+        if (!isfinite(values[i])) return 0;
+    }
     return 1;
 }
 

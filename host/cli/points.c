@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "cli/flags.h"
 #include "cli/job.h"
@@ -15,6 +16,7 @@ typedef struct points_job {
     uint32_t count, sets, seed;
     clshear_shear shear;
     float shear_px;
+    int draws; /* a flag was given that says what to draw */
     int help;
 } points_job;
 
@@ -22,24 +24,28 @@ static const char *store_sampler(void *target, const char *value)
 {
     points_job *job = target;
     job->sampler = value;
+    job->draws = 1;
     return cli_check_sampler(value);
 }
 
 static const char *store_count(void *target, const char *value)
 {
     points_job *job = target;
+    job->draws = 1;
     return cli_read_count(value, 1, &job->count) ? NULL : "a whole number from 1";
 }
 
 static const char *store_sets(void *target, const char *value)
 {
     points_job *job = target;
+    job->draws = 1;
     return cli_read_count(value, 1, &job->sets) ? NULL : "a whole number from 1";
 }
 
 static const char *store_seed(void *target, const char *value)
 {
     points_job *job = target;
+    job->draws = 1;
     return cli_read_count(value, 0, &job->seed) ? NULL : "a whole number from 0 to 4294967295";
 }
 
@@ -73,7 +79,12 @@ static const char *store_in(void *target, const char *value)
 static const char *store_out(void *target, const char *value)
 {
     points_job *job = target;
+    static const char *const pictures[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff"};
+    const char *dot = strrchr(value, '.');
     job->out = value;
+    if (*value == '\0') return "a file, or - for standard output";
+    for (size_t i = 0; i < sizeof pictures / sizeof *pictures && dot != NULL; i++)
+        if (strcasecmp(dot, pictures[i]) == 0) return "a text, .csv or .exr file, not a picture";
     return NULL;
 }
 
@@ -90,7 +101,7 @@ static const cli_flag flags[] = {
     {"n count npoints", "N", "points in a set (1024)", store_count},
     {"sets m nsets", "M", "independent sets (1)", store_sets},
     {"seed", "N", "another seed, other points (0)", store_seed},
-    {"shear-px", "S", "shear by S pixels per aperture width (0: not)", store_shear_px},
+    {"shear-px", "S", "shear by S pixels per (square) aperture (0: not)", store_shear_px},
     {"shear", "KIND", "equal-area, toroidal or none (equal-area)", store_shear},
     {"dims", "LETTERS", "coordinates, in this order, out of xyuvpq (xyuv)", store_dimensions},
     {"in points", "FILE", "read these points instead (-: standard input)", store_in},
@@ -137,9 +148,10 @@ int cli_points(int argc, char **argv)
         cli_print_help(&command);
         return CLI_DONE;
     }
-    if (job.in != NULL && job.sampler != NULL) {
-        fprintf(stderr, "clshear: --in %s and --sampler %s: only one of them\n", job.in,
-                job.sampler);
+    if (job.in != NULL && job.draws) {
+        fprintf(stderr,
+                "clshear: --in %s brings its points: leave out --sampler, --n, --sets, --seed\n",
+                job.in);
         return CLI_USAGE;
     }
     clshear_status status = make(&job, &points);

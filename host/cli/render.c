@@ -202,14 +202,26 @@ static void print_stats(const clshear_context *context, const clshear_scene *sce
                mean_of(film, "Variance"));
 }
 
+/* Whether an interrupted render would replace the picture that it was to extend, which is worth
+ * more: it can be extended again. */
+static int is_spared(const cli_job *job, const char *path)
+{
+    struct stat out, base;
+    return job->extend != NULL && stat(path, &out) == 0 && stat(job->extend, &base) == 0 &&
+           out.st_ino == base.st_ino && out.st_dev == base.st_dev;
+}
+
 static int write_outputs(const cli_job *job, const clshear_context *context, clshear_film *film,
-                         const char *command)
+                         const char *command, int interrupted)
 {
     if (command != NULL && clshear_film_annotate(film, "clshear.cmdline", command) != CLSHEAR_OK)
         return fail(context);
     int code = CLI_DONE; /* one output that fails must not cost the others */
     for (int i = 0; i < job->output_count; i++)
-        if (clshear_film_write(film, job->outputs[i]) != CLSHEAR_OK) code = fail(context);
+        if (interrupted && is_spared(job, job->outputs[i]))
+            fprintf(stderr, "clshear: interrupted; %s is left as it was\n", job->outputs[i]);
+        else if (clshear_film_write(film, job->outputs[i]) != CLSHEAR_OK)
+            code = fail(context);
     return code;
 }
 
@@ -234,11 +246,11 @@ static int render(cli_job *job, clshear_context *context, clshear_scene *scene, 
     cli_progress_end(&progress);
     clshear_film_free(base);
     if (status != CLSHEAR_OK && status != CLSHEAR_CANCELLED) return fail(context);
-    int code = write_outputs(job, context, film, command);
+    int code = write_outputs(job, context, film, command, status == CLSHEAR_CANCELLED);
     if (code == CLI_DONE && job->stats) print_stats(context, scene, film);
     clshear_film_free(film);
     if (code != CLI_DONE) return code;
-    if (status == CLSHEAR_CANCELLED && !job->quiet)
+    if (status == CLSHEAR_CANCELLED && !job->quiet && !is_spared(job, job->outputs[0]))
         fprintf(stderr, "clshear: interrupted; %s holds the samples so far\n", job->outputs[0]);
     return status == CLSHEAR_CANCELLED ? CLI_INTERRUPTED : CLI_DONE;
 }

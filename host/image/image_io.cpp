@@ -143,6 +143,9 @@ void describe(const ImageSpec &spec, cs_loaded_picture *loaded)
 
 clshear_status read_picture(const char *path, cs_loaded_picture *loaded, cs_error *error)
 {
+    if (access(path, R_OK) != 0)
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: cannot be opened: %s", path,
+                       std::strerror(errno));
     forget(path);
     ImageBuf source(path);
     if (!source.read(0, 0, true, TypeDesc::FLOAT))

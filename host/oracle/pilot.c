@@ -45,7 +45,7 @@ static void tabulate(table *tables, int width, int height, const cs_evidence *ev
  * pixels' worth. */
 static double ratio_at(const table *tables, int width, int height, int x, int y, int radius)
 {
-    const double trust = 50.0;
+    const double trust = 30.0;
     const size_t last = tables[0].stride * ((size_t)height + 1) - 1;
     const double all = tables[1].sum[last];
     if (!(all > 0.0)) return 1.0;

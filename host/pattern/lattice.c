@@ -56,7 +56,7 @@ static double figure_of_merit(u32 count, u32 multiplier, double until)
 }
 
 /* The best multiplier a of the lattice (1, a, a^2, a^3) / N among some that are spread over
- * [1, N). */
+ * [1, N) and prime to it. */
 static u32 korobov_multiplier(u32 count)
 {
     const u32 effort = 1u << 22;
@@ -64,10 +64,11 @@ static u32 korobov_multiplier(u32 count)
     u32 best = 1;
     double least = INFINITY;
     for (u32 i = 1; i <= candidates; i++) {
-        const u32 a = candidates == count
-                          ? i
-                          : (u32)(((uint64_t)i * 0x9e3779b9u & 0xffffffffu) * count >> 32);
-        if (common_divisor(a, count) != 1) continue;
+        u32 a = candidates == count
+                    ? i
+                    : (u32)(((uint64_t)i * 0x9e3779b9u & 0xffffffffu) * count >> 32);
+        while (common_divisor(a, count) != 1) /* ends at a multiple of N plus 1 */
+            a++;
         const double merit = figure_of_merit(count, a, least);
         if (merit < least) least = merit, best = a;
     }

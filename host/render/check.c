@@ -39,6 +39,10 @@ static clshear_status check_counts(clshear_options *options, cs_error *error)
     if (options->spp > 2000000000u)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%u samples per pixel: at most 2000000000",
                        options->spp);
+    int base_replicates;
+    if (options->replicates == 0 && options->extend != NULL &&
+        cs_film_int(options->extend, "clshear.replicates", &base_replicates))
+        options->replicates = (uint32_t)base_replicates;
     if (options->replicates == 0) options->replicates = options->spp > 1 ? 2 : 1;
     if (options->replicates > options->spp)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
@@ -70,6 +74,10 @@ static clshear_status choose_pattern(cs_job *job, cs_error *error)
     if (count != wanted)
         cs_warn(log, "sampler %s has no patterns of %u samples: %u replicates of %u",
                 cs_sampler_name(sampler), wanted, options->replicates, count);
+    if ((double)count * options->replicates > 2e9)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "%u replicates of %u samples per pixel are more than 2000000000",
+                       options->replicates, count);
     job->pattern = cs_pattern_of(sampler, 0, count);
     return CLSHEAR_OK;
 }

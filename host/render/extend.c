@@ -16,23 +16,38 @@ static void plane_name(char *name, size_t size, uint32_t replicate, int colour)
     snprintf(name, size, "Pattern%u.%c", replicate, "RGB"[colour]);
 }
 
+/* Adds 4-byte words to a fingerprint. */
+static void add_words(u32 *fingerprint, const void *items, size_t size)
+{
+    for (size_t i = 0; i + 4 <= size; i += 4) {
+        u32 word;
+        memcpy(&word, (const char *)items + i, sizeof word);
+        *fingerprint = cs_key(*fingerprint, word);
+    }
+}
+
+static void add_array(u32 *fingerprint, const cs_array *array)
+{
+    add_words(fingerprint, array->items, array->count * array->item_size);
+}
+
 /* What fixes the samples and the picture, but for their number: "key=value;...". */
 static void recipe_of(const cs_job *job, char *text, size_t size)
 {
     const clshear_options *o = &job->options;
     const cs_scene *scene = &job->scene->scene;
-    const uint8_t *bytes = (const uint8_t *)&job->camera;
-    const cs_light *lights = scene->lights.items;
-    u32 camera = 0, light = 0;
-    for (size_t i = 0; i < sizeof job->camera; i++)
-        camera = cs_key(camera, bytes[i]);
-    for (size_t i = 0; i < scene->lights.count * sizeof *lights; i++)
-        light = cs_key(light, ((const uint8_t *)lights)[i]);
+    u32 camera = 0, light = 0, world = 0;
+    add_words(&camera, &job->camera, sizeof job->camera);
+    add_array(&light, &scene->lights);
+    add_array(&world, &scene->positions);
+    add_array(&world, &scene->indices);
+    add_array(&world, &scene->materials);
+    add_array(&world, &scene->texels);
     snprintf(text, size,
              "sampler=%s;seed=%u;replicates=%u;shear=%d;size=%dx%d;camera=%08x;lights=%08x;"
-             "triangles=%zu",
+             "scene=%08x",
              cs_sampler_name(job->pattern.sampler), o->seed, o->replicates, (int)o->shear, o->width,
-             o->height, camera, light, job->scene->info.triangles);
+             o->height, camera, light, world);
 }
 
 /* Name of the first thing in which two recipes differ. */
@@ -52,12 +67,13 @@ clshear_status cs_extend_check(cs_job *job, cs_error *error)
     if ((base != NULL || job->options.extendable) && job->options.adaptive)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "a render that is shared out adaptively cannot be extended");
-    if (base == NULL) return CLSHEAR_OK;
+    if (base == NULL && !job->options.extendable) return CLSHEAR_OK;
     if (!cs_sampler_is_progressive(job->pattern.sampler))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "sampler %s cannot extend a render: its points depend on their number; "
                        "progressive ones can",
                        cs_sampler_name(job->pattern.sampler));
+    if (base == NULL) return CLSHEAR_OK;
     recipe_of(job, mine, sizeof mine);
     const char *theirs = cs_film_text(base, "clshear.recipe");
     plane_name(name, sizeof name, job->options.replicates - 1, 2);
@@ -160,6 +176,7 @@ clshear_status cs_extend_prepare(cs_job *job, cs_error *error)
 
 clshear_status cs_extend_begin(cs_job *job, uint32_t replicate, cs_error *error)
 {
+    job->replicates_begun = replicate + 1;
     if (job->options.extend == NULL) return CLSHEAR_OK;
     return for_pixels(job, replicate, load, 1, error);
 }
@@ -170,6 +187,18 @@ clshear_status cs_extend_end(cs_job *job, uint32_t replicate, cs_error *error)
     clshear_status status = for_pixels(job, replicate, keep, 0, error);
     if (status == CLSHEAR_OK) job->patterns_kept++;
     return status;
+}
+
+double cs_extend_missing(const cs_job *job, size_t index, int colour)
+{
+    double sum = 0.0;
+    if (job->options.extend == NULL) return 0.0;
+    for (uint32_t r = job->replicates_begun; r < job->options.replicates; r++) {
+        char name[32];
+        plane_name(name, sizeof name, r, colour);
+        sum += (double)clshear_film_channel(job->options.extend, name)[index] * job->pattern.first;
+    }
+    return sum;
 }
 
 clshear_status cs_extend_describe(const cs_job *job, clshear_film *film)

@@ -17,6 +17,10 @@ void cs_extend_free(cs_job *job);
 clshear_status cs_extend_begin(cs_job *job, uint32_t replicate, cs_error *error);
 clshear_status cs_extend_end(cs_job *job, uint32_t replicate, cs_error *error);
 
+/* Sum of the samples that a pixel has in the extended picture in replicates that have not begun: an
+ * interrupted extension must not lose them. 0 for a job that extends nothing. */
+double cs_extend_missing(const cs_job *job, size_t index, int colour);
+
 /* Adds to the film what its extension needs, unless the render was interrupted. */
 clshear_status cs_extend_describe(const cs_job *job, clshear_film *film);
 

@@ -32,6 +32,7 @@ typedef struct cs_job {
     float *pattern_means;
     double *pattern_sums;
     uint32_t patterns_kept;
+    uint32_t replicates_begun;
     double prepass_s;
     double pilot_s;
     double kernel_s;

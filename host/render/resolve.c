@@ -49,13 +49,22 @@ static clshear_status add_planes(clshear_film *film, planes *all)
                 : cs_fail(film->error, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
 }
 
-/* One pixel; `pattern` is the number of samples in a finished pattern. */
-static void resolve_pixel(const cs_pixel *pixel, uint32_t pattern, size_t index, planes *all)
+/* Samples in a finished pattern of a pixel. */
+static uint32_t pattern_of(const cs_job *job, size_t index)
 {
+    return job->samples != NULL ? job->samples[index]
+                                : job->pattern.first + job->pattern.grid.count;
+}
+
+/* One pixel. */
+static void resolve_pixel(const cs_job *job, const cs_pixel *pixel, size_t index, planes *all)
+{
+    const uint32_t pattern = pattern_of(job, index);
     const double samples = pixel->samples, patterns = pixel->patterns;
     for (int c = 0; c < 3; c++) {
         double finished = (double)pixel->pattern_sum[c] + (double)pixel->pattern_carry[c];
         double pending = (double)pixel->sum[c] + (double)pixel->carry[c];
+        if (samples > 0.0) pending += cs_extend_missing(job, index, c);
         if (samples > 0.0) all->mean[c][index] = (float)((finished * pattern + pending) / samples);
         if (patterns > 1.0)
             all->variance[c][index] =
@@ -81,13 +90,6 @@ static void drop_variance(clshear_film *film)
     film->info.channels = kept;
 }
 
-/* Samples in a finished pattern of a pixel. */
-static uint32_t pattern_of(const cs_job *job, size_t index)
-{
-    return job->samples != NULL ? job->samples[index]
-                                : job->pattern.first + job->pattern.grid.count;
-}
-
 static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
@@ -99,7 +101,7 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
         CS_TRY(cs_buffer_read(job->pixels, first * sizeof *slice, count * sizeof *slice, slice,
                               error));
         for (size_t i = 0; i < count; i++) {
-            resolve_pixel(&slice[i], pattern_of(job, first + i), first + i, all);
+            resolve_pixel(job, &slice[i], first + i, all);
             film->info.samples += slice[i].samples;
             film->info.shadow_rays += slice[i].shadow_rays;
             if (slice[i].patterns < fewest) fewest = slice[i].patterns;
