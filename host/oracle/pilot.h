@@ -22,10 +22,10 @@ clshear_status cs_pilot_choose(const cs_evidence *evidence, cs_rule prior, int w
                                int radius, uint8_t *rules, cs_error *error);
 
 /* Numbers of samples for a mean of `mean` a pixel, powers of two between a floor and 16 times the
- * mean: in proportion to (V (1/A + W/B))^0.4, which is best where variance falls as N^-1.5. V is
+ * mean: in proportion to (V (1/A + W/5B))^0.4, which is best where variance falls as N^-1.5. V is
  * the pixel's variance with equal samples, smoothed over 3 x 3 pixels; W = 1/(I^2 + e^2) weights it
  * for the relative error, with e a hundredth of the mean of the intensity I; A and B are the sums
- * of V and V W, so that absolute and relative error count alike. */
+ * of V and V W: absolute error first, and relative error not forgotten. */
 clshear_status cs_share_samples(const f32 *variance, const f32 *intensity, int width, int height,
                                 u32 mean, u32 *samples, cs_error *error);
 
