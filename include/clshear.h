@@ -264,6 +264,7 @@ typedef struct clshear_options {
     clshear_shear shear;
     clshear_oracle oracle;
     int adaptive;   /* share the samples out by the variance that a pilot finds; spp is the mean */
+    int gain;       /* also find out, at low cost, what the shear gains: channel Gain */
     int lens_rays;  /* for the depths of a pixel, 0 to 256 */
     int extendable; /* keep what `extend` will need: channels Pattern<replicate>.R/G/B */
     const struct clshear_film *extend; /* go on with this render, made extendable with the same
@@ -306,7 +307,9 @@ CLSHEAR_API clshear_film_info clshear_film_describe(const clshear_film *film);
  * that mean, from the replicates; absent with fewer than two), SampleVariance.R/G/B (of one
  * sample), Z (camera depth at the pixel's centre, infinite where nothing is seen), Z.near, Z.far
  * (of the lens rays), Shear (px), CoC (circle of confusion at the centre, px), Oracle (the rule
- * taken: 0 centre, 1 median, 2 near, 3 far, 4 no shear), Samples. */
+ * taken: 0 centre, 1 median, 2 near, 3 far, 4 no shear), Samples; and with `gain`, Gain: variance
+ * of small patterns without shear over that with the pixel's shear, both averaged over 5 x 5
+ * pixels. */
 CLSHEAR_API const char *clshear_film_channel_name(const clshear_film *film, size_t index);
 
 /* The pixels of a channel, row by row from the top, or NULL if there is no such channel. Owned by
@@ -324,6 +327,10 @@ CLSHEAR_API clshear_status clshear_film_read(clshear_context *context, const cha
 /* Writes all channels as float32 (.exr), or R G B with the sRGB curve (.png, .jpg, .tif). An
  * existing file is replaced only once the new one is complete. */
 CLSHEAR_API clshear_status clshear_film_write(clshear_film *film, const char *path);
+/* Writes one channel as a picture in false colours (.png, .jpg, .tif): its logarithm from 1/16
+ * (blue) over 1 (white) to 16 (orange). */
+CLSHEAR_API clshear_status clshear_film_write_ratio(clshear_film *film, const char *channel,
+                                                    const char *path);
 CLSHEAR_API void clshear_film_free(clshear_film *film);
 
 #ifdef __cplusplus

@@ -31,6 +31,7 @@ typedef struct cli_job {
     const char *scene;
     const char *settings; /* NULL: the file beside the scene, if there is one */
     const char *extend;   /* a picture to go on with */
+    const char *gain;     /* picture of the gain; NULL: not asked for */
     const char *outputs[CLI_MAX_OUTPUTS];
     int output_count;
     clshear_context_options context;

@@ -59,36 +59,39 @@ static void choose_output(cli_job *job)
     job->outputs[job->output_count++] = default_output;
 }
 
-/* Finds out before a long render whether its result can be kept. */
-static int check_outputs(const cli_job *job)
+/* Finds out before a long render whether a result can be kept. */
+static int check_output(const char *flag, const char *path)
 {
     static const char *const known[] = {".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff"};
-    for (int i = 0; i < job->output_count; i++) {
-        const char *path = job->outputs[i], *dot = strrchr(path, '.');
-        const char *slash = strrchr(path, '/');
-        char folder[4096] = ".";
-        int found = 0;
-        for (size_t k = 0; k < sizeof known / sizeof *known && dot != NULL; k++)
-            found |= strcasecmp(dot, known[k]) == 0;
-        if (!found || dot == path || dot[-1] == '/') {
-            fprintf(stderr,
-                    "clshear: --out %s: must be a name that ends in .exr, .png, .jpg or .tif\n",
-                    path);
-            return CLI_USAGE;
-        }
-        if (slash != NULL) snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
-        struct stat about;
-        if (stat(path, &about) == 0 && S_ISDIR(about.st_mode)) {
-            fprintf(stderr, "clshear: --out %s: is a folder\n", path);
-            return CLI_FAILED;
-        }
-        if (access(folder, W_OK) != 0) {
-            fprintf(stderr, "clshear: --out %s: folder %s cannot be written: %s\n", path, folder,
-                    strerror(errno));
-            return CLI_FAILED;
-        }
+    const char *dot = strrchr(path, '.'), *slash = strrchr(path, '/');
+    char folder[4096] = ".";
+    struct stat about;
+    int found = 0;
+    for (size_t k = 0; k < sizeof known / sizeof *known && dot != NULL; k++)
+        found |= strcasecmp(dot, known[k]) == 0;
+    if (!found || dot == path || dot[-1] == '/') {
+        fprintf(stderr, "clshear: --%s %s: must be a name that ends in .exr, .png, .jpg or .tif\n",
+                flag, path);
+        return CLI_USAGE;
     }
-    return CLI_DONE;
+    if (slash != NULL) snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
+    if (stat(path, &about) == 0 && S_ISDIR(about.st_mode)) {
+        fprintf(stderr, "clshear: --%s %s: is a folder\n", flag, path);
+        return CLI_FAILED;
+    }
+    if (access(folder, W_OK) == 0) return CLI_DONE;
+    fprintf(stderr, "clshear: --%s %s: folder %s cannot be written: %s\n", flag, path, folder,
+            strerror(errno));
+    return CLI_FAILED;
+}
+
+static int check_outputs(const cli_job *job)
+{
+    int code = CLI_DONE;
+    for (int i = 0; i < job->output_count && code == CLI_DONE; i++)
+        code = check_output("out", job->outputs[i]);
+    if (job->gain != NULL && code == CLI_DONE) code = check_output("gain", job->gain);
+    return code;
 }
 
 static void override_vector(const cli_vector *given, float *value)
@@ -222,6 +225,8 @@ static int write_outputs(const cli_job *job, const clshear_context *context, cls
             fprintf(stderr, "clshear: interrupted; %s is left as it was\n", job->outputs[i]);
         else if (clshear_film_write(film, job->outputs[i]) != CLSHEAR_OK)
             code = fail(context);
+    if (job->gain != NULL && clshear_film_write_ratio(film, "Gain", job->gain) != CLSHEAR_OK)
+        code = fail(context);
     return code;
 }
 

@@ -76,6 +76,14 @@ static const char *store_adaptive(void *target, const char *value)
     return NULL;
 }
 
+static const char *store_gain(void *target, const char *value)
+{
+    cli_job *job = target;
+    job->gain = value;
+    job->options.gain = 1;
+    return NULL;
+}
+
 static const char *store_lens_rays(void *target, const char *value)
 {
     cli_job *job = target;
@@ -296,6 +304,7 @@ static const cli_flag flags[] = {
     {"shear", "KIND", "equal-area, toroidal or none (equal-area)", store_shear},
     {"oracle", "RULE", "pilot, centre, median, near or far (pilot)", store_oracle},
     {"adaptive", NULL, "more samples where they are needed; --spp is the mean", store_adaptive},
+    {"gain", "FILE", "write what the shear gains, in false colours", store_gain},
     {"lens-rays", "N", "rays for the depths of a pixel (16)", store_lens_rays},
     {"extendable", NULL, "keep in the EXR what --extend needs", store_extendable},
     {"extend", "FILE", "go on from FILE up to --spp; other flags the same", store_extend},

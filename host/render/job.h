@@ -22,6 +22,7 @@ typedef struct cs_job {
     float *shear_px;
     uint8_t *rule; /* cs_rule of each pixel */
     u32 *samples;  /* in a pattern of each pixel; NULL: the same for all */
+    float *gain;   /* NULL: not asked for */
     double pilot_samples;
     cs_batch batches[CS_MOST_BATCHES];
     size_t batch_count;

@@ -13,6 +13,8 @@ enum {
     CHOICE_REPLICATES = 2,
     SHARE_SAMPLES = 16, /* patterns by which samples are shared out */
     SHARE_REPLICATES = 4,
+    GAIN_SAMPLES = 32, /* patterns by which the gain is measured */
+    GAIN_REPLICATES = 4,
     SLICE = 1 << 16
 };
 
@@ -214,5 +216,40 @@ clshear_status cs_pilot_samples(cs_job *job, u32 *samples, cs_error *error)
 done:
     free(result.variance);
     free(result.intensity);
+    return status;
+}
+
+/* Mean over 5 x 5 pixels, at the border over fewer. */
+static double smoothed(const f32 *values, int width, int height, int x, int y)
+{
+    double sum = 0.0, count = 0.0;
+    for (int j = y - 2; j <= y + 2; j++)
+        for (int i = x - 2; i <= x + 2; i++) {
+            if (i < 0 || j < 0 || i >= width || j >= height) continue;
+            sum += (double)values[(size_t)j * (size_t)width + (size_t)i];
+            count++;
+        }
+    return sum / count;
+}
+
+clshear_status cs_pilot_gain(cs_job *job, f32 *gain, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const size_t pixels = job->pixel_count;
+    const int width = job->window[1] - job->window[0], height = job->window[3] - job->window[2];
+    f32 *memory = calloc(3 * pixels, sizeof *memory);
+    CS_REQUIRE(memory != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for the gain of %zu pixels",
+               pixels);
+    const outcome without = {.variance = memory + pixels}, with = {.variance = memory + 2 * pixels};
+    CS_TRY(run(job, memory, NULL, pixels, GAIN_SAMPLES, GAIN_REPLICATES, &without, error));
+    CS_TRY(run(job, job->shear_px, NULL, pixels, GAIN_SAMPLES, GAIN_REPLICATES, &with, error));
+    for (size_t i = 0; i < pixels; i++) {
+        const int x = (int)(i % (size_t)width), y = (int)(i / (size_t)width);
+        const double before = smoothed(without.variance, width, height, x, y);
+        const double after = smoothed(with.variance, width, height, x, y);
+        gain[i] = after > 0.0 ? (f32)(before / after) : 1.0f;
+    }
+done:
+    free(memory);
     return status;
 }

@@ -12,4 +12,9 @@ clshear_status cs_pilot_shears(cs_job *job, cs_error *error);
  * mean is at most that of the job's pattern. Costs 64 samples a pixel. */
 clshear_status cs_pilot_samples(cs_job *job, u32 *samples, cs_error *error);
 
+/* Variance without shear over variance with the job's shears, of small patterns with the same
+ * random numbers, each averaged over 5 x 5 pixels; a value for each pixel. Costs 256 samples a
+ * pixel. */
+clshear_status cs_pilot_gain(cs_job *job, f32 *gain, cs_error *error);
+
 #endif

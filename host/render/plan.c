@@ -99,6 +99,12 @@ clshear_status cs_job_plan(cs_job *job, cs_error *error)
                           job->depth, error));
     job->prepass_s = cs_now_s() - start_s;
     CS_TRY(choose_shears(job, error));
+    if (job->options.gain) {
+        job->gain = calloc(job->pixel_count, sizeof *job->gain);
+        CS_REQUIRE(job->gain != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
+                   job->pixel_count);
+        CS_TRY(cs_pilot_gain(job, job->gain, error));
+    }
     CS_TRY(plan_batches(job, error));
     job->pilot_s = cs_now_s() - start_s - job->prepass_s;
     CS_TRY(cs_buffer_create(job->scene->context->device, job->pixel_count * sizeof *job->shear_px,
@@ -112,6 +118,7 @@ void cs_job_free(cs_job *job)
     free(job->depth);
     free(job->shear_px);
     free(job->rule);
+    free(job->gain);
     free(job->samples);
     cs_extend_free(job);
     for (size_t b = 0; b < job->batch_count; b++)

@@ -179,6 +179,11 @@ clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *erro
     CS_TRY(cs_film_create(job->window, job->options.width, job->options.height, error, &film));
     CS_TRY(add_planes(film, &all));
     CS_TRY(read_pixels(job, film, &all, error));
+    if (job->gain != NULL) {
+        float *gain = cs_film_add_channel(film, "Gain");
+        CS_REQUIRE(gain != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
+        memcpy(gain, job->gain, job->pixel_count * sizeof *gain);
+    }
     CS_TRY(describe(job, film));
     CS_TRY(cs_extend_describe(job, film));
     film->info.prepass_s = job->prepass_s;
