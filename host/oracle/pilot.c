@@ -54,13 +54,14 @@ static double ratio_at(const table *tables, int width, int height, int x, int y,
     const double count = sum_around(&tables[2], width, height, x, y, radius);
     if (!(here > 0.0)) return everywhere;
     const double local = sum_around(&tables[0], width, height, x, y, radius) / here;
-    return (local * count + everywhere * trust) / (count + trust);
+    if (!(local > 0.0)) return everywhere;
+    return exp((log(local) * count + log(everywhere) * trust) / (count + trust));
 }
 
 clshear_status cs_pilot_choose(const cs_evidence *evidence, cs_rule prior, int width, int height,
                                int radius, uint8_t *rules, cs_error *error)
 {
-    const double clear = 0.9; /* what a rule has to gain to replace the prior */
+    const double clear = 0.8; /* what a rule has to gain to replace the prior */
     const size_t pixels = (size_t)width * (size_t)height;
     const size_t stride = (size_t)width + 1, size = stride * ((size_t)height + 1);
     double *memory = calloc(3 * size, sizeof *memory);
