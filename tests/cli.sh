@@ -173,6 +173,19 @@ expect 1 "must be 1 to 65536" -- points --sampler ccvt --n 70000
 grep -q "/dev/full: cannot be written" full.txt || wrong "full device: $(cat full.txt)"
 "$program" points --n 100000 2>pipe.txt | head -1 >/dev/null # a closed pipe is no crash
 
+# The oracle: rules, sharing out, and what the shear gains as a picture.
+# shellcheck disable=SC2086
+{
+    refuse 2 "--oracle delphi: must be pilot, centre" -- "$cornell" --oracle delphi
+    expect 0 "" -- "$cornell" --width 32 --height 32 --spp 128 --quiet --adaptive --gain gain.png \
+        --out gain.exr
+    [ -s gain.png ] || wrong "no picture of the gain"
+    case $(oiiotool --info -v gain.exr) in *"clshear.adaptive: 1"*) ;; *) wrong "adaptive untold" ;; esac
+    case $output in *"Gain"*) wrong "said something" ;; esac
+    refuse 2 "--gain gain.bmp: must be a name that ends in" -- "$cornell" --quiet --gain gain.bmp
+    refuse 1 "cannot be extended" -- "$cornell" $small --quiet --adaptive --extendable
+}
+
 # A render goes on where it ended, and says so when it cannot.
 # shellcheck disable=SC2086
 {

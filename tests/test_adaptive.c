@@ -116,11 +116,37 @@ static void sharing_is_unbiased_and_pays(void **state)
     assert_true(variance[0] > 1.3 * variance[1]);
 }
 
+/* Without shear there is nothing to gain; with it most pixels of this scene gain. */
+static void gain_is_shown(void **state)
+{
+    fixture *made = *state;
+    for (int shear = 0; shear <= CLSHEAR_SHEAR_EQUAL_AREA; shear += CLSHEAR_SHEAR_EQUAL_AREA) {
+        clshear_options options = clshear_options_defaults();
+        clshear_film *film = NULL;
+        int better = 0;
+        options.width = options.height = SIZE;
+        options.spp = 64;
+        options.shear = (clshear_shear)shear;
+        options.gain = 1;
+        test_ok(made->context, clshear_render(made->scene, &made->camera, &options, &film));
+        const float *gain = clshear_film_channel(film, "Gain");
+        assert_non_null(gain);
+        for (int i = 0; i < PIXELS; i++) {
+            assert_true(isfinite(gain[i]) && gain[i] >= 0.0f);
+            if (shear == 0) assert_true(gain[i] == 1.0f);
+            better += gain[i] > 1.0f;
+        }
+        if (shear != 0) assert_true(better > PIXELS / 2);
+        clshear_film_free(film);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_choice_is_visible),
         cmocka_unit_test(samples_are_counted),
+        cmocka_unit_test(gain_is_shown),
         cmocka_unit_test(sharing_is_unbiased_and_pays),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

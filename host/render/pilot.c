@@ -68,7 +68,6 @@ static clshear_status run(cs_job *job, const f32 *shears, const u32 *list, size_
                                 &shear_buffer, error));
         CS_TRY(cs_batch_create(context, &pattern, list, count, width, &batch, error));
         sweep.frame.seed = cs_key(job->options.seed, 0x70696c6fu); /* its own random numbers */
-        sweep.frame.shear_mode = CLSHEAR_SHEAR_EQUAL_AREA;
         sweep.shears = shear_buffer;
         sweep.pixels = pixels;
         sweep.options = &job->options;
