@@ -263,7 +263,7 @@ typedef struct clshear_options {
     const char *sampler; /* a name from clshear_sampler_describe; NULL: the default */
     clshear_shear shear;
     clshear_oracle oracle;
-    int adaptive;   /* share the samples out by the variance that a pilot finds; spp is the mean */
+    int adaptive;   /* share samples out by what varies most; spp is the mean, from 128 on */
     int gain;       /* also find out, at low cost, what the shear gains: channel Gain */
     int lens_rays;  /* for the depths of a pixel, 0 to 256 */
     int extendable; /* keep what `extend` will need: channels Pattern<replicate>.R/G/B */

@@ -72,7 +72,7 @@ clshear_status cs_pilot_choose(const cs_evidence *evidence, cs_rule prior, int w
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for the pilot");
     }
     table tables[3] = {{memory, stride}, {memory + size, stride}, {memory + 2 * size, stride}};
-    memset(rules, prior, pixels);
+    memset(rules, (int)prior, pixels);
     for (size_t i = 0; i < pixels; i++)
         best[i] = (f32)clear;
     for (int rule = 0; rule < CS_RULE_COUNT; rule++) {

@@ -11,8 +11,6 @@
 enum {
     CHOICE_SAMPLES = 32, /* patterns by which shears are judged */
     CHOICE_REPLICATES = 2,
-    SHARE_SAMPLES = 16, /* patterns by which samples are shared out */
-    SHARE_REPLICATES = 4,
     GAIN_SAMPLES = 32, /* patterns by which the gain is measured */
     GAIN_REPLICATES = 4,
     SLICE = 1 << 16
@@ -208,8 +206,11 @@ clshear_status cs_pilot_samples(cs_job *job, u32 *samples, cs_error *error)
                       .intensity = malloc(job->pixel_count * sizeof(f32))};
     CS_REQUIRE(result.variance != NULL && result.intensity != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory for the pilot of %zu pixels", job->pixel_count);
-    CS_TRY(run(job, job->shear_px, NULL, job->pixel_count, SHARE_SAMPLES, SHARE_REPLICATES, &result,
-               error));
+    /* A sixteenth of the samples at most, as patterns of which there are two to four. */
+    const u32 budget = job->options.spp / 16;
+    const u32 size = budget >= 64 ? 16 : budget >= 16 ? 8 : 4;
+    const u32 replicates = budget / size < 4 ? budget / size : 4;
+    CS_TRY(run(job, job->shear_px, NULL, job->pixel_count, size, replicates, &result, error));
     CS_TRY(cs_share_samples(result.variance, result.intensity, width, height,
                             job->pattern.grid.count, samples, error));
 done:

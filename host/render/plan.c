@@ -77,7 +77,12 @@ done:
 static clshear_status plan_batches(cs_job *job, cs_error *error)
 {
     const u32 width = (u32)(job->window[1] - job->window[0]);
-    if (!job->options.adaptive) {
+    const int shared = job->options.adaptive && job->options.spp >= CS_LEAST_SPP_TO_SHARE;
+    if (job->options.adaptive && !shared)
+        cs_warn(&job->scene->context->log,
+                "%u samples per pixel are too few to share out adaptively (from %d on)",
+                job->options.spp, CS_LEAST_SPP_TO_SHARE);
+    if (!shared) {
         job->batch_count = 1;
         return cs_batch_create(job->scene->context, &job->pattern, NULL, job->pixel_count, width,
                                &job->batches[0], error);
