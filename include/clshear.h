@@ -273,7 +273,7 @@ typedef struct clshear_options {
     void *progress_user;
 } clshear_options;
 
-/* 512 x 512, 256 samples in 2 replicates, seed 0, equal-area shear. */
+/* 512 x 512, 256 samples in 2 replicates, seed 0, default sampler, equal-area shear, pilot. */
 CLSHEAR_API clshear_options clshear_options_defaults(void);
 
 typedef struct clshear_film clshear_film;
