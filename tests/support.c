@@ -84,6 +84,24 @@ clshear_scene *test_cornell(clshear_context *context, clshear_camera *camera)
     return scene;
 }
 
+int test_open_cornell(void **state)
+{
+    test_fixture *made = calloc(1, sizeof *made);
+    made->context = test_context();
+    made->scene = test_cornell(made->context, &made->camera);
+    *state = made;
+    return 0;
+}
+
+int test_close(void **state)
+{
+    test_fixture *made = *state;
+    clshear_scene_free(made->scene);
+    clshear_context_free(made->context);
+    free(made);
+    return 0;
+}
+
 test_pattern test_pattern_of(u32 sampler, u32 count, cs_row_order order)
 {
     cs_error error;

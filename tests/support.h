@@ -36,6 +36,16 @@ clshear_scene *test_floor(clshear_context *context, float half, float albedo);
  * aperture, which is a disk. */
 clshear_scene *test_cornell(clshear_context *context, clshear_camera *camera);
 
+/* The Cornell box, opened and closed by cmocka. */
+typedef struct test_fixture {
+    clshear_context *context;
+    clshear_scene *scene;
+    clshear_camera camera;
+} test_fixture;
+
+int test_open_cornell(void **state);
+int test_close(void **state);
+
 /* A pattern with its table, to draw from on the host. */
 typedef struct test_pattern {
     cs_pattern pattern;

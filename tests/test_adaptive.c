@@ -11,31 +11,7 @@ enum {
     SPP = 512
 };
 
-typedef struct fixture {
-    clshear_context *context;
-    clshear_scene *scene;
-    clshear_camera camera;
-} fixture;
-
-static int set_up(void **state)
-{
-    fixture *made = calloc(1, sizeof *made);
-    made->context = test_context();
-    made->scene = test_cornell(made->context, &made->camera);
-    *state = made;
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    fixture *made = *state;
-    clshear_scene_free(made->scene);
-    clshear_context_free(made->context);
-    free(made);
-    return 0;
-}
-
-static clshear_film *render(fixture *made, clshear_oracle oracle, int adaptive, uint32_t seed)
+static clshear_film *render(test_fixture *made, clshear_oracle oracle, int adaptive, uint32_t seed)
 {
     clshear_options options = clshear_options_defaults();
     clshear_film *film = NULL;
@@ -51,7 +27,7 @@ static clshear_film *render(fixture *made, clshear_oracle oracle, int adaptive, 
 /* Shears are those of the rule that the Oracle channel names, and the pilot costs what it may. */
 static void the_choice_is_visible(void **state)
 {
-    fixture *made = *state;
+    test_fixture *made = *state;
     clshear_film *pilot = render(made, CLSHEAR_ORACLE_PILOT, 0, 1), *rules[4];
     const float *rule = clshear_film_channel(pilot, "Oracle");
     const float *shear = clshear_film_channel(pilot, "Shear");
@@ -75,7 +51,7 @@ static void the_choice_is_visible(void **state)
 
 static void samples_are_counted(void **state)
 {
-    fixture *made = *state;
+    test_fixture *made = *state;
     clshear_film *film = render(made, CLSHEAR_ORACLE_PILOT, 1, 1);
     const float *samples = clshear_film_channel(film, "Samples");
     double total = 0.0, least = 1e9, most = 0.0;
@@ -98,7 +74,7 @@ static void sharing_is_unbiased_and_pays(void **state)
     enum {
         SEEDS = 16
     };
-    fixture *made = *state;
+    test_fixture *made = *state;
     double mean[2] = {0}, error[2] = {0}, variance[2] = {0};
     for (int adaptive = 0; adaptive < 2; adaptive++)
         for (uint32_t seed = 0; seed < SEEDS; seed++) {
@@ -119,7 +95,7 @@ static void sharing_is_unbiased_and_pays(void **state)
 /* Without shear there is nothing to gain; with it most pixels of this scene gain. */
 static void gain_is_shown(void **state)
 {
-    fixture *made = *state;
+    test_fixture *made = *state;
     for (int shear = 0; shear <= CLSHEAR_SHEAR_EQUAL_AREA; shear += CLSHEAR_SHEAR_EQUAL_AREA) {
         clshear_options options = clshear_options_defaults();
         clshear_film *film = NULL;
@@ -149,5 +125,5 @@ int main(void)
         cmocka_unit_test(gain_is_shown),
         cmocka_unit_test(sharing_is_unbiased_and_pays),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, test_open_cornell, test_close);
 }

@@ -21,37 +21,13 @@ enum {
 
 static const uint32_t sizes[SIZES] = {64, 256, 1024, 4096};
 
-typedef struct fixture {
-    clshear_context *context;
-    clshear_scene *scene;
-    clshear_camera camera;
-} fixture;
-
 typedef struct fit {
     double slope;
     double variance[SIZES];
     double mean;
 } fit;
 
-static int set_up(void **state)
-{
-    fixture *made = calloc(1, sizeof *made);
-    made->context = test_context();
-    made->scene = test_cornell(made->context, &made->camera);
-    *state = made;
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    fixture *made = *state;
-    clshear_scene_free(made->scene);
-    clshear_context_free(made->context);
-    free(made);
-    return 0;
-}
-
-static fit measure(fixture *made, int x, int y, const char *sampler, clshear_shear shear)
+static fit measure(test_fixture *made, int x, int y, const char *sampler, clshear_shear shear)
 {
     fit result = {0};
     double sums[4] = {0}; /* x, y, xx, xy of the logarithms */
@@ -82,7 +58,7 @@ static fit measure(fixture *made, int x, int y, const char *sampler, clshear_she
  * false-alarm rate 2e-4 (1e-13 with light ones). Sheared, edges give -1.5: -1.35 is 3.7 and 7.5
  * standard errors away, one-sided 1e-4 and 3e-14. The ratio at N = 1024 is 10 and more; that it
  * comes out below 5 by chance takes 5 standard errors of its logarithm, 6e-7. */
-static void expect_gain(fixture *made, int x, int y, clshear_aperture aperture)
+static void expect_gain(test_fixture *made, int x, int y, clshear_aperture aperture)
 {
     made->camera.aperture = aperture;
     fit none = measure(made, x, y, "mj", CLSHEAR_SHEAR_NONE);
@@ -110,7 +86,7 @@ static void box_edge_converges_faster(void **state)
 static void nets_converge_faster(void **state)
 {
     static const char *const samplers[] = {"sobol", "halton", "sz"};
-    fixture *made = *state;
+    test_fixture *made = *state;
     made->camera.aperture = CLSHEAR_APERTURE_SQUARE;
     for (int i = 0; i < 3; i++) {
         fit none = measure(made, 146, 330, samplers[i], CLSHEAR_SHEAR_NONE);
@@ -127,5 +103,5 @@ int main(void)
         cmocka_unit_test(box_edge_converges_faster),
         cmocka_unit_test(nets_converge_faster),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, test_open_cornell, test_close);
 }

@@ -3,30 +3,6 @@
 
 #include <math.h>
 
-typedef struct fixture {
-    clshear_context *context;
-    clshear_scene *scene;
-    clshear_camera camera;
-} fixture;
-
-static int set_up(void **state)
-{
-    fixture *made = calloc(1, sizeof *made);
-    made->context = test_context();
-    made->scene = test_cornell(made->context, &made->camera);
-    *state = made;
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    fixture *made = *state;
-    clshear_scene_free(made->scene);
-    clshear_context_free(made->context);
-    free(made);
-    return 0;
-}
-
 static clshear_options options_of(const char *sampler, uint32_t spp)
 {
     clshear_options options = clshear_options_defaults();
@@ -39,7 +15,7 @@ static clshear_options options_of(const char *sampler, uint32_t spp)
     return options;
 }
 
-static clshear_film *render(fixture *made, const clshear_options *options)
+static clshear_film *render(test_fixture *made, const clshear_options *options)
 {
     clshear_film *film = NULL;
     test_ok(made->context, clshear_render(made->scene, &made->camera, options, &film));
@@ -68,7 +44,7 @@ static void expect_same(const clshear_film *a, const clshear_film *b)
  * counts that are no powers of two, and blocks that are cut in the middle. */
 static void extended_equals_whole(void **state)
 {
-    fixture *made = *state;
+    test_fixture *made = *state;
     clshear_sampler_info info;
     int seen = 0;
     for (size_t s = 0; clshear_sampler_describe(s, &info); s++) {
@@ -101,7 +77,7 @@ static void extended_equals_whole(void **state)
 /* What the pilot chose for the first part stays. */
 static void the_choice_of_the_pilot_stays(void **state)
 {
-    fixture *made = *state;
+    test_fixture *made = *state;
     clshear_options options = options_of("sz", 128);
     options.oracle = CLSHEAR_ORACLE_PILOT;
     clshear_film *first = render(made, &options);
@@ -126,7 +102,7 @@ static int stop(void *user, const clshear_progress *progress)
  * picture's within what the new samples add, and its counts are true. */
 static void an_interrupted_extension_is_whole(void **state)
 {
-    fixture *made = *state;
+    test_fixture *made = *state;
     clshear_options options = options_of("sz", 4096);
     clshear_film *first = render(made, &options), *second = NULL;
     int calls = 0;
@@ -148,7 +124,7 @@ static void an_interrupted_extension_is_whole(void **state)
     clshear_film_free(second);
 }
 
-static void refuse(fixture *made, const clshear_options *options, const char *words)
+static void refuse(test_fixture *made, const clshear_options *options, const char *words)
 {
     clshear_film *film = NULL;
     assert_int_equal(clshear_render(made->scene, &made->camera, options, &film),
@@ -160,7 +136,7 @@ static void refuse(fixture *made, const clshear_options *options, const char *wo
 
 static void what_does_not_continue_is_refused(void **state)
 {
-    fixture *made = *state;
+    test_fixture *made = *state;
     clshear_options options = options_of("sobol", 64);
     clshear_film *base = render(made, &options);
     options.sampler = "mj";
@@ -207,5 +183,5 @@ int main(void)
         cmocka_unit_test(the_choice_of_the_pilot_stays),
         cmocka_unit_test(what_does_not_continue_is_refused),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, test_open_cornell, test_close);
 }

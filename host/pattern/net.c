@@ -89,7 +89,7 @@ int cs_rows_sobol(cs_table *table)
  * (i, j) of matrix d is binom(j, i) f_d^(j-i), where f_d runs through the field. Elements become
  * 2 x 2 binary blocks, powers of a = ((0, 1), (1, 1)), as in Ahmed et al. 2025; and the digits of
  * dimensions 1 and 3 are mapped by ((1, 1), (0, 1)), a bijection of each digit, which makes (x, y)
- * and (u, v) binary (0,2)-sequences besides (tests/test_sampler.c looks at all of this). */
+ * and (u, v) binary (0,2)-sequences besides (tests/test_strata.c looks at all of this). */
 static void sz_matrix(u32 dimension, generator *matrix)
 {
     /* Columns of the powers of a: bit 0 is the upper row. */

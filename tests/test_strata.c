@@ -1,0 +1,274 @@
+/* The strata that samplers promise. */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "pattern/rows.h"
+#include "sampler/sampler.h"
+
+static const u32 counts[] = {1, 2, 3, 5, 7, 16, 49, 64, 101, 512, 1000, 1024};
+enum {
+    COUNTS = sizeof counts / sizeof *counts,
+    DIMENSIONS = 4 /* that promises are about */
+};
+
+/* A partition of the tuple's cube into cells[0] x ... x cells[3] boxes that hold equally many
+ * points each. */
+typedef struct promise {
+    u32 sampler;
+    u32 count;
+    u32 cells[DIMENSIONS];
+} promise;
+
+static u32 promised; /* a bit for each sampler whose strata were looked at */
+
+static u32 stratum(f32 value, u32 strata)
+{
+    return (u32)((double)value * strata);
+}
+
+static void expect_kept(const test_pattern *drawn, const promise *p)
+{
+    const u32 count = drawn->pattern.grid.count;
+    u32 boxes = 1;
+    for (int d = 0; d < DIMENSIONS; d++)
+        boxes *= p->cells[d];
+    u32 *hits = calloc(boxes, sizeof *hits);
+    assert_int_equal(count % boxes, 0);
+    for (u32 key = 0; key < 10; key++) {
+        memset(hits, 0, boxes * sizeof *hits);
+        for (u32 i = 0; i < count; i++) {
+            f32 tuple[CS_DIMENSIONS];
+            u32 box = 0;
+            test_draw(drawn, cs_hash(key), i, tuple);
+            for (int d = 0; d < DIMENSIONS; d++)
+                box = box * p->cells[d] + stratum(tuple[d], p->cells[d]);
+            hits[box]++;
+        }
+        for (u32 box = 0; box < boxes; box++)
+            if (hits[box] != count / boxes)
+                fail_msg("%s, N = %u, %u x %u x %u x %u boxes: %u points in one",
+                         cs_sampler_name(p->sampler), count, p->cells[0], p->cells[1], p->cells[2],
+                         p->cells[3], hits[box]);
+    }
+    free(hits);
+    promised |= 1u << p->sampler;
+}
+
+/* All boxes of `base`^a x base^b x base^c x base^d with a + b + c + d = `total`, each exponent up
+ * to most[d]. */
+static void expect_elementary(const test_pattern *drawn, u32 base, u32 total, const u32 *most)
+{
+    u32 e[DIMENSIONS], seen = 0;
+    for (e[0] = 0; e[0] <= most[0]; e[0]++)
+        for (e[1] = 0; e[1] <= most[1]; e[1]++)
+            for (e[2] = 0; e[2] <= most[2]; e[2]++)
+                for (e[3] = 0; e[3] <= most[3]; e[3]++) {
+                    promise p = {drawn->pattern.sampler, 0, {1, 1, 1, 1}};
+                    if (e[0] + e[1] + e[2] + e[3] != total) continue;
+                    for (int d = 0; d < DIMENSIONS; d++)
+                        for (u32 k = 0; k < e[d]; k++)
+                            p.cells[d] *= base;
+                    expect_kept(drawn, &p);
+                    seen++;
+                }
+    assert_true(seen > 0);
+}
+
+/* Every coordinate has one point in each of N strata. */
+static void coordinates_are_stratified(void **state)
+{
+    static const u32 samplers[] = {CS_SAMPLER_NROOKS, CS_SAMPLER_MJ,  CS_SAMPLER_CMJ,
+                                   CS_SAMPLER_OA,     CS_SAMPLER_OA3, CS_SAMPLER_RANK1};
+    (void)state;
+    for (size_t s = 0; s < sizeof samplers / sizeof *samplers; s++)
+        for (int k = 0; k < COUNTS; k++) {
+            test_pattern drawn = test_pattern_of(samplers[s], counts[k], CS_ORDER_COHERENT);
+            for (int d = 0; d < DIMENSIONS; d++) {
+                promise p = {samplers[s], 0, {1, 1, 1, 1}};
+                p.cells[d] = drawn.pattern.grid.count;
+                expect_kept(&drawn, &p);
+            }
+            test_pattern_free(&drawn);
+        }
+}
+
+/* Film and lens pairs have one point in each cell of the grid, where it has no partial row. */
+static void pairs_are_stratified(void **state)
+{
+    static const u32 samplers[] = {CS_SAMPLER_JITTERED, CS_SAMPLER_MJ, CS_SAMPLER_CMJ};
+    (void)state;
+    for (size_t s = 0; s < sizeof samplers / sizeof *samplers; s++)
+        for (int k = 0; k < COUNTS; k++) {
+            test_pattern drawn = test_pattern_of(samplers[s], counts[k], CS_ORDER_COHERENT);
+            const cs_grid *grid = &drawn.pattern.grid;
+            const promise film = {samplers[s], 0, {grid->columns, grid->rows, 1, 1}};
+            const promise lens = {samplers[s], 0, {1, 1, grid->columns, grid->rows}};
+            if (grid->extra == 0) expect_kept(&drawn, &film), expect_kept(&drawn, &lens);
+            test_pattern_free(&drawn);
+        }
+}
+
+static void hypergrids_are_stratified(void **state)
+{
+    (void)state;
+    for (int k = 0; k < COUNTS; k++) {
+        test_pattern drawn = test_pattern_of(CS_SAMPLER_JITTERED4D, counts[k], CS_ORDER_COHERENT);
+        promise p = {CS_SAMPLER_JITTERED4D, 0, {0}};
+        memcpy(p.cells, drawn.pattern.shape, sizeof p.cells);
+        expect_kept(&drawn, &p);
+        test_pattern_free(&drawn);
+    }
+}
+
+/* Strength 2: every two coordinates; strength 3: every three. Primes and prime powers. */
+static void orthogonal_arrays_are_orthogonal(void **state)
+{
+    static const u32 strong[] = {27, 64, 125, 343, 512, 729};
+    static const u32 squares[] = {9, 16, 25, 49, 64, 81, 121, 256, 625, 1024};
+    (void)state;
+    for (size_t k = 0; k < sizeof squares / sizeof *squares; k++) {
+        test_pattern drawn = test_pattern_of(CS_SAMPLER_OA, squares[k], CS_ORDER_COHERENT);
+        const u32 q = drawn.pattern.grid.columns, most[4] = {1, 1, 1, 1};
+        assert_int_equal(q * q, squares[k]);
+        expect_elementary(&drawn, q, 2, most);
+        test_pattern_free(&drawn);
+    }
+    for (size_t k = 0; k < sizeof strong / sizeof *strong; k++) {
+        test_pattern drawn = test_pattern_of(CS_SAMPLER_OA3, strong[k], CS_ORDER_COHERENT);
+        const u32 q = drawn.pattern.grid.columns, most[4] = {1, 1, 1, 1};
+        assert_int_equal(q * q * q, strong[k]);
+        expect_elementary(&drawn, q, 3, most);
+        test_pattern_free(&drawn);
+    }
+}
+
+/* Elementary intervals. (x, y) of all three nets and (u, v) of two of them are (0,2)-sequences in
+ * base 2; `sz` is a (0,4)-sequence in base 4; the quality parameter of the first four dimensions of
+ * `sobol` is the sum of degree - 1 of its polynomials, 3 (Niederreiter 1992, theorem 4.49). */
+static void nets_fill_elementary_intervals(void **state)
+{
+    static const u32 nets[] = {CS_SAMPLER_SOBOL, CS_SAMPLER_SOBOL_PAIRS, CS_SAMPLER_SZ};
+    (void)state;
+    for (u32 bits = 0; bits <= 10; bits++) {
+        const u32 film[4] = {bits, bits, 0, 0}, lens[4] = {0, 0, bits, bits};
+        const u32 all[4] = {bits, bits, bits, bits};
+        for (int s = 0; s < 3; s++) {
+            test_pattern drawn = test_pattern_of(nets[s], 1u << bits, CS_ORDER_COHERENT);
+            expect_elementary(&drawn, 2, bits, film);
+            if (s > 0) expect_elementary(&drawn, 2, bits, lens);
+            if (s == 0 && bits >= 3) expect_elementary(&drawn, 2, bits - 3, all);
+            if (s == 2 && bits % 2 == 0) expect_elementary(&drawn, 4, bits / 2, all);
+            test_pattern_free(&drawn);
+        }
+    }
+}
+
+/* Boxes of the bases' powers, as many as points. */
+static void halton_fills_elementary_intervals(void **state)
+{
+    static const promise kept[] = {
+        {CS_SAMPLER_HALTON, 420, {4, 3, 5, 7}},    {CS_SAMPLER_HALTON, 1260, {4, 9, 5, 7}},
+        {CS_SAMPLER_HALTON, 1296, {16, 81, 1, 1}}, {CS_SAMPLER_HALTON, 1225, {1, 1, 25, 49}},
+        {CS_SAMPLER_HALTON, 128, {128, 1, 1, 1}},  {CS_SAMPLER_HALTON, 729, {1, 729, 1, 1}},
+        {CS_SAMPLER_HALTON, 625, {1, 1, 625, 1}},  {CS_SAMPLER_HALTON, 343, {1, 1, 1, 343}}};
+    (void)state;
+    for (size_t k = 0; k < sizeof kept / sizeof *kept; k++) {
+        test_pattern drawn = test_pattern_of(CS_SAMPLER_HALTON, kept[k].count, CS_ORDER_COHERENT);
+        expect_kept(&drawn, &kept[k]);
+        test_pattern_free(&drawn);
+    }
+}
+
+static double torus_distance(const f32 *a, const f32 *b)
+{
+    double square = 0.0;
+    for (int d = 0; d < 2; d++) {
+        double way = fabs((double)a[d] - (double)b[d]);
+        if (way > 0.5) way = 1.0 - way;
+        square += way * way;
+    }
+    return sqrt(square);
+}
+
+/* Points keep their distance in both pairs: 0.65 (Poisson disk) and 0.5 (equal capacity) of the
+ * densest packing's. Random points come closer than a hundredth of it. */
+static void blue_noise_keeps_its_distance(void **state)
+{
+    static const u32 samplers[] = {CS_SAMPLER_POISSON, CS_SAMPLER_CCVT};
+    (void)state;
+    for (int s = 0; s < 2; s++)
+        for (u32 n = 2; n <= 512; n = n * 5 / 2 + 1) {
+            test_pattern drawn = test_pattern_of(samplers[s], n, CS_ORDER_COHERENT);
+            const double least = (s == 0 ? 0.65 : 0.5) * sqrt(1.1547 / n);
+            f32(*tuples)[CS_DIMENSIONS] = malloc(n * sizeof *tuples);
+            for (u32 i = 0; i < n; i++)
+                test_draw(&drawn, 7, i, tuples[i]);
+            for (u32 i = 0; i < n; i++)
+                for (u32 j = 0; j < i; j++)
+                    for (int pair = 0; pair < 2; pair++)
+                        assert_true(torus_distance(tuples[i] + 2 * pair, tuples[j] + 2 * pair) >
+                                    least);
+            free(tuples);
+            test_pattern_free(&drawn);
+        }
+}
+
+/* Equal capacity shows in the spectrum: below a fifth of the points' frequency a blue noise set has
+ * less than 2 % of the power of random points, a Poisson disk set more. */
+static void equal_capacity_has_no_low_frequencies(void **state)
+{
+    enum {
+        POINTS = 400
+    };
+    static f32 x[POINTS], y[POINTS];
+    double power[2];
+    (void)state;
+    for (int kind = 0; kind < 2; kind++) {
+        int terms = 0;
+        assert_true(kind == 0 ? cs_ccvt_points(POINTS, 1, x, y)
+                              : cs_poisson_points(POINTS, 1, x, y));
+        power[kind] = 0.0;
+        for (int a = -4; a <= 4; a++)
+            for (int b = -4; b <= 4; b++) {
+                double re = 0.0, im = 0.0;
+                if ((a == 0 && b == 0) || a * a + b * b > 16) continue;
+                for (int i = 0; i < POINTS; i++) {
+                    const double phase = 6.283185307179586 * (a * (double)x[i] + b * (double)y[i]);
+                    re += cos(phase);
+                    im += sin(phase);
+                }
+                power[kind] += (re * re + im * im) / POINTS;
+                terms++;
+            }
+        power[kind] /= terms;
+    }
+    assert_true(power[0] < 0.02);
+    assert_true(power[1] > 0.02);
+}
+
+/* A sampler that is added to the table must have its promises tested. */
+static void every_sampler_is_tested(void **state)
+{
+    const u32 without_strata =
+        1u << CS_SAMPLER_RANDOM | 1u << CS_SAMPLER_POISSON | 1u << CS_SAMPLER_CCVT;
+    (void)state;
+    assert_int_equal(promised | without_strata, (1u << CS_SAMPLER_COUNT) - 1u);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(coordinates_are_stratified),
+        cmocka_unit_test(pairs_are_stratified),
+        cmocka_unit_test(hypergrids_are_stratified),
+        cmocka_unit_test(orthogonal_arrays_are_orthogonal),
+        cmocka_unit_test(nets_fill_elementary_intervals),
+        cmocka_unit_test(halton_fills_elementary_intervals),
+        cmocka_unit_test(blue_noise_keeps_its_distance),
+        cmocka_unit_test(equal_capacity_has_no_low_frequencies),
+        cmocka_unit_test(every_sampler_is_tested),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
