@@ -115,7 +115,7 @@ static void samples_follow_variance(void **state)
     for (u32 i = 0; i < PIXELS; i++) {
         total += samples[i];
         assert_int_equal(samples[i] & (samples[i] - 1), 0);
-        assert_true(samples[i] >= 125 && samples[i] <= 16384);
+        assert_true(samples[i] >= 500 && samples[i] <= 16384);
     }
     assert_true(total <= 1000.0 * PIXELS && total > 500.0 * PIXELS);
     const u32 inside = samples[26 * SIDE + 26], outside = samples[5 * SIDE + 5];

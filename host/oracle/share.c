@@ -61,7 +61,8 @@ clshear_status cs_share_samples(const f32 *variance, const f32 *intensity, int w
                                 u32 mean, u32 *samples, cs_error *error)
 {
     const size_t pixels = (size_t)width * (size_t)height;
-    const u32 least = power_of_two(mean / 8 > 4 ? mean / 8 : 4), most = power_of_two(16 * mean);
+    /* A high floor: small patterns say little about large ones where variance falls as N^-2. */
+    const u32 least = power_of_two(mean / 2 > 4 ? mean / 2 : 4), most = power_of_two(16 * mean);
     double *desire = malloc(pixels * sizeof *desire);
     if (desire == NULL)
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", pixels);
