@@ -86,6 +86,8 @@ static void the_choice_of_the_pilot_stays(void **state)
     clshear_film *second = render(made, &options);
     assert_memory_equal(clshear_film_channel(first, "Shear"), clshear_film_channel(second, "Shear"),
                         24 * 24 * sizeof(float));
+    assert_memory_equal(clshear_film_channel(first, "Oracle"),
+                        clshear_film_channel(second, "Oracle"), 24 * 24 * sizeof(float));
     assert_true(clshear_film_describe(second).pilot_samples == 0);
     clshear_film_free(first);
     clshear_film_free(second);

@@ -59,6 +59,23 @@ static void first_difference(const char *a, const char *b, char *name, size_t si
     snprintf(name, size, "%.*s", (int)strcspn(a + start, "="), a + start);
 }
 
+/* Whether a film has all the planes that load() reads, and counts of samples to go with them. */
+static int holds_state(const clshear_film *base, uint32_t replicates, int *samples)
+{
+    static const char *const needed[] = {
+        "R",     "G",     "B", "SampleVariance.R", "SampleVariance.G", "SampleVariance.B",
+        "Shear", "Oracle"};
+    char name[32];
+    int good = cs_film_int(base, "samplesPerPixel", samples) && *samples >= (int)replicates;
+    for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
+        good &= clshear_film_channel(base, needed[i]) != NULL;
+    for (uint32_t plane = 0; good && plane < 3 * replicates; plane++) {
+        plane_name(name, sizeof name, plane / 3, (int)(plane % 3));
+        good &= clshear_film_channel(base, name) != NULL;
+    }
+    return good;
+}
+
 clshear_status cs_extend_check(cs_job *job, cs_error *error)
 {
     const clshear_film *base = job->options.extend;
@@ -76,9 +93,8 @@ clshear_status cs_extend_check(cs_job *job, cs_error *error)
     if (base == NULL) return CLSHEAR_OK;
     recipe_of(job, mine, sizeof mine);
     const char *theirs = cs_film_text(base, "clshear.recipe");
-    plane_name(name, sizeof name, job->options.replicates - 1, 2);
-    if (theirs == NULL || !cs_film_int(base, "samplesPerPixel", &samples) ||
-        (strcmp(mine, theirs) == 0 && clshear_film_channel(base, name) == NULL))
+    if (theirs == NULL ||
+        (strcmp(mine, theirs) == 0 && !holds_state(base, job->options.replicates, &samples)))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "the picture to extend does not hold what that takes; it must be a complete "
                        "EXR rendered with --extendable");

@@ -33,10 +33,12 @@ static clshear_status choose_shears(cs_job *job, cs_error *error)
     const clshear_options *options = &job->options;
     const float *extended =
         options->extend != NULL ? clshear_film_channel(options->extend, "Shear") : NULL;
+    const float *rules =
+        options->extend != NULL ? clshear_film_channel(options->extend, "Oracle") : NULL;
     const int pilot = options->oracle == CLSHEAR_ORACLE_PILOT;
     const cs_rule rule = pilot ? CS_RULE_CENTRE : (cs_rule)options->oracle;
     for (size_t i = 0; i < job->pixel_count; i++) {
-        job->rule[i] = (uint8_t)rule;
+        job->rule[i] = rules != NULL ? (uint8_t)rules[i] : (uint8_t)rule;
         job->shear_px[i] =
             extended != NULL ? extended[i] : cs_oracle_shear(&job->camera, &job->depth[i], rule);
     }
