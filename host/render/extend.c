@@ -80,7 +80,7 @@ clshear_status cs_extend_check(cs_job *job, cs_error *error)
 {
     const clshear_film *base = job->options.extend;
     char mine[512], name[32];
-    int samples;
+    int samples = 0;
     if ((base != NULL || job->options.extendable) && job->options.adaptive)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "a render that is shared out adaptively cannot be extended");
