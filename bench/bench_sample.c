@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "frame.h"
+#include "optics/optics.h"
 #include "pattern/pattern.h"
 #include "render/handles.h"
 
@@ -50,15 +51,24 @@ static double draw_s(const bench *state, const cs_pattern *pattern, const cs_buf
     const float shear = 3.0f;
     cs_frame frame = {
         .pattern = *pattern, .pixel_count = SIDE * SIDE, .shear_mode = (u32)state->options.shear};
-    frame.camera.aperture = state->camera.aperture;
+    cs_optics_tables optics = {0};
+    cs_buffer *table = NULL;
+    must(state, cs_optics_make(&state->camera, state->options.filter, 0.0f, &optics, &error));
+    must(state, cs_buffer_create(state->context->device, optics.table.count * sizeof(float),
+                                 optics.table.items, &table, &error));
+    frame.camera.optics = optics.optics;
     const cs_argument arguments[] = {{.value = &frame, .size = sizeof frame},
                                      {.value = &shear, .size = sizeof shear},
                                      {.buffer = rows},
+                                     {.buffer = table},
                                      {.buffer = sums}};
     const double start_s = cs_now_s();
-    must(state, cs_device_run(state->context->device, CS_KERNEL_DRAW_SUM, SIDE * SIDE, arguments, 4,
+    must(state, cs_device_run(state->context->device, CS_KERNEL_DRAW_SUM, SIDE * SIDE, arguments, 5,
                               &error));
-    return cs_now_s() - start_s;
+    const double took_s = cs_now_s() - start_s;
+    cs_buffer_free(table);
+    cs_optics_free(&optics);
+    return took_s;
 }
 
 static double frame_s(const bench *state)

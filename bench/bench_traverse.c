@@ -17,6 +17,7 @@
 #include "frame.h"
 #include "lens.h"
 #include "meshes.h"
+#include "optics/optics.h"
 #include "oracle/oracle.h"
 #include "pattern/pattern.h"
 #include "scene/camera.h"
@@ -103,9 +104,12 @@ static void make_camera_rays(bench *state)
     camera.focal_distance = 1.5f;
     camera.fov_deg = 45.0f;
     cs_camera frame;
+    cs_optics_tables optics = {0};
     must(state, cs_camera_frame(&camera, size, size, &frame, &state->error));
+    must(state, cs_optics_make(&camera, CLSHEAR_FILTER_BOX, 0.0f, &optics, &state->error));
+    frame.optics = optics.optics;
     cs_depth *depth = must_allocate(pixels * sizeof *depth);
-    must(state, cs_accel_depth(state->accel, &frame, window, 0, depth, &state->error));
+    must(state, cs_accel_depth(state->accel, &frame, NULL, window, 0, depth, &state->error));
     const cs_pattern pattern = cs_pattern_of(CS_SAMPLER_MJ, 0, (u32)spp);
     ray_planes *rays = &state->rays;
     rays->count = pixels * spp;
@@ -118,8 +122,8 @@ static void make_camera_rays(bench *state)
         float tuple[CS_DIMENSIONS];
         cs_draw(&pattern, NULL, key, index, 2, tuple);
         cs_film_lens point =
-            cs_shear(tuple[0], tuple[1], tuple[2], tuple[3], CS_SHEAR_EQUAL_AREA, frame.aperture,
-                     cs_oracle_shear(&frame, &depth[pixel], CS_RULE_CENTRE));
+            cs_shear(tuple[0], tuple[1], tuple[2], tuple[3], CS_SHEAR_EQUAL_AREA, &frame.optics,
+                     optics.table.items, cs_oracle_shear(&frame, &depth[pixel], CS_RULE_CENTRE));
         cs_ray ray = cs_lens_ray(frame, point.x + (float)(pixel % (u32)size),
                                  point.y + (float)(pixel / (u32)size), point.u, point.v);
         for (size_t axis = 0; axis < 3; axis++) {
@@ -129,6 +133,7 @@ static void make_camera_rays(bench *state)
         rays->reach[i] = INFINITY;
     }
     free(depth);
+    cs_optics_free(&optics);
 }
 
 /* Turns rays that hit something into rays from there to a light; the others get no reach. */

@@ -30,8 +30,8 @@ typedef struct cs_drawn {
 } cs_drawn;
 
 /* Draws the packet that begins at place `start` of the pixel's order, up to place `end`. */
-static inline void cs_draw_packet(const cs_frame *frame, cs_rows rows, const cs_place *place,
-                                  u32 start, u32 end, cs_drawn *drawn)
+static inline void cs_draw_packet(const cs_frame *frame, cs_rows rows, cs_optics_table table,
+                                  const cs_place *place, u32 start, u32 end, cs_drawn *drawn)
 {
     vfloat tuple[CS_DIMENSIONS];
     vuint position = start + CS_LANE_INDEX;
@@ -44,7 +44,7 @@ static inline void cs_draw_packet(const cs_frame *frame, cs_rows rows, const cs_
     cs_draw(&frame->pattern, rows, place->key, index, frame->emitters > 0u ? 3u : 2u, tuple);
     drawn->active = active;
     drawn->point = cs_shear(tuple[0], tuple[1], tuple[2], tuple[3], frame->shear_mode,
-                            frame->camera.aperture, place->shear);
+                            &frame->camera.optics, table, place->shear);
     drawn->emitter.x = tuple[4];
     drawn->emitter.y = tuple[5];
 }

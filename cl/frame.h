@@ -27,7 +27,7 @@ typedef struct cs_frame {
     u32 lights;
     u32 emitters;
 } cs_frame;
-CS_SHARED_WORDS(cs_frame, 55);
+CS_SHARED_WORDS(cs_frame, 66);
 
 /* Raster index (row by row) of the pixel that is number `order` in a walk through tiles of 8 x 8
  * pixels: neighbours in time are neighbours in both directions, and find their nodes in the cache.

@@ -11,11 +11,11 @@ typedef struct cs_ray {
 } cs_ray;
 
 /* The ray through raster position (x, y), in pixels from the image's top left corner, and through
- * the lens point (u, v), in aperture widths from the lens centre. All rays through (x, y) meet on
- * the focal plane; a distance along the ray is a camera depth. */
+ * the lens point (u, v), in aperture widths from the lens centre, u squeezed. All rays through (x,
+ * y) meet on the focal plane; a distance along the ray is a camera depth. */
 static inline cs_ray cs_lens_ray(cs_camera camera, vfloat x, vfloat y, vfloat u, vfloat v)
 {
-    vfloat lens_right = u * camera.aperture_width;
+    vfloat lens_right = u * (camera.aperture_width * camera.optics.squeeze);
     vfloat lens_down = v * camera.aperture_width;
     f32 inverse_focus = 1.0f / camera.focal_distance;
     vfloat right = ((x - camera.centre_px[0]) * camera.pixel_width - lens_right) * inverse_focus;
@@ -32,7 +32,7 @@ static inline cs_ray cs_lens_ray(cs_camera camera, vfloat x, vfloat y, vfloat u,
 
 /* The shear of a surface at camera depth `depth` > 0: the signed circle of confusion, in pixels per
  * aperture width. A point seen through (x, u) projects, through the lens centre, to raster
- * x + shear * u. Positive in front of the focal plane. */
+ * x + shear * squeeze * u, and y + shear * v. Positive in front of the focal plane. */
 static inline f32 cs_shear_of_depth(cs_camera camera, f32 depth)
 {
     return camera.aperture_width / camera.pixel_width * (camera.focal_distance / depth - 1.0f);

@@ -5,7 +5,8 @@
  * CS_POINT_VALUES floats each: the six coordinates of the tuple, then x, y, u, v after the shear.
  * Global size: at least ceil(grid.count / CS_PACKET). */
 __kernel void cs_points(const cs_frame frame, const uint pixel, const float shear,
-                        __global const uint *rows, __global float *points)
+                        __global const uint *rows, __global const float *table,
+                        __global float *points)
 {
     u32 first = (u32)get_global_id(0) * (u32)CS_PACKET;
     if (first >= frame.pattern.grid.count) return;
@@ -15,7 +16,7 @@ __kernel void cs_points(const cs_frame frame, const uint pixel, const float shea
     vfloat tuple[CS_DIMENSIONS];
     cs_draw(&frame.pattern, rows, key, index, 3u, tuple);
     cs_film_lens point = cs_shear(tuple[0], tuple[1], tuple[2], tuple[3], frame.shear_mode,
-                                  frame.camera.aperture, shear);
+                                  &frame.camera.optics, table, shear);
     cs_float_lanes value[CS_POINT_VALUES];
     for (u32 d = 0u; d < (u32)CS_DIMENSIONS; d++)
         value[d].all = tuple[d];
@@ -31,7 +32,7 @@ __kernel void cs_points(const cs_frame frame, const uint pixel, const float shea
 /* Draws as the render kernel does and adds the coordinates up instead of tracing: what sampling
  * costs by itself. One work-item for each pixel; sums: one float each. */
 __kernel void cs_draw_sum(const cs_frame frame, const float shear, __global const uint *rows,
-                          __global float *sums)
+                          __global const float *table, __global float *sums)
 {
     cs_place place;
     if (get_global_id(0) >= frame.pixel_count) return;
@@ -45,7 +46,7 @@ __kernel void cs_draw_sum(const cs_frame frame, const float shear, __global cons
         cs_drawn drawn[CS_AHEAD];
         u32 packets = 0u;
         for (u32 at = start; packets < (u32)CS_AHEAD && at < end; at += (u32)CS_PACKET)
-            cs_draw_packet(&frame, rows, &place, at, end, &drawn[packets++]);
+            cs_draw_packet(&frame, rows, table, &place, at, end, &drawn[packets++]);
         for (u32 packet = 0u; packet < packets; packet++) {
             cs_film_lens point = drawn[packet].point;
             sum += drawn[packet].active ? point.x + point.y + point.u + point.v : (vfloat)(0.0f);

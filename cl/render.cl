@@ -17,14 +17,15 @@ static inline void cs_trace_packet(const cs_frame *frame, const cs_world *world,
 
 /* Samples at places `start` to `end` of the pixel's order, gathered. */
 static inline void cs_sample(const cs_frame *frame, const cs_world *world, cs_rows rows,
-                             const cs_place *place, u32 start, u32 end, cs_gather *gather)
+                             cs_optics_table table, const cs_place *place, u32 start, u32 end,
+                             cs_gather *gather)
 {
     cs_drawn drawn[CS_AHEAD];
     int first = 1;
     for (; start < end; start += (u32)(CS_AHEAD * CS_PACKET)) {
         u32 packets = 0u;
         for (u32 at = start; packets < (u32)CS_AHEAD && at < end; at += (u32)CS_PACKET)
-            cs_draw_packet(frame, rows, place, at, end, &drawn[packets++]);
+            cs_draw_packet(frame, rows, table, place, at, end, &drawn[packets++]);
         for (u32 packet = 0u; packet < packets; packet++) {
             cs_radiance radiance;
             cs_trace_packet(frame, world, place, &drawn[packet], &radiance);
@@ -40,15 +41,15 @@ static inline void cs_sample(const cs_frame *frame, const cs_world *world, cs_ro
  * Global size: at least frame.pixel_count; any local size. pixels: one cs_pixel for each pixel of
  * the crop, zero at first. order:
  * the crop's pixels (row by row) in the order in which they are drawn. shears: the oracle's answer
- * for each pixel of the crop, in pixels. rows: the pattern's table. The others: the scene, see
- * cs_world. */
+ * for each pixel of the crop, in pixels. rows: the pattern's table. table: the optics'. The others:
+ * the scene, see cs_world. */
 __kernel void cs_render(const cs_frame frame, __global cs_pixel *pixels, __global const uint *order,
                         __global const float *shears, __global const uint *rows,
-                        __global const cs_node *nodes, __global const cs_triangle *triangles,
-                        __global const cs_face *faces, __global const cs_vertex *vertices,
-                        __global const cs_material *materials, __global const cs_texture *textures,
-                        __global const half *texels, __global const cs_light *lights,
-                        __global const cs_emitter *emitters)
+                        __global const float *table, __global const cs_node *nodes,
+                        __global const cs_triangle *triangles, __global const cs_face *faces,
+                        __global const cs_vertex *vertices, __global const cs_material *materials,
+                        __global const cs_texture *textures, __global const half *texels,
+                        __global const cs_light *lights, __global const cs_emitter *emitters)
 {
     if (get_global_id(0) >= frame.pixel_count) return;
     const cs_world world = {nodes,    triangles, faces,  vertices, materials,
@@ -64,7 +65,7 @@ __kernel void cs_render(const cs_frame frame, __global cs_pixel *pixels, __globa
     for (u32 block = frame.first_block; block < frame.last_block; block += CS_FLUSH_BLOCKS) {
         u32 end = min(block + (u32)CS_FLUSH_BLOCKS, frame.last_block) * (u32)CS_BLOCK;
         cs_gather gather;
-        cs_sample(&frame, &world, rows, &place, block * (u32)CS_BLOCK, end, &gather);
+        cs_sample(&frame, &world, rows, table, &place, block * (u32)CS_BLOCK, end, &gather);
         cs_merge_gather(pixel, &gather);
     }
     if (frame.last_block == frame.pattern.blocks) cs_finish_pattern(pixel);

@@ -29,7 +29,16 @@ enum {
 
 enum {
     CS_APERTURE_DISK = 0,
-    CS_APERTURE_SQUARE = 1
+    CS_APERTURE_SQUARE = 1,
+    CS_APERTURE_POLYGON = 2, /* convex: tabulated by its chords */
+    CS_APERTURE_IMAGE = 3    /* texels of different brightness */
+};
+
+/* The table that belongs to a cs_optics: the filter's steps, then rows of floats, each of them a
+ * segment of a profile (cl/profile.h). */
+enum {
+    CS_FILTER_STEPS = 16,
+    CS_PROFILE_COLUMNS = 8
 };
 
 enum {
@@ -114,6 +123,21 @@ typedef struct cs_emitter {
 } cs_emitter;
 CS_SHARED_WORDS(cs_emitter, 16);
 
+/* Shape of the aperture and the pixel filter. Lens coordinates (u, v) are centred; one unit of them
+ * is cs_camera.aperture_width. */
+typedef struct cs_optics {
+    u32 aperture;         /* CS_APERTURE_ */
+    u32 closed;           /* box filter one pixel wide, square or disk: maps in closed form */
+    f32 squeeze;          /* width of the aperture as a part of what its shape says */
+    u32 filter_steps;     /* the filter is constant on each of these parts of its width */
+    f32 filter_width;     /* px */
+    f32 filter_deviation; /* standard deviation, px */
+    u32 segments[2];      /* of the profiles of u and of v given u, where they are tabulated */
+    f32 reach[2];         /* largest |u| and |v| */
+    f32 deviation[2];     /* standard deviations of u and v */
+} cs_optics;
+CS_SHARED_WORDS(cs_optics, 12);
+
 /* Pinhole frame and thin lens. World units; unit vectors. */
 typedef struct cs_camera {
     f32 eye[3];
@@ -122,11 +146,11 @@ typedef struct cs_camera {
     f32 forward[3];
     f32 focal_distance;
     f32 pixel_width;    /* of one pixel on the focal plane */
-    f32 aperture_width; /* side of the square aperture; of the square as large as a disk aperture */
-    u32 aperture;       /* CS_APERTURE_ */
+    f32 aperture_width; /* side of a square or image aperture; of the square as large as others */
     f32 centre_px[2];   /* raster coordinates of the optical axis */
+    cs_optics optics;
 } cs_camera;
-CS_SHARED_WORDS(cs_camera, 18);
+CS_SHARED_WORDS(cs_camera, 29);
 
 /* What one pixel has gathered. Channels are linear Rec.709 radiance. */
 typedef struct cs_pixel {

@@ -14,6 +14,7 @@
 #define CS_SHEAR_H
 
 #include "disk_fibre.h"
+#include "fibre.h"
 #include "packet.h"
 #include "shared.h"
 
@@ -58,39 +59,52 @@ static inline vfloat cs_trapezoid(vfloat across, vfloat along, f32 blur, vfloat 
 /* Blurs below this are in focus: the pixel's own width hides them, and the maps divide by them. */
 #define CS_LEAST_BLUR 1e-5f
 
-static inline cs_film_lens cs_equal_area_square(vfloat a, vfloat b, vfloat c, vfloat d, f32 shear)
+/* Widths of the blur along both axes, pixels per unit of the lens coordinates, above 0. */
+typedef struct cs_blur {
+    f32 x;
+    f32 y;
+    f32 sign; /* of the shear */
+} cs_blur;
+
+static inline cs_blur cs_blur_of(f32 shear, f32 squeeze)
 {
-    f32 blur = shear < 0.0f ? -shear : shear;
-    blur = cs_max(blur, CS_LEAST_BLUR);
-    f32 sign = shear < 0.0f ? -1.0f : 1.0f;
+    cs_blur blur;
+    blur.sign = shear < 0.0f ? -1.0f : 1.0f;
+    blur.y = blur.sign * shear;
+    blur.x = cs_max(blur.y * squeeze, CS_LEAST_BLUR);
+    blur.y = cs_max(blur.y, CS_LEAST_BLUR);
+    return blur;
+}
+
+static inline cs_film_lens cs_equal_area_square(vfloat a, vfloat b, vfloat c, vfloat d,
+                                                cs_blur blur)
+{
     cs_film_lens point;
-    point.u = sign * (cs_trapezoid(a, c, blur, &point.x) - 0.5f);
-    point.v = sign * (cs_trapezoid(b, d, blur, &point.y) - 0.5f);
+    point.u = blur.sign * (cs_trapezoid(a, c, blur.x, &point.x) - 0.5f);
+    point.v = blur.sign * (cs_trapezoid(b, d, blur.y, &point.y) - 0.5f);
     return point;
 }
 
 /* The disk is not separable: Rosenblatt's transform in the order t_x, t_y | t_x, u | t, v | t, u.
  * t_y and u are solved for in mirror images with b <= 1/2 and c <= 1/2. */
-static inline cs_film_lens cs_equal_area_disk(vfloat a, vfloat b, vfloat c, vfloat d, f32 shear)
+static inline cs_film_lens cs_equal_area_disk(vfloat a, vfloat b, vfloat c, vfloat d, cs_blur blur)
 {
-    f32 blur = shear < 0.0f ? -shear : shear;
-    blur = blur < CS_LEAST_BLUR ? CS_LEAST_BLUR : blur;
-    f32 sign = shear < 0.0f ? -1.0f : 1.0f;
-    f32 inverse = 1.0f / blur;
+    f32 inverse_x = 1.0f / blur.x;
+    f32 inverse_y = 1.0f / blur.y;
     vint mirror_y = b > 0.5f;
     vint mirror_x = c > 0.5f;
 
-    vfloat t_x = cs_disk_fibre(a, blur); /* centred: x - 1/2 + blur * u */
-    vfloat low = cs_max((t_x - 0.5f) * inverse, (vfloat)(-CS_DISK_RADIUS));
-    vfloat high = cs_min((t_x + 0.5f) * inverse, (vfloat)(CS_DISK_RADIUS));
+    vfloat t_x = cs_disk_fibre(a, blur.x); /* centred: x - 1/2 + blur * u */
+    vfloat low = cs_max((t_x - 0.5f) * inverse_x, (vfloat)(-CS_DISK_RADIUS));
+    vfloat high = cs_min((t_x + 0.5f) * inverse_x, (vfloat)(CS_DISK_RADIUS));
     cs_disk_window window;
-    window.blur = blur;
+    window.blur = blur.y;
     window.slab = cs_disk_slab_of(low, high);
     vfloat half_slab = cs_max(cs_disk_half_slab(window.slab), (vfloat)(1e-12f));
     vfloat below = cs_max(mirror_y ? 1.0f - b : b, (vfloat)(1e-9f));
-    vfloat t_y = cs_disk_slab_fibre(below, window.slab, half_slab, blur);
-    window.bottom = (t_y - 0.5f) * inverse;
-    window.top = (t_y + 0.5f) * inverse;
+    vfloat t_y = cs_disk_slab_fibre(below, window.slab, half_slab, blur.y);
+    window.bottom = (t_y - 0.5f) * inverse_y;
+    window.top = (t_y + 0.5f) * inverse_y;
     vfloat area = cs_disk_window_area(window, half_slab);
 
     vfloat reach = cs_disk_chord(cs_min(window.top, (vfloat)(0.0f)));
@@ -101,25 +115,62 @@ static inline cs_film_lens cs_equal_area_disk(vfloat a, vfloat b, vfloat c, vflo
     u = mirror_x ? -u : u;
     vfloat least = cs_max(-chord, window.bottom);
     vfloat v = least + cs_disk_window_height(window, chord) * (mirror_y ? 1.0f - d : d);
-    vfloat y = t_y - blur * v;
+    vfloat y = t_y - blur.y * v;
 
     cs_film_lens point;
-    point.x = t_x - blur * u + 0.5f;
+    point.x = t_x - blur.x * u + 0.5f;
     point.y = (mirror_y ? -y : y) + 0.5f;
-    point.u = sign * u;
-    point.v = sign * (mirror_y ? -v : v);
+    point.u = blur.sign * u;
+    point.v = blur.sign * (mirror_y ? -v : v);
     return point;
 }
 
-/* Centred lens coordinates without any shear. */
-static inline cs_film_lens cs_unsheared(vfloat a, vfloat b, vfloat c, vfloat d, u32 aperture)
+/* Any aperture with any filter, in the order t_x, u | t_x, t_y | u, v | t_y, u: simpler than the
+ * disk's own map, but for a square of one chord everywhere the second pair moves t_y a little. */
+static inline cs_film_lens cs_equal_area_any(vfloat a, vfloat b, vfloat c, vfloat d,
+                                             const cs_optics *optics, cs_optics_table table,
+                                             cs_blur blur)
+{
+    int negative = blur.sign < 0.0f;
+    cs_profile across = cs_profile_across(optics, table);
+    cs_fibre_axis axis;
+    axis.optics = optics;
+    axis.table = table;
+    axis.profile = &across;
+    axis.blur = (vfloat)(blur.x);
+    axis.inverse = (vfloat)(1.0f / blur.x);
+    cs_film_lens point;
+    point.u = cs_fibre_map(axis, a, c, negative, &point.x);
+    cs_chord chord = cs_chord_at(optics, table, &across, point.u);
+    axis.profile = &chord.profile;
+    axis.blur = cs_max(blur.y * chord.length, (vfloat)(CS_LEAST_BLUR));
+    axis.inverse = 1.0f / axis.blur;
+    point.v = cs_fibre_map(axis, b, d, negative, &point.y);
+    point.v = chord.centre + chord.length * point.v;
+    point.x += 0.5f;
+    point.y += 0.5f;
+    return point;
+}
+
+/* Without any shear. */
+static inline cs_film_lens cs_unsheared(vfloat a, vfloat b, vfloat c, vfloat d,
+                                        const cs_optics *optics, cs_optics_table table)
 {
     cs_film_lens point;
     point.x = a;
     point.y = b;
     point.u = c - 0.5f;
     point.v = d - 0.5f;
-    if (aperture == CS_APERTURE_DISK) cs_disk_from_square(&point.u, &point.v);
+    if (optics->aperture == CS_APERTURE_DISK) cs_disk_from_square(&point.u, &point.v);
+    if (optics->closed) return point;
+    point.x = cs_filter_quantile(optics, table, a) + 0.5f;
+    point.y = cs_filter_quantile(optics, table, b) + 0.5f;
+    if (optics->aperture == CS_APERTURE_DISK || optics->aperture == CS_APERTURE_SQUARE)
+        return point;
+    cs_profile across = cs_profile_across(optics, table);
+    point.u = cs_profile_quantile(&across, c);
+    cs_chord chord = cs_chord_at(optics, table, &across, point.u);
+    point.v = chord.centre + chord.length * cs_profile_quantile(&chord.profile, d);
     return point;
 }
 
@@ -149,31 +200,38 @@ static inline vfloat cs_half_chord(vfloat other, u32 aperture)
     return cs_sqrt(cs_max(CS_DISK_RADIUS * CS_DISK_RADIUS - other * other, (vfloat)(0.0f)));
 }
 
-static inline cs_film_lens cs_toroidal(vfloat a, vfloat b, vfloat c, vfloat d, u32 aperture,
-                                       f32 shear)
+/* For closed optics only. */
+static inline cs_film_lens cs_toroidal(vfloat a, vfloat b, vfloat c, vfloat d,
+                                       const cs_optics *optics, cs_optics_table table, f32 shear)
 {
-    cs_film_lens point = cs_unsheared(a, b, c, d, aperture);
-    cs_toroidal_axis(&point.x, &point.u, cs_half_chord(point.v, aperture), shear);
+    u32 aperture = optics->aperture;
+    cs_film_lens point = cs_unsheared(a, b, c, d, optics, table);
+    cs_toroidal_axis(&point.x, &point.u, cs_half_chord(point.v, aperture), shear * optics->squeeze);
     cs_toroidal_axis(&point.y, &point.v, cs_half_chord(point.u, aperture), shear);
     return point;
 }
 
-/* `mode` is a CS_SHEAR_ constant, `shear` the signed circle of confusion in pixels. */
-static inline cs_film_lens cs_shear(vfloat a, vfloat b, vfloat c, vfloat d, u32 mode, u32 aperture,
-                                    f32 shear)
+/* `mode` is a CS_SHEAR_ constant, `shear` the signed circle of confusion in pixels per unit of v;
+ * `table` belongs to the optics and is not read where they are closed. */
+static inline cs_film_lens cs_shear(vfloat a, vfloat b, vfloat c, vfloat d, u32 mode,
+                                    const cs_optics *optics, cs_optics_table table, f32 shear)
 {
     cs_film_lens point;
+    cs_blur blur = cs_blur_of(shear, optics->squeeze);
     if (mode == CS_SHEAR_NONE)
-        point = cs_unsheared(a, b, c, d, aperture);
+        point = cs_unsheared(a, b, c, d, optics, table);
     else if (mode == CS_SHEAR_TOROIDAL)
-        point = cs_toroidal(a, b, c, d, aperture, shear);
-    else if (aperture == CS_APERTURE_SQUARE)
-        point = cs_equal_area_square(a, b, c, d, shear);
+        point = cs_toroidal(a, b, c, d, optics, table, shear);
+    else if (!optics->closed)
+        point = cs_equal_area_any(a, b, c, d, optics, table, blur);
+    else if (optics->aperture == CS_APERTURE_SQUARE)
+        point = cs_equal_area_square(a, b, c, d, blur);
     else
-        point = cs_equal_area_disk(a, b, c, d, shear);
-    vfloat last = (vfloat)(0.99999994f);
-    point.x = cs_clamp(point.x, (vfloat)(0.0f), last);
-    point.y = cs_clamp(point.y, (vfloat)(0.0f), last);
+        point = cs_equal_area_disk(a, b, c, d, blur);
+    vfloat first = (vfloat)(0.5f - 0.5f * optics->filter_width);
+    vfloat last = (vfloat)(0.5f * optics->filter_width + 0.49999994f);
+    point.x = cs_clamp(point.x, first, last);
+    point.y = cs_clamp(point.y, first, last);
     return point;
 }
 

@@ -145,8 +145,24 @@ CLSHEAR_API void clshear_scene_free(clshear_scene *scene);
 
 typedef enum clshear_aperture {
     CLSHEAR_APERTURE_DISK = 0,
-    CLSHEAR_APERTURE_SQUARE = 1 /* side: twice the lens radius */
+    CLSHEAR_APERTURE_SQUARE = 1,  /* side: twice the lens radius */
+    CLSHEAR_APERTURE_POLYGON = 2, /* regular; corners at the lens radius */
+    CLSHEAR_APERTURE_IMAGE = 3    /* longer side: twice the lens radius */
 } clshear_aperture;
+
+/* How much light passes where, seen from behind the lens; rows from the top. What is blurred in the
+ * background has this shape, what is blurred in the foreground is turned by 180 degrees. */
+typedef struct clshear_aperture_image {
+    float *luminance; /* 0 or more, not all 0; only ratios count */
+    int width;        /* 1 to 256 each */
+    int height;
+} clshear_aperture_image;
+
+/* Reads the luminance of an image file, reduced to at most 256 x 256. Fails with a message that
+ * clshear_message(NULL) has. Start from zeros; free with clshear_aperture_image_free. */
+CLSHEAR_API clshear_status clshear_aperture_image_read(const char *path,
+                                                       clshear_aperture_image *image);
+CLSHEAR_API void clshear_aperture_image_free(clshear_aperture_image *image);
 
 typedef struct clshear_camera {
     float eye[3];
@@ -156,6 +172,10 @@ typedef struct clshear_camera {
     float lens_radius;    /* 0: pinhole; negative: not chosen yet */
     float focal_distance; /* camera depth of the focal plane; 0 or less: not chosen yet */
     clshear_aperture aperture;
+    int blades;                          /* corners of the polygon, 3 to 32 */
+    float blade_rotation_deg;            /* anticlockwise as seen; at 0 a corner is on the right */
+    const clshear_aperture_image *image; /* of an image aperture; of the caller */
+    float anamorphic;                    /* the aperture is this many times narrower; 0: not */
 } clshear_camera;
 
 /* The file's camera, or one that frames the bounding box from the front (up = +Y, looking down -Z)
@@ -246,6 +266,15 @@ typedef enum clshear_oracle {
                                 best; fewer than 64 samples per pixel: centre */
 } clshear_oracle;
 
+/* How a pixel weighs what is around its centre. All are positive, and constant on 16 parts of their
+ * width (a box on one), with the filter's mean there. */
+typedef enum clshear_filter {
+    CLSHEAR_FILTER_BOX = 0,            /* usual width 1 px */
+    CLSHEAR_FILTER_TENT = 1,           /* 2 px */
+    CLSHEAR_FILTER_GAUSSIAN = 2,       /* 3 px: six standard deviations, less its value there */
+    CLSHEAR_FILTER_BLACKMAN_HARRIS = 3 /* 3 px; four terms */
+} clshear_filter;
+
 typedef struct clshear_progress {
     double fraction;      /* done, 0 to 1 */
     double samples_per_s; /* so far */
@@ -261,12 +290,14 @@ typedef struct clshear_options {
                             more give the variance of the result; 0: 2, or 1 for one sample */
     uint32_t seed;
     const char *sampler; /* a name from clshear_sampler_describe; NULL: the default */
-    clshear_shear shear;
+    clshear_shear shear; /* toroidal: of a disk or square with a box filter 1 px wide */
     clshear_oracle oracle;
-    int adaptive;   /* share samples out by what varies most; spp is the mean, from 128 on */
-    int gain;       /* also find out, at low cost, what the shear gains: channel Gain */
-    int lens_rays;  /* for the depths of a pixel, 0 to 256 */
-    int extendable; /* keep what `extend` will need: channels Pattern<replicate>.R/G/B */
+    clshear_filter filter; /* samples are drawn in proportion to it */
+    float filter_width_px; /* all of it, at most 64; 0: the usual */
+    int adaptive;          /* share samples out by what varies most; spp is the mean, from 128 on */
+    int gain;              /* also find out, at low cost, what the shear gains: channel Gain */
+    int lens_rays;         /* for the depths of a pixel, 0 to 256 */
+    int extendable;        /* keep what `extend` will need: channels Pattern<replicate>.R/G/B */
     const struct clshear_film *extend; /* go on with this render, made extendable with the same
                                           arguments but for spp; the sampler must be progressive */
     int (*progress)(void *user, const clshear_progress *progress); /* not 0: stop; may be NULL */

@@ -56,6 +56,11 @@ refuse 2 "--shear sideways: must be equal-area" -- "$cornell" --shear sideways
 refuse 2 "--packet 3: must be" -- "$cornell" --packet 3
 refuse 2 "--quiet takes no value" -- "$cornell" --quiet=yes
 refuse 2 "more than one scene" -- "$cornell" "$cornell"
+refuse 2 "--aperture heart: must be disk, square, polygon or an image file" -- "$cornell" --aperture heart
+refuse 2 "--blades 2: must be" -- "$cornell" --blades 2
+refuse 2 "--anamorphic 0: must be" -- "$cornell" --anamorphic 0
+refuse 2 "--filter lanczos: must be box" -- "$cornell" --filter lanczos
+refuse 2 "--filter-width 0: must be" -- "$cornell" --filter-width 0
 expect 2 "--out needs a value" -- "$cornell" --out
 expect 2 "picture.bmp: must be a name that ends in" -- "$cornell" --out picture.bmp
 
@@ -92,6 +97,24 @@ case $?$output in 1*"no OpenCL device found; install"*) ;; *) wrong "no driver: 
     refuse 2 "mine.flags:1: unknown flag --lens-raduis; did you mean --lens-radius?" -- \
         "$cornell" --settings mine.flags
     refuse 1 "gone.flags: cannot be read" -- "$cornell" --settings gone.flags
+}
+
+# Apertures and filters, with what tells them in the metadata.
+oiiotool --create 8x8 1 --fill:color=0 8x8 -o dark.exr --create 300x200 3 --fill:color=1,1,1 300x200 \
+    -o bright.exr
+# shellcheck disable=SC2086
+{
+    refuse 1 "gone.png" -- "$cornell" --quiet --aperture gone.png
+    refuse 1 "aperture image: all black" -- "$cornell" --quiet --aperture dark.exr
+    refuse 1 "the toroidal shear knows square and disk" -- "$cornell" --quiet --blades 5 --shear toroidal
+    expect 0 "" -- "$cornell" $small --quiet --aperture ./bright.exr --filter tent --out l.exr
+    expect 0 "" -- "$cornell" $small --quiet --aperture disk --blades 5 --blade-rotation 10 \
+        --anamorphic 2 --filter gaussian --filter-width 2.5 --out l.exr
+    info=$(oiiotool --info -v l.exr)
+    for word in 'aperture: "polygon"' 'blades: 5' 'bladeRotation: 10' 'anamorphic: 2' \
+        'filter: "gaussian"' 'filterWidth: 2.5'; do
+        case $info in *"clshear.$word"*) ;; *) wrong "no $word in the metadata" ;; esac
+    done
 }
 
 # A scene without camera, lens and light says what was chosen.

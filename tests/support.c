@@ -121,3 +121,18 @@ void test_draw(const test_pattern *pattern, u32 key, u32 index, f32 *tuple)
 {
     cs_draw(&pattern->pattern, pattern->rows.items, key, index, CS_DIMENSIONS / 2, tuple);
 }
+
+cs_optics_tables test_optics(const clshear_camera *camera, clshear_filter filter, float width_px)
+{
+    cs_error error;
+    cs_optics_tables tables = {0};
+    assert_int_equal(cs_optics_make(camera, filter, width_px, &tables, &error), CLSHEAR_OK);
+    return tables;
+}
+
+const clshear_aperture_image *test_aperture_image(void)
+{
+    static float luminance[5 * 4] = {0, 1, 0, 2, 3, 1, 4, 0, 0, 2, 0, 0, 0, 1, 1, 5, 2, 0, 0, 0};
+    static const clshear_aperture_image image = {luminance, 5, 4};
+    return &image;
+}

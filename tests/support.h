@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "clshear.h"
+#include "optics/optics.h"
 #include "pattern/pattern.h"
 
 /* A context on the first device; fails the test if there is none. */
@@ -45,6 +46,12 @@ typedef struct test_fixture {
 
 int test_open_cornell(void **state);
 int test_close(void **state);
+
+/* Aperture and filter; freed by cs_optics_free. */
+cs_optics_tables test_optics(const clshear_camera *camera, clshear_filter filter, float width_px);
+
+/* A small image without any symmetry, with a dark column and dark texels. */
+const clshear_aperture_image *test_aperture_image(void);
 
 /* A pattern with its table, to draw from on the host. */
 typedef struct test_pattern {

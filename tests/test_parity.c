@@ -15,27 +15,32 @@ enum {
 
 static cs_error error;
 
-static void run_points(cs_device *device, const cs_frame *frame, const cs_array *rows, u32 pixel,
-                       f32 shear, float *points)
+static void run_points(cs_device *device, const cs_frame *frame, const cs_array *rows,
+                       const cs_array *optics, u32 pixel, f32 shear, float *points)
 {
-    cs_buffer *buffer = NULL, *table = NULL;
+    cs_buffer *buffer = NULL, *table = NULL, *profiles = NULL;
     const u32 count = frame->pattern.grid.count, packet = (u32)cs_device_packet(device);
     const size_t size = count * CS_POINT_VALUES * sizeof(float);
     assert_int_equal(cs_buffer_create(device, size, NULL, &buffer, &error), CLSHEAR_OK);
     assert_int_equal(
         cs_buffer_create(device, rows->count * sizeof(u32), rows->items, &table, &error),
         CLSHEAR_OK);
+    assert_int_equal(
+        cs_buffer_create(device, optics->count * sizeof(f32), optics->items, &profiles, &error),
+        CLSHEAR_OK);
     const cs_argument arguments[] = {{.value = frame, .size = sizeof *frame},
                                      {.value = &pixel, .size = sizeof pixel},
                                      {.value = &shear, .size = sizeof shear},
                                      {.buffer = table},
+                                     {.buffer = profiles},
                                      {.buffer = buffer}};
     assert_int_equal(cs_device_run(device, CS_KERNEL_POINTS, (count + packet - 1) / packet,
-                                   arguments, 5, &error),
+                                   arguments, 6, &error),
                      CLSHEAR_OK);
     assert_int_equal(cs_buffer_read(buffer, 0, size, points, &error), CLSHEAR_OK);
     cs_buffer_free(buffer);
     cs_buffer_free(table);
+    cs_buffer_free(profiles);
 }
 
 /* Distance in the last place relative to 1: coordinates are sums and differences of such size. */
@@ -44,22 +49,36 @@ static double ulps(float a, float b)
     return fabs((double)a - (double)b) * 16777216.0;
 }
 
-static void compare(const cs_frame *frame, const test_pattern *drawn, u32 pixel, f32 shear,
-                    const float *points)
+static void compare(const cs_frame *frame, const test_pattern *drawn, const cs_array *optics,
+                    u32 pixel, f32 shear, const float *points)
 {
     const u32 key = cs_pattern_key(frame->seed, pixel, frame->replicate);
     for (u32 i = 0; i < frame->pattern.grid.count; i++) {
         const float *given = points + (size_t)CS_POINT_VALUES * i;
         f32 t[CS_DIMENSIONS];
         test_draw(drawn, key, i, t);
-        cs_film_lens p =
-            cs_shear(t[0], t[1], t[2], t[3], frame->shear_mode, frame->camera.aperture, shear);
+        cs_film_lens p = cs_shear(t[0], t[1], t[2], t[3], frame->shear_mode, &frame->camera.optics,
+                                  optics->items, shear);
         const float place[4] = {p.x, p.y, p.u, p.v};
         if (memcmp(given, t, sizeof t) != 0)
             fail_msg("%s: sample %u differs", cs_sampler_name(frame->pattern.sampler), i);
         for (u32 k = 0; k < 4; k++)
             assert_true(ulps(given[CS_DIMENSIONS + k], place[k]) <= 16.0);
     }
+}
+
+/* Square and disk with a box filter for all shears; besides them, for the equal-area shear, the
+ * other apertures and filters. */
+static cs_optics_tables optics_of(u32 variant)
+{
+    const u32 other = variant % 3 == CS_SHEAR_TOROIDAL ? 0 : variant / 6 % 5;
+    const clshear_camera camera = {.aperture =
+                                       (clshear_aperture)(other == 0 ? variant / 3 % 2 : other - 1),
+                                   .blades = 5,
+                                   .blade_rotation_deg = 11.0f,
+                                   .anamorphic = 1.5f,
+                                   .image = test_aperture_image()};
+    return test_optics(&camera, (clshear_filter)(other == 0 ? 0 : variant / 3 % 4), 0.0f);
 }
 
 static void host_equals_device(void **state)
@@ -77,13 +96,15 @@ static void host_equals_device(void **state)
                               .seed = variant,
                               .replicate = variant / 3,
                               .shear_mode = variant % 3};
-            frame.camera.aperture = variant / 3 % 2;
+            cs_optics_tables optics = optics_of(variant);
+            frame.camera.optics = optics.optics;
             float *points = malloc(drawn.pattern.grid.count * CS_POINT_VALUES * sizeof *points);
             const f32 shear = shears[variant / 6 % 4];
-            run_points(device, &frame, &drawn.rows, 1234u + variant, shear, points);
-            compare(&frame, &drawn, 1234u + variant, shear, points);
+            run_points(device, &frame, &drawn.rows, &optics.table, 1234u + variant, shear, points);
+            compare(&frame, &drawn, &optics.table, 1234u + variant, shear, points);
             free(points);
             test_pattern_free(&drawn);
+            cs_optics_free(&optics);
         }
         cs_device_close(device);
     }

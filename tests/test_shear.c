@@ -20,10 +20,22 @@ static f32 uniform(u32 index, u32 dimension)
     return (f32)(cs_key(cs_key(77, index), dimension) >> 8) * (1.0f / 16777216.0f);
 }
 
+/* A square or disk aperture with the usual pixel. */
+static cs_film_lens sheared(f32 a, f32 b, f32 c, f32 d, u32 mode, u32 aperture, f32 shear)
+{
+    static cs_optics_tables optics[APERTURES];
+    if (optics[aperture].table.items == NULL) {
+        const clshear_camera camera = {.aperture = (clshear_aperture)aperture};
+        optics[aperture] = test_optics(&camera, CLSHEAR_FILTER_BOX, 0.0f);
+    }
+    return cs_shear(a, b, c, d, mode, &optics[aperture].optics, optics[aperture].table.items,
+                    shear);
+}
+
 static cs_film_lens random_point(u32 i, u32 mode, u32 aperture, f32 shear)
 {
-    return cs_shear(uniform(i, 0), uniform(i, 1), uniform(i, 2), uniform(i, 3), mode, aperture,
-                    shear);
+    return sheared(uniform(i, 0), uniform(i, 1), uniform(i, 2), uniform(i, 3), mode, aperture,
+                   shear);
 }
 
 /* Points are in the pixel and on the lens. */
@@ -36,8 +48,8 @@ static void points_are_inside(void **state)
             for (int k = 0; k < SHEARS; k++)
                 for (u32 i = 0; i < 2256; i++) {
                     cs_film_lens p = i < 256
-                                         ? cs_shear(ends[i & 3], ends[i >> 2 & 3], ends[i >> 4 & 3],
-                                                    ends[i >> 6], mode, aperture, shears[k])
+                                         ? sheared(ends[i & 3], ends[i >> 2 & 3], ends[i >> 4 & 3],
+                                                   ends[i >> 6], mode, aperture, shears[k])
                                          : random_point(i, mode, aperture, shears[k]);
                     assert_true(p.x >= 0.0f && p.x < 1.0f && p.y >= 0.0f && p.y < 1.0f);
                     f32 radius = sqrtf(p.u * p.u + p.v * p.v);
@@ -135,11 +147,11 @@ static void first_pair_fixes_the_fibre(void **state)
             for (u32 aperture = 0; aperture < APERTURES; aperture++) {
                 f32 a = uniform(i, 0), b = uniform(i, 1);
                 cs_film_lens p =
-                    cs_shear(a, b, uniform(i, 2), uniform(i, 3), CS_SHEAR_EQUAL_AREA, aperture, s);
+                    sheared(a, b, uniform(i, 2), uniform(i, 3), CS_SHEAR_EQUAL_AREA, aperture, s);
                 cs_film_lens q =
-                    cs_shear(a, b, uniform(i, 4), uniform(i, 5), CS_SHEAR_EQUAL_AREA, aperture, s);
-                cs_film_lens r = cs_shear(a, uniform(i, 6), uniform(i, 4), uniform(i, 5),
-                                          CS_SHEAR_EQUAL_AREA, aperture, s);
+                    sheared(a, b, uniform(i, 4), uniform(i, 5), CS_SHEAR_EQUAL_AREA, aperture, s);
+                cs_film_lens r = sheared(a, uniform(i, 6), uniform(i, 4), uniform(i, 5),
+                                         CS_SHEAR_EQUAL_AREA, aperture, s);
                 assert_true(fabsf((p.x + s * p.u) - (q.x + s * q.u)) < tolerance);
                 assert_true(fabsf((p.y + s * p.v) - (q.y + s * q.v)) < tolerance);
                 assert_true(fabsf((p.x + s * p.u) - (r.x + s * r.u)) < tolerance);
@@ -179,7 +191,8 @@ static void disk_fibre_is_a_quantile(void **state)
         for (u32 i = 0; i < 60; i++) {
             const f32 s = blurs[k];
             f32 a = 0.01f + 0.98f * uniform(i, 0), b = uniform(i, 1);
-            cs_film_lens p = cs_equal_area_disk(a, b, uniform(i, 2), uniform(i, 3), s);
+            cs_film_lens p =
+                cs_equal_area_disk(a, b, uniform(i, 2), uniform(i, 3), cs_blur_of(s, 1.0f));
             double t_x = (double)p.x - 0.5 + (double)s * p.u;
             double t_y = (double)p.y - 0.5 + (double)s * p.v;
             assert_true(fabs(fibre_share(t_x, t_y, s) - b) < 2e-5);
@@ -195,8 +208,8 @@ static void equal_area_has_no_seams(void **state)
             const f32 s = shears[k], span = 1.0f + fabsf(s) * 1.2f;
             f32 before = -INFINITY;
             for (u32 i = 0; i < 4096; i++) {
-                cs_film_lens p = cs_shear(((f32)i + 0.5f) / 4096.0f, 0.5f, 0.3f, 0.7f,
-                                          CS_SHEAR_EQUAL_AREA, aperture, s);
+                cs_film_lens p = sheared(((f32)i + 0.5f) / 4096.0f, 0.5f, 0.3f, 0.7f,
+                                         CS_SHEAR_EQUAL_AREA, aperture, s);
                 f32 t = p.x + s * p.u;
                 assert_true(t > before - 1e-5f * span);
                 if (i > 0) assert_true(t - before < 0.05f * span);
@@ -212,7 +225,7 @@ static void toroidal_slides_along_fibres(void **state)
     for (u32 i = 0; i < 1000; i++) {
         const f32 s = 0.8f;
         f32 a = uniform(i, 0), c = uniform(i, 2);
-        cs_film_lens p = cs_shear(a, 0.5f, c, 0.5f, CS_SHEAR_TOROIDAL, CS_APERTURE_SQUARE, s);
+        cs_film_lens p = sheared(a, 0.5f, c, 0.5f, CS_SHEAR_TOROIDAL, CS_APERTURE_SQUARE, s);
         f32 t = p.x + s * p.u;
         f32 wrapped = t - a - roundf(t - a);
         assert_true(fabsf(wrapped) < 1e-5f);
@@ -241,7 +254,7 @@ static void disk_functions_invert(void **state)
 }
 
 /* The thin lens in words: all rays of a raster point meet on the focal plane, and a point at depth
- * z seen through (x, u) appears, through the lens centre, at x + shear * u. */
+ * z seen through (x, u) appears, through the lens centre, at x + shear * squeeze * u. */
 static void lens_agrees_with_shear(void **state)
 {
     (void)state;
@@ -252,6 +265,7 @@ static void lens_agrees_with_shear(void **state)
                               .focal_distance = 4.0f,
                               .pixel_width = 0.01f,
                               .aperture_width = 0.3f,
+                              .optics = {.squeeze = 0.5f},
                               .centre_px = {256, 256}};
     const f32 depths[] = {0.7f, 2.0f, 4.0f, 9.0f, 50.0f};
     for (int k = 0; k < 5; k++)
@@ -263,7 +277,7 @@ static void lens_agrees_with_shear(void **state)
             f32 down = camera.eye[1] - ray.origin[1] - z * ray.direction[1];
             f32 scale = camera.focal_distance / z / camera.pixel_width;
             f32 shear = cs_shear_of_depth(camera, z);
-            assert_true(fabsf(256.0f + right * scale - (x + shear * u)) < 2e-3f);
+            assert_true(fabsf(256.0f + right * scale - (x + 0.5f * shear * u)) < 2e-3f);
             assert_true(fabsf(256.0f + down * scale - (y + shear * v)) < 2e-3f);
             assert_true(fabsf(ray.origin[2] + z * ray.direction[2] - (camera.eye[2] - z)) < 1e-4f);
         }

@@ -49,7 +49,7 @@ static void measure(u32 sampler, u32 size, u32 *count, double *variance)
     for (u32 t = 0; t < REPLICATES; t++) {
         double sum[INTEGRANDS] = {0};
         for (u32 i = 0; i < *count; i++) {
-            f32 tuple[CS_DIMENSIONS];
+            f32 tuple[CS_DIMENSIONS] = {0};
             double values[INTEGRANDS];
             cs_draw(&drawn.pattern, drawn.rows.items, cs_pattern_key(11, t, 0), i, 2, tuple);
             integrands(tuple, values);

@@ -170,7 +170,8 @@ static void hits_equal_embree(void **state)
         fixture made;
         u32 wrong = 0, seen = 0;
         build(&made, meshes[k], 60000);
-        assert_int_equal(cs_accel_depth(made.accel, &camera, window, 0, depth, &error), CLSHEAR_OK);
+        assert_int_equal(cs_accel_depth(made.accel, &camera, NULL, window, 0, depth, &error),
+                         CLSHEAR_OK);
         for (u32 i = 0; i < RAYS; i++) {
             const float direction[3] = {((f32)(i % 256) + 0.5f - 128.0f) * camera.pixel_width,
                                         -((f32)(i / 256) + 0.5f - 128.0f) * camera.pixel_width,

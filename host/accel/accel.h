@@ -38,11 +38,12 @@ typedef struct cs_depth {
 } cs_depth;
 
 /* Depths of the pixels of a window, row by row, from a centre ray and `lens_rays` others each (0:
- * the statistics repeat the centre). window: x0, x1, y0, y1; at most CS_MOST_LENS_RAYS. */
+ * the statistics repeat the centre; the optics are not used). optics: their table. window: x0, x1,
+ * y0, y1; at most CS_MOST_LENS_RAYS. */
 enum {
     CS_MOST_LENS_RAYS = 256
 };
-clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const int *window,
-                              int lens_rays, cs_depth *depth, cs_error *error);
+clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const f32 *optics,
+                              const int *window, int lens_rays, cs_depth *depth, cs_error *error);
 
 #endif

@@ -16,6 +16,7 @@ enum {
 typedef struct prepass {
     const cs_accel *accel;
     const cs_camera *camera;
+    const f32 *optics;
     const int *window;
     cs_pattern pattern; /* of the lens rays */
     const u32 *rows;
@@ -87,7 +88,8 @@ static void depths_of_pixel(const prepass *work, u32 x, u32 y, cs_depth *depth)
         for (; count < WIDTH && first + count < work->lens_rays; count++) {
             f32 t[CS_DIMENSIONS] = {0};
             cs_draw(&work->pattern, work->rows, key, first + count, 2, t);
-            const cs_film_lens p = cs_unsheared(t[0], t[1], t[2], t[3], work->camera->aperture);
+            const cs_film_lens p =
+                cs_unsheared(t[0], t[1], t[2], t[3], &work->camera->optics, work->optics);
             rays[count] = cs_lens_ray(*work->camera, (f32)x + p.x, (f32)y + p.y, p.u, p.v);
         }
         trace(work->accel, rays, (int)count, all + first);
@@ -124,14 +126,15 @@ static void depths_of_range(void *user, size_t begin, size_t end)
     }
 }
 
-clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const int *window,
-                              int lens_rays, cs_depth *depth, cs_error *error)
+clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const f32 *optics,
+                              const int *window, int lens_rays, cs_depth *depth, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_array rows = {0};
     const size_t count = (size_t)(window[1] - window[0]) * (size_t)(window[3] - window[2]);
     prepass work = {.accel = accel,
                     .camera = camera,
+                    .optics = optics,
                     .window = window,
                     .lens_rays = (u32)lens_rays,
                     .depth = depth};

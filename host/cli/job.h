@@ -41,6 +41,10 @@ typedef struct cli_job {
     int focus_pixel_given;
     int focus_pixel[2];
     clshear_aperture aperture;
+    const char *aperture_file; /* of an image aperture, else NULL */
+    clshear_aperture_image aperture_image;
+    int blades;
+    float blade_rotation_deg, anamorphic;
     clshear_light lights[CLI_MAX_LIGHTS];
     int light_count;
     int quiet, stats, help, version, list_devices, list_samplers;

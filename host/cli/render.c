@@ -111,6 +111,10 @@ static clshear_status choose_camera(const cli_job *job, const clshear_scene *sce
     override_vector(&job->up, camera->up);
     if (job->fov.given) camera->fov_deg = job->fov.value;
     camera->aperture = job->aperture;
+    camera->image = &job->aperture_image;
+    camera->blades = job->blades;
+    camera->blade_rotation_deg = job->blade_rotation_deg;
+    camera->anamorphic = job->anamorphic;
     if (job->f_stop.given)
         camera->lens_radius = clshear_lens_radius(camera, job->f_stop.value, job->unit_m.value);
     if (job->lens_radius.given) camera->lens_radius = job->lens_radius.value;
@@ -269,13 +273,18 @@ static int run(cli_job *job, const char *command)
     if (code != CLI_DONE) return code;
     job->context.warn = warn;
     job->context.warn_user = job;
-    if (clshear_context_create(&job->context, &context) != CLSHEAR_OK) return fail(NULL);
-    if (clshear_scene_load(context, job->scene, &scene) != CLSHEAR_OK)
+    if (job->aperture_file != NULL &&
+        clshear_aperture_image_read(job->aperture_file, &job->aperture_image) != CLSHEAR_OK)
+        return fail(NULL);
+    if (clshear_context_create(&job->context, &context) != CLSHEAR_OK)
+        code = fail(NULL);
+    else if (clshear_scene_load(context, job->scene, &scene) != CLSHEAR_OK)
         code = fail(context);
     else
         code = render(job, context, scene, command);
     clshear_scene_free(scene);
     clshear_context_free(context);
+    clshear_aperture_image_free(&job->aperture_image);
     return code;
 }
 

@@ -3,18 +3,7 @@
 
 #include <string.h>
 
-static const char *vector(cli_vector *target, const char *value)
-{
-    target->given = 1;
-    return cli_read_floats(value, 3, target->value) ? NULL : "three numbers, x,y,z";
-}
-
-static const char *positive(cli_number *target, const char *value)
-{
-    target->given = 1;
-    return cli_read_floats(value, 1, &target->value) && target->value > 0.0f ? NULL
-                                                                             : "a number above 0";
-}
+#include "cli/camera_flags.h"
 
 static const char *store_out(void *target, const char *value)
 {
@@ -66,6 +55,27 @@ static const char *store_oracle(void *target, const char *value)
             return NULL;
         }
     return "pilot, centre, median, near or far";
+}
+
+static const char *store_filter(void *target, const char *value)
+{
+    static const char *const names[] = {"box", "tent", "gaussian", "blackman-harris"};
+    cli_job *job = target;
+    for (int i = 0; i < 4; i++)
+        if (strcmp(value, names[i]) == 0) {
+            job->options.filter = (clshear_filter)i;
+            return NULL;
+        }
+    return "box, tent, gaussian or blackman-harris";
+}
+
+static const char *store_filter_width(void *target, const char *value)
+{
+    cli_job *job = target;
+    float *width = &job->options.filter_width_px;
+    return cli_read_floats(value, 1, width) && *width >= 0.01f && *width <= 64.0f
+               ? NULL
+               : "pixels, 0.01 to 64";
 }
 
 static const char *store_adaptive(void *target, const char *value)
@@ -127,81 +137,6 @@ static const char *store_crop(void *target, const char *value)
     return cli_read_ints(value, 4, 0, 65536, crop) && crop[0] < crop[1] && crop[2] < crop[3]
                ? NULL
                : "x0,x1,y0,y1 in pixels, x0 < x1 and y0 < y1";
-}
-
-static const char *store_eye(void *target, const char *value)
-{
-    cli_job *job = target;
-    return vector(&job->eye, value);
-}
-
-static const char *store_target(void *target, const char *value)
-{
-    cli_job *job = target;
-    return vector(&job->target, value);
-}
-
-static const char *store_up(void *target, const char *value)
-{
-    cli_job *job = target;
-    return vector(&job->up, value);
-}
-
-static const char *store_fov(void *target, const char *value)
-{
-    cli_job *job = target;
-    const char *wanted = positive(&job->fov, value);
-    return wanted == NULL && job->fov.value < 180.0f ? NULL : "degrees above 0 and below 180";
-}
-
-static const char *store_lens_radius(void *target, const char *value)
-{
-    cli_job *job = target;
-    job->lens_radius.given = 1;
-    job->f_stop.given = 0; /* the last word on a thing counts */
-    return cli_read_floats(value, 1, &job->lens_radius.value) && job->lens_radius.value >= 0.0f
-               ? NULL
-               : "a number, 0 or more";
-}
-
-static const char *store_focal_distance(void *target, const char *value)
-{
-    cli_job *job = target;
-    job->focus_pixel_given = 0;
-    return positive(&job->focal_distance, value);
-}
-
-static const char *store_f_stop(void *target, const char *value)
-{
-    cli_job *job = target;
-    job->lens_radius.given = 0;
-    return positive(&job->f_stop, value);
-}
-
-static const char *store_unit(void *target, const char *value)
-{
-    cli_job *job = target;
-    return positive(&job->unit_m, value);
-}
-
-static const char *store_focus_pixel(void *target, const char *value)
-{
-    cli_job *job = target;
-    job->focus_pixel_given = 1;
-    job->focal_distance.given = 0;
-    return cli_read_ints(value, 2, 0, 65535, job->focus_pixel) ? NULL : "x,y in pixels";
-}
-
-static const char *store_aperture(void *target, const char *value)
-{
-    cli_job *job = target;
-    if (strcmp(value, "disk") == 0)
-        job->aperture = CLSHEAR_APERTURE_DISK;
-    else if (strcmp(value, "square") == 0)
-        job->aperture = CLSHEAR_APERTURE_SQUARE;
-    else
-        return "square or disk";
-    return NULL;
 }
 
 static const char *store_light(void *target, const char *value)
@@ -311,17 +246,23 @@ static const cli_flag flags[] = {
     {"width", "PX", "image width (512)", store_width},
     {"height", "PX", "image height (512)", store_height},
     {"crop", "X0,X1,Y0,Y1", "render these pixels only", store_crop},
-    {"eye", "X,Y,Z", "camera position", store_eye},
-    {"target", "X,Y,Z", "what the camera looks at", store_target},
-    {"up", "X,Y,Z", "which way is up", store_up},
-    {"fov", "DEG", "field of view along the shorter image axis", store_fov},
+    {"eye", "X,Y,Z", "camera position", cli_store_eye},
+    {"target", "X,Y,Z", "what the camera looks at", cli_store_target},
+    {"up", "X,Y,Z", "which way is up", cli_store_up},
+    {"fov", "DEG", "field of view along the shorter image axis", cli_store_fov},
     {"lens-radius aperture-radius", "R", "lens radius in scene units; 0: pinhole",
-     store_lens_radius},
-    {"focal-distance focus-distance", "D", "depth of the plane in focus", store_focal_distance},
-    {"fstop", "N", "lens radius as f-number of a full-frame camera", store_f_stop},
-    {"unit", "METRES", "length of a scene unit, for --fstop (1)", store_unit},
-    {"focus-pixel", "X,Y", "focus on what this pixel sees", store_focus_pixel},
-    {"aperture", "SHAPE", "square or disk (disk)", store_aperture},
+     cli_store_lens_radius},
+    {"focal-distance focus-distance", "D", "depth of the plane in focus", cli_store_focal_distance},
+    {"fstop", "N", "lens radius as f-number of a full-frame camera", cli_store_f_stop},
+    {"unit", "METRES", "length of a scene unit, for --fstop (1)", cli_store_unit},
+    {"focus-pixel", "X,Y", "focus on what this pixel sees", cli_store_focus_pixel},
+    {"aperture", "SHAPE", "disk, square, polygon or an image file (disk)", cli_store_aperture},
+    {"blades", "N", "a polygon with N corners (6)", cli_store_blades},
+    {"blade-rotation", "DEG", "turn the polygon (0: a corner on the right)",
+     cli_store_blade_rotation},
+    {"anamorphic", "RATIO", "aperture narrower by this (1)", cli_store_anamorphic},
+    {"filter", "KIND", "box, tent, gaussian or blackman-harris (box)", store_filter},
+    {"filter-width", "PX", "all of it (box 1, tent 2, others 3)", store_filter_width},
     {"light", "X,Y,Z,R,G,B", "add a point light; repeatable", store_light},
     {"settings", "FILE", "read flags from FILE (SCENE.flags if it exists)", store_settings},
     {"device", "NAME", "OpenCL device: number or part of its name", store_device},
@@ -351,5 +292,7 @@ cli_job cli_job_defaults(void)
 {
     cli_job job = {.context = clshear_context_defaults(), .options = clshear_options_defaults()};
     job.unit_m.value = 1.0f;
+    job.blades = 6;
+    job.anamorphic = 1.0f;
     return job;
 }

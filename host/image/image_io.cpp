@@ -64,8 +64,9 @@ ImageBuf linear_rgba(const ImageBuf &source)
     return OIIO::ImageBufAlgo::colorconvert(rgba, "sRGB", "linear", false);
 }
 
-clshear_status read_texels(const char *path, const void *memory, size_t size, cs_texels *texels,
-                           cs_error *error)
+/* A file, or `memory` if that is not null, as linear RGBA. */
+clshear_status read_rgba(const char *path, const void *memory, size_t size, ImageBuf &rgba,
+                         cs_error *error)
 {
     forget(path);
     OIIO::Filesystem::IOMemReader reader(const_cast<void *>(memory), size);
@@ -73,10 +74,19 @@ clshear_status read_texels(const char *path, const void *memory, size_t size, cs
     if (!source.read(0, 0, true, TypeDesc::FLOAT))
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,
                        first_line(source.geterror()).c_str());
-    const ImageBuf rgba = linear_rgba(source);
+    rgba = linear_rgba(source);
     if (rgba.has_error())
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,
                        first_line(rgba.geterror()).c_str());
+    return CLSHEAR_OK;
+}
+
+clshear_status read_texels(const char *path, const void *memory, size_t size, cs_texels *texels,
+                           cs_error *error)
+{
+    ImageBuf rgba;
+    clshear_status status = read_rgba(path, memory, size, rgba, error);
+    if (status != CLSHEAR_OK) return status;
     const size_t width = static_cast<size_t>(rgba.spec().width);
     const size_t height = static_cast<size_t>(rgba.spec().height);
     auto *halves = static_cast<uint16_t *>(std::malloc(width * height * 4 * sizeof(uint16_t)));
@@ -89,6 +99,32 @@ clshear_status read_texels(const char *path, const void *memory, size_t size, cs
     texels->width = static_cast<uint32_t>(width);
     texels->height = static_cast<uint32_t>(height);
     texels->halves = halves;
+    return CLSHEAR_OK;
+}
+
+/* Whole numbers of texels become one, by their mean: light is kept. */
+clshear_status read_luminance(const char *path, int most, float **luminance, int *width,
+                              int *height, cs_error *error)
+{
+    ImageBuf rgba;
+    clshear_status status = read_rgba(path, nullptr, 0, rgba, error);
+    if (status != CLSHEAR_OK) return status;
+    const int full_width = rgba.spec().width, full_height = rgba.spec().height;
+    const int longer = full_width > full_height ? full_width : full_height;
+    const int step = (longer + most - 1) / most;
+    *width = (full_width + step - 1) / step;
+    *height = (full_height + step - 1) / step;
+    const size_t row = static_cast<size_t>(*width);
+    auto *sums =
+        static_cast<float *>(std::calloc(row * static_cast<size_t>(*height), sizeof(float)));
+    if (sums == nullptr) throw std::bad_alloc();
+    for (ImageBuf::ConstIterator<float> texel(rgba); !texel.done(); ++texel) {
+        const float value = 0.2126f * texel[0] + 0.7152f * texel[1] + 0.0722f * texel[2];
+        const auto x = static_cast<size_t>((texel.x() - rgba.spec().x) / step);
+        const auto y = static_cast<size_t>((texel.y() - rgba.spec().y) / step);
+        if (value > 0.0f) sums[y * row + x] += value;
+    }
+    *luminance = sums;
     return CLSHEAR_OK;
 }
 
@@ -277,6 +313,13 @@ extern "C" clshear_status cs_image_read_texels(const char *path, const void *mem
                                                cs_texels *texels, cs_error *error)
 {
     return guarded(path, error, [&] { return read_texels(path, memory, size, texels, error); });
+}
+
+clshear_status cs_image_read_luminance(const char *path, int most, float **luminance, int *width,
+                                       int *height, cs_error *error)
+{
+    return guarded(path, error,
+                   [&] { return read_luminance(path, most, luminance, width, height, error); });
 }
 
 extern "C" clshear_status cs_image_read(const char *path, cs_loaded_picture *loaded,

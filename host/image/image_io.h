@@ -23,6 +23,11 @@ typedef struct cs_texels {
 clshear_status cs_image_read_texels(const char *path, const void *memory, size_t size,
                                     cs_texels *texels, cs_error *error);
 
+/* Luminance of an image, linear, negative values as 0, reduced to at most `most` texels a side.
+ * `luminance` is owned by the caller; free(). */
+clshear_status cs_image_read_luminance(const char *path, int most, float **luminance, int *width,
+                                       int *height, cs_error *error);
+
 typedef enum cs_attribute_kind {
     CS_ATTRIBUTE_TEXT,
     CS_ATTRIBUTE_INT,

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "optics/optics.h"
 #include "pattern/pattern.h"
 #include "points/points.h"
 #include "sampler/sampler.h"
@@ -79,14 +80,19 @@ clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear,
     if (!isfinite(shear_px) || (u32)shear > CLSHEAR_SHEAR_EQUAL_AREA)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "shear %d by %g pixels is not possible",
                        (int)shear, (double)shear_px);
+    const clshear_camera square = {.aperture = CLSHEAR_APERTURE_SQUARE};
+    cs_optics_tables optics = {0};
+    const clshear_status status = cs_optics_make(&square, CLSHEAR_FILTER_BOX, 0.0f, &optics, error);
+    if (status != CLSHEAR_OK) return status;
     for (size_t i = 0; i < points->sets * points->count; i++) {
         float *p = points->values + i * stride;
-        const cs_film_lens sheared =
-            cs_shear(p[0], p[1], p[2], p[3], (u32)shear, CS_APERTURE_SQUARE, shear_px);
+        const cs_film_lens sheared = cs_shear(p[0], p[1], p[2], p[3], (u32)shear, &optics.optics,
+                                              optics.table.items, shear_px);
         const float place[4] = {sheared.x, sheared.y, sheared.u + 0.5f, sheared.v + 0.5f};
         for (int d = 0; d < 4; d++)
             p[d] = cs_clamp(place[d], 0.0f, 0.99999994f);
     }
+    cs_optics_free(&optics);
     return CLSHEAR_OK;
 }
 

@@ -4,6 +4,7 @@
 
 #include "pattern/pattern.h"
 #include "render/job.h"
+#include "scene/camera.h"
 
 static clshear_status check_window(cs_job *job, cs_error *error)
 {
@@ -93,6 +94,22 @@ static clshear_status check_lens(const clshear_camera *camera, cs_error *error)
     return CLSHEAR_OK;
 }
 
+static clshear_status make_camera(cs_job *job, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const clshear_options *options = &job->options;
+    CS_TRY(
+        cs_optics_make(&job->lens, options->filter, options->filter_width_px, &job->optics, error));
+    CS_REQUIRE(options->shear != CLSHEAR_SHEAR_TOROIDAL || job->optics.optics.closed,
+               CLSHEAR_BAD_ARGUMENT,
+               "the toroidal shear knows square and disk apertures and box filters 1 px wide only; "
+               "use equal-area");
+    CS_TRY(cs_camera_frame(&job->lens, options->width, options->height, &job->camera, error));
+    job->camera.optics = job->optics.optics;
+done:
+    return status;
+}
+
 clshear_status cs_job_check(cs_job *job, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
@@ -100,6 +117,7 @@ clshear_status cs_job_check(cs_job *job, cs_error *error)
     CS_TRY(check_counts(&job->options, error));
     CS_TRY(choose_pattern(job, error));
     CS_TRY(check_lens(&job->lens, error));
+    CS_TRY(make_camera(job, error));
 done:
     return status;
 }

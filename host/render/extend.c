@@ -38,6 +38,7 @@ static void recipe_of(const cs_job *job, char *text, size_t size)
     const cs_scene *scene = &job->scene->scene;
     u32 camera = 0, light = 0, world = 0;
     add_words(&camera, &job->camera, sizeof job->camera);
+    add_array(&camera, &job->optics.table);
     add_array(&light, &scene->lights);
     add_array(&world, &scene->positions);
     add_array(&world, &scene->indices);

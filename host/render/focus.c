@@ -43,7 +43,7 @@ static clshear_status depth_at(const clshear_scene *scene, int width, int height
     status = cs_camera_frame(camera, width, height, &frame, error);
     cs_depth found;
     if (status == CLSHEAR_OK)
-        status = cs_accel_depth(scene->accel, &frame, window, 0, &found, error);
+        status = cs_accel_depth(scene->accel, &frame, NULL, window, 0, &found, error);
     if (status == CLSHEAR_OK) *depth = found.centre;
     return status;
 }

@@ -4,6 +4,7 @@
 
 #include "film/film.h"
 #include "frame.h"
+#include "optics/optics.h"
 #include "render/sweep.h"
 
 enum {
@@ -15,6 +16,8 @@ typedef struct cs_job {
     clshear_options options;
     clshear_camera lens; /* as the caller gave it */
     cs_camera camera;
+    cs_optics_tables optics;
+    cs_buffer *optics_table;
     cs_pattern pattern;
     int window[4]; /* x0, x1, y0, y1 */
     size_t pixel_count;
@@ -39,7 +42,8 @@ typedef struct cs_job {
     double kernel_s;
 } cs_job;
 
-/* Checks the options and the lens, and chooses window and pattern. */
+/* Checks the options and the lens, chooses window and pattern, and makes the optics and the frame.
+ */
 clshear_status cs_job_check(cs_job *job, cs_error *error);
 
 /* Depths, shears, batches and buffers. When it is cancelled, the job can still be resolved. */

@@ -15,6 +15,7 @@ cs_sweep cs_job_sweep(const cs_job *job)
                                 .shear_mode = (u32)job->options.shear,
                                 .lights = world->lights,
                                 .emitters = world->emitters},
+                      .optics = job->optics_table,
                       .start_s = cs_now_s(),
                       .rate = 1e5};
 }

@@ -22,6 +22,9 @@ static clshear_status reserve(cs_job *job, cs_error *error)
                CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", job->pixel_count);
     CS_TRY(
         cs_buffer_create(device, job->pixel_count * sizeof(cs_pixel), NULL, &job->pixels, error));
+    const cs_array *table = &job->optics.table;
+    CS_TRY(cs_buffer_create(device, table->count * table->item_size, table->items,
+                            &job->optics_table, error));
     CS_TRY(cs_extend_prepare(job, error));
 done:
     return status;
@@ -102,8 +105,8 @@ clshear_status cs_job_plan(cs_job *job, cs_error *error)
     clshear_status status = CLSHEAR_OK;
     const double start_s = cs_now_s();
     CS_TRY(reserve(job, error));
-    CS_TRY(cs_accel_depth(job->scene->accel, &job->camera, job->window, job->options.lens_rays,
-                          job->depth, error));
+    CS_TRY(cs_accel_depth(job->scene->accel, &job->camera, job->optics.table.items, job->window,
+                          job->options.lens_rays, job->depth, error));
     job->prepass_s = cs_now_s() - start_s;
     CS_TRY(choose_shears(job, error));
     if (job->options.gain) {
@@ -131,5 +134,7 @@ void cs_job_free(cs_job *job)
     for (size_t b = 0; b < job->batch_count; b++)
         cs_batch_free(&job->batches[b]);
     cs_buffer_free(job->pixels);
+    cs_buffer_free(job->optics_table);
+    cs_optics_free(&job->optics);
     cs_buffer_free(job->shears);
 }

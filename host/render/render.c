@@ -2,7 +2,6 @@
 #include "render/job.h"
 
 #include "render/extend.h"
-#include "scene/camera.h"
 
 clshear_options clshear_options_defaults(void)
 {
@@ -22,7 +21,6 @@ clshear_status clshear_render(clshear_scene *scene, const clshear_camera *camera
     const double start_s = cs_now_s();
     cs_job job = {.scene = scene, .options = *options, .lens = *camera};
     CS_TRY(cs_job_check(&job, error));
-    CS_TRY(cs_camera_frame(camera, options->width, options->height, &job.camera, error));
     CS_TRY(cs_extend_check(&job, error));
     passes = cs_job_plan(&job, error);
     if (passes == CLSHEAR_OK) passes = cs_job_run_passes(&job, error);

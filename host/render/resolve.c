@@ -153,9 +153,14 @@ static clshear_status describe(const cs_job *job, clshear_film *film)
     CS_TRY(clshear_film_annotate(film, "clshear.shear", shears[job->options.shear]));
     CS_TRY(clshear_film_annotate(film, "clshear.device", clshear_device_name(context)));
     CS_TRY(clshear_film_annotate(film, "clshear.driver", clshear_driver_name(context)));
-    CS_TRY(
-        clshear_film_annotate(film, "clshear.aperture",
-                              job->lens.aperture == CLSHEAR_APERTURE_SQUARE ? "square" : "disk"));
+    CS_TRY(clshear_film_annotate(film, "clshear.aperture", cs_aperture_name(job->lens.aperture)));
+    if (job->lens.aperture == CLSHEAR_APERTURE_POLYGON) {
+        CS_TRY(cs_film_set_int(film, "clshear.blades", job->lens.blades));
+        CS_TRY(cs_film_set_float(film, "clshear.bladeRotation", job->lens.blade_rotation_deg));
+    }
+    CS_TRY(cs_film_set_float(film, "clshear.anamorphic", 1.0f / job->camera.optics.squeeze));
+    CS_TRY(clshear_film_annotate(film, "clshear.filter", cs_filter_name(job->options.filter)));
+    CS_TRY(cs_film_set_float(film, "clshear.filterWidth", job->camera.optics.filter_width));
     CS_TRY(clshear_film_annotate(film, "clshear.oracle", rules[job->options.oracle]));
     CS_TRY(cs_film_set_int(film, "clshear.adaptive", job->options.adaptive != 0));
     CS_TRY(cs_film_set_int(film, "clshear.replicates", (int32_t)job->options.replicates));

@@ -38,14 +38,15 @@ static clshear_status launch(const cs_sweep *sweep, const cs_batch *batch, const
                              cs_error *error)
 {
     enum {
-        BEFORE_WORLD = 5
+        BEFORE_WORLD = 6
     };
     cs_argument arguments[BEFORE_WORLD + CS_WORLD_BUFFERS] = {
         {.value = frame, .size = sizeof *frame},
         {.buffer = sweep->pixels},
         {.buffer = batch->order},
         {.buffer = sweep->shears},
-        {.buffer = batch->rows}};
+        {.buffer = batch->rows},
+        {.buffer = sweep->optics}};
     for (int i = 0; i < CS_WORLD_BUFFERS; i++)
         arguments[BEFORE_WORLD + i].buffer = sweep->scene->world.buffers[i];
     return cs_device_run(sweep->scene->context->device, CS_KERNEL_RENDER, frame->pixel_count,

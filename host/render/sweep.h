@@ -17,6 +17,7 @@ typedef struct cs_batch {
 typedef struct cs_sweep {
     clshear_scene *scene;
     cs_frame frame;                 /* camera, seed, window, shear mode, lights */
+    const cs_buffer *optics;        /* their table */
     const cs_buffer *shears;        /* of every pixel of the window */
     cs_buffer *pixels;              /* cs_pixel */
     const clshear_options *options; /* whose callback is told; NULL: nobody */

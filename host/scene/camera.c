@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "optics/optics.h"
 #include "scene/node.h"
 
 static const float default_fov_deg = 40.0f;
@@ -111,6 +112,7 @@ clshear_status cs_camera_frame(const clshear_camera *camera, int width, int heig
                                cs_camera *frame, cs_error *error)
 {
     float up[3];
+    *frame = (cs_camera){0};
     memcpy(up, camera->up, sizeof up);
     for (int i = 0; i < 3; i++) {
         frame->eye[i] = camera->eye[i];
@@ -131,12 +133,10 @@ clshear_status cs_camera_frame(const clshear_camera *camera, int width, int heig
                        (double)camera->fov_deg);
     const int shorter = width < height ? width : height;
     const float radius = camera->lens_radius > 0.0f ? camera->lens_radius : 0.0f;
-    const int square = camera->aperture == CLSHEAR_APERTURE_SQUARE;
     frame->focal_distance = camera->focal_distance > 0.0f ? camera->focal_distance : 1.0f;
     frame->pixel_width =
         2.0f * frame->focal_distance * tanf(0.5f * camera->fov_deg * degrees) / (float)shorter;
-    frame->aperture = square ? CS_APERTURE_SQUARE : CS_APERTURE_DISK;
-    frame->aperture_width = radius * (square ? 2.0f : sqrtf(CS_PI));
+    frame->aperture_width = radius * cs_optics_unit(camera);
     frame->centre_px[0] = 0.5f * (float)width;
     frame->centre_px[1] = 0.5f * (float)height;
     return CLSHEAR_OK;

@@ -1,0 +1,123 @@
+/* Image apertures: the profile of their columns, and one of the texels of each column. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "image/image_io.h"
+#include "optics/parts.h"
+#include "profile.h"
+
+enum {
+    MOST_TEXELS = 256 /* along a side */
+};
+
+/* Rows of texels of equal width from -reach to reach; `weight` reads texel i. */
+typedef struct strip {
+    const float *first;
+    size_t stride;
+    u32 count;
+    double reach;
+} strip;
+
+static double strip_sum(const strip *texels)
+{
+    double sum = 0.0;
+    for (u32 i = 0; i < texels->count; i++)
+        sum += (double)texels->first[i * texels->stride];
+    return sum;
+}
+
+/* An even strip where all is dark: it is never chosen, but must not divide by zero. */
+static double share_of(const strip *texels, u32 i, double sum)
+{
+    return sum > 0.0 ? (double)texels->first[i * texels->stride] / sum : 1.0 / texels->count;
+}
+
+/* Fills count + 1 rows; returns the variance. */
+static double fill_rows(const strip *texels, f32 *rows)
+{
+    const double width = 2.0 * texels->reach / texels->count, sum = strip_sum(texels);
+    double mass = 0.0, integral = 0.0, mean = 0.0, square = 0.0;
+    for (u32 i = 0; i <= texels->count; i++) {
+        f32 *row = rows + (size_t)i * CS_PROFILE_COLUMNS;
+        const double share = i < texels->count ? share_of(texels, i, sum) : 0.0;
+        const double start = i * width - texels->reach, middle = start + 0.5 * width;
+        row[CS_ROW_START] = (f32)start;
+        row[CS_ROW_MASS] = i < texels->count ? (f32)mass : 1.0f;
+        row[CS_ROW_INTEGRAL] = (f32)integral;
+        row[CS_ROW_DENSITY] = (f32)(share / width);
+        integral += width * (mass + 0.5 * share);
+        mass += share;
+        mean += share * middle;
+        square += share * (middle * middle + width * width / 12.0);
+    }
+    return square - mean * mean;
+}
+
+static clshear_status check(const clshear_aperture_image *image, cs_error *error)
+{
+    double sum = 0.0;
+    if (image == NULL || image->luminance == NULL)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "an image aperture needs an image");
+    if (image->width < 1 || image->height < 1 || image->width > MOST_TEXELS ||
+        image->height > MOST_TEXELS)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "aperture image of %d x %d: each side must be 1 to %d", image->width,
+                       image->height, MOST_TEXELS);
+    for (int i = 0; i < image->width * image->height; i++) {
+        if (!(image->luminance[i] >= 0.0f) || !isfinite(image->luminance[i]))
+            return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                           "aperture image: luminance %g at %d,%d: must be 0 or more",
+                           (double)image->luminance[i], i % image->width, i / image->width);
+        sum += (double)image->luminance[i];
+    }
+    if (!(sum > 0.0)) return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "aperture image: all black");
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_aperture_image_make(const clshear_aperture_image *image, cs_optics_tables *tables,
+                                      cs_error *error)
+{
+    cs_optics *optics = &tables->optics;
+    float columns[MOST_TEXELS] = {0};
+    clshear_status status = check(image, error);
+    if (status != CLSHEAR_OK) return status;
+    const u32 width = (u32)image->width, height = (u32)image->height;
+    const double longer = width > height ? width : height;
+    const double reach[2] = {0.5 * width / longer, 0.5 * height / longer};
+    const size_t rows = width + 1 + (size_t)width * (height + 1);
+    f32 *row = cs_array_extend(&tables->table, rows * CS_PROFILE_COLUMNS);
+    if (row == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    for (u32 i = 0; i < width; i++)
+        columns[i] = (float)strip_sum(&(strip){image->luminance + i, width, height, reach[1]});
+    double variance[2] = {fill_rows(&(strip){columns, 1, width, reach[0]}, row), 0.0};
+    row += (size_t)(width + 1) * CS_PROFILE_COLUMNS;
+    for (u32 i = 0; i < width; i++) {
+        variance[1] +=
+            fill_rows(&(strip){image->luminance + i, width, height, reach[1]}, row) / width;
+        row += (size_t)(height + 1) * CS_PROFILE_COLUMNS;
+    }
+    optics->segments[0] = width;
+    optics->segments[1] = height;
+    for (int axis = 0; axis < 2; axis++) {
+        optics->reach[axis] = (f32)reach[axis];
+        optics->deviation[axis] = (f32)sqrt(variance[axis]);
+    }
+    return CLSHEAR_OK;
+}
+
+clshear_status clshear_aperture_image_read(const char *path, clshear_aperture_image *image)
+{
+    cs_error *error = cs_thread_error();
+    clshear_aperture_image read = {0};
+    clshear_status status = cs_image_read_luminance(path, MOST_TEXELS, &read.luminance, &read.width,
+                                                    &read.height, error);
+    if (status != CLSHEAR_OK) return status;
+    *image = read;
+    return CLSHEAR_OK;
+}
+
+void clshear_aperture_image_free(clshear_aperture_image *image)
+{
+    free(image->luminance);
+    *image = (clshear_aperture_image){0};
+}

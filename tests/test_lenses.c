@@ -1,0 +1,136 @@
+/* Every aperture and filter in whole renders: sheared and unsheared agree, and the out-of-focus
+ * wall of the Cornell box converges as it should. */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum {
+    REPLICATES = 64,
+    SIZES = 4,
+    PIXELS = 16
+};
+
+typedef struct lens {
+    const char *name;
+    clshear_aperture aperture;
+    int blades;
+    float anamorphic;
+    clshear_filter filter;
+} lens;
+
+static const lens lenses[] = {
+    {"disk", CLSHEAR_APERTURE_DISK, 0, 0, CLSHEAR_FILTER_BOX},
+    {"square", CLSHEAR_APERTURE_SQUARE, 0, 0, CLSHEAR_FILTER_BOX},
+    {"hexagon", CLSHEAR_APERTURE_POLYGON, 6, 0, CLSHEAR_FILTER_BOX},
+    {"triangle", CLSHEAR_APERTURE_POLYGON, 3, 0, CLSHEAR_FILTER_BOX},
+    {"disk, anamorphic", CLSHEAR_APERTURE_DISK, 0, 2, CLSHEAR_FILTER_BOX},
+    {"hexagon, anamorphic", CLSHEAR_APERTURE_POLYGON, 6, 0.5f, CLSHEAR_FILTER_BOX},
+    {"image", CLSHEAR_APERTURE_IMAGE, 0, 0, CLSHEAR_FILTER_BOX},
+    {"square, tent", CLSHEAR_APERTURE_SQUARE, 0, 0, CLSHEAR_FILTER_TENT},
+    {"square, gaussian", CLSHEAR_APERTURE_SQUARE, 0, 0, CLSHEAR_FILTER_GAUSSIAN},
+    {"disk, gaussian", CLSHEAR_APERTURE_DISK, 0, 0, CLSHEAR_FILTER_GAUSSIAN},
+    {"disk, blackman-harris", CLSHEAR_APERTURE_DISK, 0, 0, CLSHEAR_FILTER_BLACKMAN_HARRIS},
+    {"hexagon, blackman-harris", CLSHEAR_APERTURE_POLYGON, 6, 0, CLSHEAR_FILTER_BLACKMAN_HARRIS},
+    {"image, gaussian", CLSHEAR_APERTURE_IMAGE, 0, 0, CLSHEAR_FILTER_GAUSSIAN},
+};
+enum {
+    LENSES = sizeof lenses / sizeof *lenses
+};
+
+/* Means and their variances, green, of 4 x 4 pixels from (x, y) on. */
+typedef struct patch {
+    double mean[PIXELS];
+    double variance[PIXELS];
+} patch;
+
+static patch render(test_fixture *made, const lens *lens, int x, int y, uint32_t pattern,
+                    clshear_shear shear)
+{
+    patch result;
+    clshear_film *film = NULL;
+    clshear_options options = clshear_options_defaults();
+    const int crop[4] = {x, x + 4, y, y + 4};
+    memcpy(options.crop, crop, sizeof crop);
+    options.spp = REPLICATES * pattern;
+    options.replicates = REPLICATES;
+    options.shear = shear;
+    options.oracle = CLSHEAR_ORACLE_CENTRE;
+    options.filter = lens->filter;
+    options.seed = (uint32_t)shear; /* independent of each other */
+    made->camera.aperture = lens->aperture;
+    made->camera.blades = lens->blades;
+    made->camera.blade_rotation_deg = 20.0f;
+    made->camera.anamorphic = lens->anamorphic;
+    made->camera.image = test_aperture_image();
+    test_ok(made->context, clshear_render(made->scene, &made->camera, &options, &film));
+    for (int i = 0; i < PIXELS; i++) {
+        result.mean[i] = (double)clshear_film_channel(film, "G")[i];
+        result.variance[i] = (double)clshear_film_channel(film, "Variance.G")[i];
+    }
+    clshear_film_free(film);
+    return result;
+}
+
+/* Places where something happens: the wall, the edge of the tall box, its foot. */
+static const int places[][2] = {{302, 130}, {146, 330}, {230, 440}};
+
+/* The same integral with 64 replicates of 256 samples each: the sum over 16 pixels of z^2 has mean
+ * 16 (16.3, as variances are estimated) and standard deviation 5.8; 60 is far out in its tail,
+ * 2e-7 for each of the 39 comparisons. */
+static void sheared_equals_unsheared(void **state)
+{
+    test_fixture *made = *state;
+    for (int l = 0; l < LENSES; l++)
+        for (size_t p = 0; p < sizeof places / sizeof *places; p++) {
+            const int x = places[p][0], y = places[p][1];
+            const patch none = render(made, &lenses[l], x, y, 256, CLSHEAR_SHEAR_NONE);
+            const patch sheared = render(made, &lenses[l], x, y, 256, CLSHEAR_SHEAR_EQUAL_AREA);
+            double sum = 0.0;
+            for (int i = 0; i < PIXELS; i++)
+                sum += pow(none.mean[i] - sheared.mean[i], 2) /
+                       (none.variance[i] + sheared.variance[i]);
+            if (!(sum < 60.0)) fail_msg("%s at %d,%d: %g", lenses[l].name, x, y, sum);
+        }
+}
+
+/* Slope of the mean variance of 16 pixels of the wall over patterns of 64 to 4096 samples. Its
+ * relative standard error is sqrt(2 / 63 / 16) = 0.045 at each size, 0.09 with heavy tails, that of
+ * the slope 0.029; -1.35 is 3.5 of them or more above all that is measured. */
+static void wall_converges_faster(void **state)
+{
+    test_fixture *made = *state;
+    printf("%-26s slope   none/sheared at N = 1024\n", "");
+    for (int l = 0; l < LENSES; l++) {
+        double sums[4] = {0}, gain = 0.0;
+        for (int k = 0; k < SIZES; k++) {
+            const uint32_t pattern = 64u << 2 * k;
+            const patch sheared =
+                render(made, &lenses[l], 302, 130, pattern, CLSHEAR_SHEAR_EQUAL_AREA);
+            double variance = 0.0, unsheared = 0.0;
+            for (int i = 0; i < PIXELS; i++)
+                variance += sheared.variance[i];
+            const double a = log(pattern), b = log(variance);
+            sums[0] += a, sums[1] += b, sums[2] += a * a, sums[3] += a * b;
+            if (pattern != 1024) continue;
+            const patch none = render(made, &lenses[l], 302, 130, pattern, CLSHEAR_SHEAR_NONE);
+            for (int i = 0; i < PIXELS; i++)
+                unsheared += none.variance[i];
+            gain = unsheared / variance;
+        }
+        const double slope =
+            (SIZES * sums[3] - sums[0] * sums[1]) / (SIZES * sums[2] - sums[0] * sums[0]);
+        printf("%-26s %.2f   %.1f\n", lenses[l].name, slope, gain);
+        assert_true(slope <= -1.35);
+        assert_true(gain > 0.8); /* 0.09 * sqrt(2) for the standard error of its logarithm */
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sheared_equals_unsheared),
+        cmocka_unit_test(wall_converges_faster),
+    };
+    return cmocka_run_group_tests(tests, test_open_cornell, test_close);
+}
