@@ -1,0 +1,124 @@
+/* What the slope of a surface costs the shear, and what following it would bring: a checkered plane
+ * whose shear changes by `slope` pixels a row, as the floor's does below the horizon, so that a
+ * point projected to (p, q), relative to the pixel's centre, is seen along x + s u = p, y + s v = q
+ * with s = shear + slope * q. Variance of one pattern, mean over offsets of the texture.
+ *
+ * bench_slant [OFFSETS [REPLICATES]] */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "hash.h"
+#include "optics/optics.h"
+#include "pattern/pattern.h"
+#include "sampler/sampler.h"
+#include "shear.h"
+
+enum {
+    NONE,
+    CENTRE,  /* the shear of the pixel's centre for all samples */
+    BY_ROW,  /* in x that of the sample's row: what can be followed in closed form */
+    FRONTAL, /* the shear of the centre on a plane without slope: what could be gained at most */
+    WAYS
+};
+
+typedef struct plane {
+    double shear;
+    double slope;
+    double cell_px;
+    double offset[2];
+} plane;
+
+static double is_white(const plane *p, cs_film_lens point)
+{
+    const double v = (double)point.v, u = (double)point.u;
+    const double row = ((double)point.y - 0.5 + p->shear * v) / (1.0 - p->slope * v);
+    const double column = (double)point.x - 0.5 + (p->shear + p->slope * row) * u;
+    const double cell =
+        floor((column + p->offset[0]) / p->cell_px) + floor((row + p->offset[1]) / p->cell_px);
+    return fmod(fabs(cell), 2.0);
+}
+
+/* Both axes with shears of their own: the second first. */
+static cs_film_lens by_row(const f32 *t, const plane *p)
+{
+    cs_film_lens point;
+    const cs_blur down = cs_blur_of((f32)p->shear, 1.0f);
+    point.v = down.sign * (cs_trapezoid(t[1], t[3], down.y, &point.y) - 0.5f);
+    const f32 row = point.y - 0.5f + (f32)p->shear * point.v;
+    const cs_blur across = cs_blur_of((f32)(p->shear + p->slope * (double)row), 1.0f);
+    point.u = across.sign * (cs_trapezoid(t[0], t[2], across.x, &point.x) - 0.5f);
+    return point;
+}
+
+/* Mean of one pattern for every way. */
+static void pattern_means(const cs_pattern *pattern, const u32 *rows, u32 key, const plane *p,
+                          const cs_optics_tables *lens, double *mean)
+{
+    plane frontal = *p;
+    frontal.slope = 0.0;
+    for (int way = 0; way < WAYS; way++)
+        mean[way] = 0.0;
+    for (u32 i = 0; i < pattern->grid.count; i++) {
+        f32 t[CS_DIMENSIONS] = {0};
+        cs_draw(pattern, rows, key, i, 2, t);
+        const f32 *table = lens->table.items;
+        const cs_film_lens plain =
+            cs_shear(t[0], t[1], t[2], t[3], CS_SHEAR_NONE, &lens->optics, table, 0.0f);
+        const cs_film_lens sheared = cs_shear(t[0], t[1], t[2], t[3], CS_SHEAR_EQUAL_AREA,
+                                              &lens->optics, table, (f32)p->shear);
+        mean[NONE] += is_white(p, plain);
+        mean[CENTRE] += is_white(p, sheared);
+        mean[BY_ROW] += is_white(p, by_row(t, p));
+        mean[FRONTAL] += is_white(&frontal, sheared);
+    }
+    for (int way = 0; way < WAYS; way++)
+        mean[way] /= pattern->grid.count;
+}
+
+static void measure(plane p, u32 count, u32 offsets, u32 replicates, const cs_optics_tables *lens)
+{
+    cs_error error;
+    cs_array rows = {0};
+    double variance[WAYS] = {0};
+    const cs_pattern pattern = cs_pattern_of(CS_SAMPLER_SZ, 0, count);
+    if (cs_rows_make(&pattern, CS_ORDER_SEQUENCE, &rows, &error) != CLSHEAR_OK) exit(1);
+    for (u32 o = 0; o < offsets; o++) {
+        double sum[WAYS] = {0}, square[WAYS] = {0}, mean[WAYS];
+        for (u32 axis = 0; axis < 2; axis++)
+            p.offset[axis] = 2.0 * p.cell_px * 0x1p-32 * cs_key(o + 1u, axis);
+        for (u32 r = 0; r < replicates; r++) {
+            pattern_means(&pattern, rows.items, cs_pattern_key(o, 7, r), &p, lens, mean);
+            for (int way = 0; way < WAYS; way++)
+                sum[way] += mean[way], square[way] += mean[way] * mean[way];
+        }
+        for (int way = 0; way < WAYS; way++)
+            variance[way] += (square[way] - sum[way] * sum[way] / replicates) / (replicates - 1);
+    }
+    printf("| %u | %.0f | %.2f | %.0f |", count, p.shear, p.slope, p.cell_px);
+    for (int way = 0; way < WAYS; way++)
+        printf(" %.2e |", variance[way] / offsets);
+    printf("\n");
+    cs_array_free(&rows);
+}
+
+int main(int argc, char **argv)
+{
+    static const double shears[] = {5, 16, -16}, slopes[] = {0.05, 0.16, 0.3}, cells[] = {4, 20};
+    const u32 offsets = argc > 1 ? (u32)atoi(argv[1]) : 60;
+    const u32 replicates = argc > 2 && atoi(argv[2]) > 1 ? (u32)atoi(argv[2]) : 40;
+    const clshear_camera camera = {.aperture = CLSHEAR_APERTURE_SQUARE};
+    cs_optics_tables lens = {0};
+    cs_error error;
+    if (cs_optics_make(&camera, CLSHEAR_FILTER_BOX, 0.0f, &lens, &error) != CLSHEAR_OK) return 1;
+    printf("| N | shear | slope | cell | none | centre | by row | no slope |\n"
+           "|---|---|---|---|---|---|---|---|\n");
+    for (u32 count = 256; count <= 1024; count *= 4)
+        for (int s = 0; s < 3; s++)
+            for (int g = 0; g < 3; g++)
+                for (int c = 0; c < 2; c++)
+                    measure((plane){shears[s], slopes[g], cells[c], {0, 0}}, count, offsets,
+                            replicates, &lens);
+    cs_optics_free(&lens);
+    return 0;
+}
