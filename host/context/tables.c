@@ -1,8 +1,8 @@
 /* The context's tables of patterns. */
 #include <string.h>
 
+#include "context/context.h"
 #include "pattern/pattern.h"
-#include "render/handles.h"
 
 static int is_same(const cs_pattern *a, const cs_pattern *b)
 {

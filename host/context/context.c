@@ -2,8 +2,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "context/context.h"
 #include "film/film.h"
-#include "render/handles.h"
 
 const char *clshear_version(void)
 {
