@@ -1,4 +1,4 @@
-# Run by embed_kernels: writes OUTPUT from the FILES below ROOT.
+# Run by embed_kernels: writes OUTPUT, with the array NAME, from the FILES below ROOT.
 set(all "")
 foreach(name IN LISTS FILES)
     # Read as hexadecimal, so that semicolons and brackets mean nothing to CMake.
@@ -12,4 +12,4 @@ string(REGEX REPLACE "(..)" "\\1 " include_hex "${include_hex}")
 string(REGEX REPLACE "${include_hex}([^0]. |0[^a] )*0a " "0a " all "${all}")
 string(REGEX REPLACE "(..) " "0x\\1," bytes "${all}")
 string(REGEX REPLACE "((0x..,)(0x..,)(0x..,)(0x..,)(0x..,)(0x..,)(0x..,)(0x..,))" "\\1\n" bytes "${bytes}")
-file(WRITE ${OUTPUT} "/* Generated from cl/. */\nstatic const unsigned char cs_kernel_text[] = {\n${bytes}\n};\n")
+file(WRITE ${OUTPUT} "/* Generated from cl/. */\nstatic const unsigned char ${NAME}[] = {\n${bytes}\n};\n")

@@ -63,7 +63,8 @@ typedef struct clshear_context_options {
 
 CLSHEAR_API clshear_context_options clshear_context_defaults(void);
 
-/* Opens a device and compiles the kernels. `options` may be NULL. */
+/* Opens a device; kernels are compiled when a scene or an analysis first needs them. `options` may
+ * be NULL. */
 CLSHEAR_API clshear_status clshear_context_create(const clshear_context_options *options,
                                                   clshear_context **context);
 CLSHEAR_API void clshear_context_free(clshear_context *context);
@@ -251,6 +252,49 @@ CLSHEAR_API clshear_status clshear_points_read(const char *path, clshear_points 
  * other name. "-" is text on standard output. */
 CLSHEAR_API clshear_status clshear_points_write(const clshear_points *points, const char *path);
 CLSHEAR_API void clshear_points_free(clshear_points *points);
+
+/* ------------------------------------------------------------------------------------------------
+ * Spectra: expected power spectra of point sets. Functions here that have no context fail with a
+ * message that clshear_message(NULL) has.
+ * --------------------------------------------------------------------------------------------- */
+
+/* The mean over sets of |sum of exp(-2 pi i f.x)|^2 / N at whole frequencies: 1 for random points,
+ * N at frequency 0. Freed by clshear_spectrum_free; start from zeros. */
+typedef struct clshear_spectrum {
+    float *power; /* row by row; that of frequency (column - width / 2, row - height / 2) */
+    size_t width;
+    size_t height;
+    size_t sets;  /* that the mean is of */
+    size_t count; /* points in each */
+} clshear_spectrum;
+
+/* Measures points of two dimensions on the device, at width x height frequencies, each 2 to 8192.
+ */
+CLSHEAR_API clshear_status clshear_spectrum_measure(clshear_context *context,
+                                                    const clshear_points *points, size_t width,
+                                                    size_t height, clshear_spectrum *spectrum);
+
+/* Largest whole radius that lies in the spectrum in all directions. */
+CLSHEAR_API size_t clshear_spectrum_radius(const clshear_spectrum *spectrum);
+
+/* For radii 1 ... R, R as above: the mean over the ring (frequencies whose length rounds to the
+ * radius), and its anisotropy in decibels, 10 log10 of the ring's relative variance as it would be
+ * for 10 sets: -10 dB where the spectrum is isotropic (Ulichney 1988). Arrays of R; `anisotropy_db`
+ * may be NULL. */
+CLSHEAR_API void clshear_spectrum_radial(const clshear_spectrum *spectrum, float *mean,
+                                         float *anisotropy_db);
+
+/* Power at the multiples 1 ... R of the frequency of length 1 in direction (x, y), each at the
+ * nearest whole frequency; (x, y) is not 0. Lines of one frequency's width are seen here and lost
+ * in rings. */
+CLSHEAR_API void clshear_spectrum_along(const clshear_spectrum *spectrum, double x, double y,
+                                        float *power);
+
+/* Writes .exr (channel Power) or a grey .png, .jpg, .tif where random points are at half; frequency
+ * 0 is left out (0) unless `keep_dc`. */
+CLSHEAR_API clshear_status clshear_spectrum_write(const clshear_spectrum *spectrum, int keep_dc,
+                                                  const char *path);
+CLSHEAR_API void clshear_spectrum_free(clshear_spectrum *spectrum);
 
 /* ------------------------------------------------------------------------------------------------
  * Render

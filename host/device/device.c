@@ -11,7 +11,7 @@ struct cs_device {
     cl_device_id id;
     cl_context context;
     cl_command_queue queue;
-    cl_program program;
+    cl_program programs[CS_PROGRAM_COUNT];
     cl_kernel kernels[CS_KERNEL_COUNT];
     size_t local_size;
     int packet;
@@ -26,8 +26,13 @@ struct cs_buffer {
     cl_command_queue queue;
 };
 
-static const char *const kernel_names[CS_KERNEL_COUNT] = {"cs_render", "cs_trace", "cs_points",
-                                                          "cs_draw_sum"};
+static const char *const kernel_names[CS_KERNEL_COUNT] = {
+    "cs_render", "cs_trace", "cs_points", "cs_draw_sum", "cs_exponentials", "cs_periodogram"};
+
+static cs_program program_of(cs_kernel kernel)
+{
+    return kernel < CS_KERNEL_EXPONENTIALS ? CS_PROGRAM_RENDER : CS_PROGRAM_ANALYSIS;
+}
 
 static int is_cpu(cl_device_id id)
 {
@@ -56,11 +61,12 @@ static clshear_status limit_threads(cs_device *device, int threads, cs_error *er
     return CLSHEAR_OK;
 }
 
-static clshear_status create_kernels(cs_device *device, cs_error *error)
+static clshear_status create_kernels(cs_device *device, cs_program program, cs_error *error)
 {
     for (int i = 0; i < CS_KERNEL_COUNT; i++) {
         cl_int code;
-        device->kernels[i] = clCreateKernel(device->program, kernel_names[i], &code);
+        if (program_of((cs_kernel)i) != program) continue;
+        device->kernels[i] = clCreateKernel(device->programs[program], kernel_names[i], &code);
         if (code != CL_SUCCESS)
             return cs_fail(error, CLSHEAR_DEVICE_FAILED, "kernel %s: %s (OpenCL error %d)",
                            kernel_names[i], "cannot be created", code);
@@ -106,8 +112,6 @@ clshear_status cs_device_open(const char *wanted, int threads, int packet, cs_de
     CS_OPENCL(code, "cannot make a context on %s", device->name);
     device->queue = clCreateCommandQueue(device->context, device->id, 0, &code);
     CS_OPENCL(code, "cannot make a queue on %s", device->name);
-    CS_TRY(cs_program_build(device->context, device->id, device->packet, &device->program, error));
-    CS_TRY(create_kernels(device, error));
     *result = device;
     device = NULL;
 done:
@@ -115,12 +119,21 @@ done:
     return status;
 }
 
+clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_error *error)
+{
+    if (device->programs[program] != NULL) return CLSHEAR_OK;
+    clshear_status status = cs_program_build(device->context, device->id, program, device->packet,
+                                             &device->programs[program], error);
+    return status == CLSHEAR_OK ? create_kernels(device, program, error) : status;
+}
+
 void cs_device_close(cs_device *device)
 {
     if (device == NULL) return;
     for (int i = 0; i < CS_KERNEL_COUNT; i++)
         if (device->kernels[i] != NULL) clReleaseKernel(device->kernels[i]);
-    if (device->program != NULL) clReleaseProgram(device->program);
+    for (int i = 0; i < CS_PROGRAM_COUNT; i++)
+        if (device->programs[i] != NULL) clReleaseProgram(device->programs[i]);
     if (device->queue != NULL) clReleaseCommandQueue(device->queue);
     if (device->context != NULL) clReleaseContext(device->context);
     if (device->is_partition) clReleaseDevice(device->id);
@@ -214,6 +227,7 @@ clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
 {
     clshear_status status = CLSHEAR_OK;
     const char *name = kernel_names[kernel];
+    CS_TRY(cs_device_prepare(device, program_of(kernel), error));
     size_t local = device->local_size;
     size_t global = (count + local - 1) / local * local;
     for (cl_uint i = 0; i < argument_count; i++) {

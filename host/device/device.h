@@ -16,8 +16,17 @@ typedef enum cs_kernel {
     CS_KERNEL_TRACE,
     CS_KERNEL_POINTS,
     CS_KERNEL_DRAW_SUM,
+    CS_KERNEL_EXPONENTIALS,
+    CS_KERNEL_PERIODOGRAM,
     CS_KERNEL_COUNT
 } cs_kernel;
+
+/* What is compiled at once. */
+typedef enum cs_program {
+    CS_PROGRAM_RENDER,
+    CS_PROGRAM_ANALYSIS,
+    CS_PROGRAM_COUNT
+} cs_program;
 
 /* A kernel argument: a buffer (`buffer` not NULL), or `size` bytes by value. */
 typedef struct cs_argument {
@@ -26,7 +35,7 @@ typedef struct cs_argument {
     size_t size;
 } cs_argument;
 
-/* Arguments as in clshear_context_options. */
+/* Arguments as in clshear_context_options. Nothing is compiled yet. */
 clshear_status cs_device_open(const char *wanted, int threads, int packet, cs_device **device,
                               cs_error *error);
 void cs_device_close(cs_device *device);
@@ -47,6 +56,9 @@ clshear_status cs_buffer_read(const cs_buffer *buffer, size_t offset, size_t siz
 clshear_status cs_buffer_write(cs_buffer *buffer, size_t offset, size_t size, const void *source,
                                cs_error *error);
 void cs_buffer_free(cs_buffer *buffer);
+
+/* Compiles a program, if that is not done yet. Running a kernel of it does so too. */
+clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_error *error);
 
 /* Runs a kernel on `count` work-items (more are started, to fill the last work-group) and waits. */
 clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,

@@ -2,10 +2,11 @@
 #ifndef CS_DEVICE_PROGRAM_H
 #define CS_DEVICE_PROGRAM_H
 
+#include "device/device.h"
 #include "device/opencl.h"
 
-/* Compiles the kernels for packets of `packet` lanes. */
-clshear_status cs_program_build(cl_context context, cl_device_id device, int packet,
-                                cl_program *program, cs_error *error);
+/* Compiles a program for packets of `packet` lanes. */
+clshear_status cs_program_build(cl_context context, cl_device_id device, cs_program which,
+                                int packet, cl_program *program, cs_error *error);
 
 #endif
