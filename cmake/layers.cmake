@@ -88,7 +88,7 @@ foreach(file IN LISTS files)
 endforeach()
 
 # Libraries that one folder alone may see.
-foreach(rule "CL/cl.h|host/device" "embree3/|host/accel" "assimp/|host/scene" "OpenImageIO/|host/image")
+foreach(rule "CL/cl.h|host/device" "embree3/|host/accel" "assimp/|host/scene" "OpenImageIO/|host/image" "fftw3|host/analysis")
     string(REPLACE "|" ";" rule "${rule}")
     list(GET rule 0 header)
     list(GET rule 1 owner)

@@ -297,6 +297,79 @@ CLSHEAR_API clshear_status clshear_spectrum_write(const clshear_spectrum *spectr
 CLSHEAR_API void clshear_spectrum_free(clshear_spectrum *spectrum);
 
 /* ------------------------------------------------------------------------------------------------
+ * Variance: measured, fitted and predicted, of integrals over the unit square. Functions fail with
+ * a message that clshear_message(NULL) has.
+ * --------------------------------------------------------------------------------------------- */
+
+/* Shapes about the middle of the square, 1 inside and 0 outside, or with values in between. */
+typedef enum clshear_integrand_kind {
+    CLSHEAR_INTEGRAND_STEP = 0, /* the half plane on one side of a line, `size` from the middle */
+    CLSHEAR_INTEGRAND_BOX = 1,  /* a square of side `size` */
+    CLSHEAR_INTEGRAND_DISK = 2, /* of diameter `size` */
+    CLSHEAR_INTEGRAND_GAUSSIAN = 3,  /* of deviations size / 4 along the angle, size / 12 across */
+    CLSHEAR_INTEGRAND_TENT = 4,      /* falls evenly along the angle to 0 at size / 2 */
+    CLSHEAR_INTEGRAND_PLANE_WAVE = 5 /* 1/2 + cos / 2, of wavelength `size` along the angle */
+} clshear_integrand_kind;
+
+typedef struct clshear_integrand {
+    clshear_integrand_kind kind;
+    double angle_deg; /* 0: along x; anticlockwise in a picture with y up */
+    double size;
+} clshear_integrand;
+
+/* The integrand called "step", "box", "disk", "gaussian", "tent" or "plane-wave", with its usual
+ * size, at angle 0. */
+CLSHEAR_API clshear_status clshear_integrand_find(const char *name, clshear_integrand *integrand);
+CLSHEAR_API double clshear_integrand_at(const clshear_integrand *integrand, double x, double y);
+
+/* Mean of the integrand over the first two coordinates of every set's points: `sets` values. With
+ * `homogenise`, each set is first shifted at random around the torus. NaN for points of one
+ * dimension. */
+CLSHEAR_API void clshear_points_integrate(const clshear_points *points,
+                                          const clshear_integrand *integrand, int homogenise,
+                                          uint32_t seed, double *means);
+
+/* A line through log variance over log N. */
+typedef struct clshear_fit {
+    double slope;
+    double slope_low; /* 95 % interval, by bootstrap over the replicates */
+    double slope_high;
+} clshear_fit;
+
+/* Fits estimates from `replicates` (2 or more) patterns of each of `sizes` (2 or more) different
+ * counts: means[k * replicates + r]. `errors`: for each count the variance of one pattern or, where
+ * `reference` is not NULL, its mean squared difference from *reference. Sizes whose error is 0 are
+ * left out of the fit; slopes are NaN where fewer than two remain. */
+CLSHEAR_API clshear_status clshear_fit_slope(const uint32_t *counts, size_t sizes,
+                                             const double *means, size_t replicates,
+                                             const double *reference, double *errors,
+                                             clshear_fit *fit);
+
+enum {
+    CLSHEAR_CONES = 8
+};
+
+/* Variance that a spectrum of samples lets expect of an integral. */
+typedef struct clshear_prediction {
+    double variance;             /* the sum of cones and tail */
+    double cones[CLSHEAR_CONES]; /* from frequencies whose angle is k to k + 1 eighths of a half
+                                    turn from the x axis (Singh & Jarosz 2017, eq. 8) */
+    double tail;                 /* what lies beyond the spectrum, at the level of random points */
+    double isotropic;            /* as `variance`, with the ring's mean for every frequency
+                                    (Pilleboue et al. 2015) */
+    double energy;               /* variance of the integrand itself */
+} clshear_prediction;
+
+/* Variance of the mean of the integrand at N samples that are shifted at random around the torus:
+ * the sum over frequencies f of P_samples(f) P_integrand(f) / N, which is exact. `integrand`:
+ * side x side means of the function over cells of the unit square; side is even and at least twice
+ * the spectrum's sides. mean_square: of the function itself. */
+CLSHEAR_API clshear_status clshear_predict_variance(const clshear_spectrum *samples,
+                                                    const float *integrand, size_t side,
+                                                    double mean_square,
+                                                    clshear_prediction *prediction);
+
+/* ------------------------------------------------------------------------------------------------
  * Render
  * --------------------------------------------------------------------------------------------- */
 
@@ -341,6 +414,7 @@ typedef struct clshear_options {
     int adaptive;          /* share samples out by what varies most; spp is the mean, from 128 on */
     int gain;              /* also find out, at low cost, what the shear gains: channel Gain */
     int lens_rays;         /* for the depths of a pixel, 0 to 256 */
+    int keep_patterns;     /* channels Pattern<replicate>.R/G/B: the mean of each replicate */
     int extendable;        /* keep what `extend` will need: channels Pattern<replicate>.R/G/B */
     const struct clshear_film *extend; /* go on with this render, made extendable with the same
                                           arguments but for spp; the sampler must be progressive */

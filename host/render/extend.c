@@ -178,8 +178,9 @@ clshear_status cs_extend_prepare(cs_job *job, cs_error *error)
 {
     const uint32_t most = 16;
     const size_t planes = 3 * (size_t)job->options.replicates;
-    if (!job->options.extendable && job->options.extend == NULL) return CLSHEAR_OK;
-    if (job->options.replicates > most)
+    const int extends = job->options.extendable || job->options.extend != NULL;
+    if (!extends && !job->options.keep_patterns) return CLSHEAR_OK;
+    if (extends && job->options.replicates > most)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "%u replicates: a render that can be extended has at most %u",
                        job->options.replicates, most);
@@ -231,6 +232,7 @@ clshear_status cs_extend_describe(const cs_job *job, clshear_film *film)
         memcpy(pixels, job->pattern_means + (size_t)plane * job->pixel_count,
                job->pixel_count * sizeof *pixels);
     }
+    if (!job->options.extendable && job->options.extend == NULL) return CLSHEAR_OK;
     recipe_of(job, text, sizeof text);
     return clshear_film_annotate(film, "clshear.recipe", text);
 }

@@ -1,0 +1,87 @@
+/* How fast errors fall with the number of samples. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/status.h"
+#include "hash.h"
+
+enum {
+    RESAMPLES = 1000
+};
+
+/* Variance of `count` values, or their mean squared difference from *reference; the values are
+ * those at `chosen`, where that is not NULL. */
+static double error_of(const double *values, const uint32_t *chosen, size_t count,
+                       const double *reference)
+{
+    double sum = 0.0, square = 0.0;
+    const double origin = reference != NULL ? *reference : values[0];
+    for (size_t i = 0; i < count; i++) {
+        const double value = values[chosen != NULL ? chosen[i] : i] - origin;
+        sum += value;
+        square += value * value;
+    }
+    const double n = (double)count;
+    return reference != NULL ? square / n : fmax(square - sum * sum / n, 0.0) / (n - 1.0);
+}
+
+/* Least squares in logarithms; NaN for fewer than two points. */
+static double slope_of(const uint32_t *counts, const double *errors, size_t sizes)
+{
+    double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+    for (size_t k = 0; k < sizes; k++) {
+        if (!(errors[k] > 0.0)) continue;
+        const double a = log(counts[k]), b = log(errors[k]);
+        n += 1.0, x += a, y += b, xx += a * a, xy += a * b;
+    }
+    const double spread = n * xx - x * x;
+    return n >= 2.0 && spread > 0.0 ? (n * xy - x * y) / spread : NAN;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* The slope of one bootstrap sample. `chosen`, `errors`: room for replicates and sizes. */
+static double resampled_slope(const uint32_t *counts, size_t sizes, const double *means,
+                              size_t replicates, const double *reference, u32 number,
+                              uint32_t *chosen, double *errors)
+{
+    for (size_t k = 0; k < sizes; k++) {
+        const u32 key = cs_key(cs_key(0x626f6f74u, number), (u32)k);
+        for (u32 r = 0; r < replicates; r++)
+            chosen[r] = (uint32_t)((uint64_t)cs_key(key, r) * replicates >> 32);
+        errors[k] = error_of(means + k * replicates, chosen, replicates, reference);
+    }
+    return slope_of(counts, errors, sizes);
+}
+
+clshear_status clshear_fit_slope(const uint32_t *counts, size_t sizes, const double *means,
+                                 size_t replicates, const double *reference, double *errors,
+                                 clshear_fit *fit)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_error *error = cs_thread_error();
+    double *slopes = calloc(RESAMPLES, sizeof *slopes), *drawn = calloc(sizes + 1, sizeof *drawn);
+    uint32_t *chosen = calloc(replicates + 1, sizeof *chosen);
+    CS_REQUIRE(sizes >= 2 && replicates >= 2, CLSHEAR_BAD_ARGUMENT,
+               "a slope of %zu sizes and %zu replicates: needs 2 or more of both", sizes,
+               replicates);
+    CS_REQUIRE(slopes != NULL && drawn != NULL && chosen != NULL, CLSHEAR_OUT_OF_MEMORY,
+               "out of memory");
+    for (size_t k = 0; k < sizes; k++)
+        errors[k] = error_of(means + k * replicates, NULL, replicates, reference);
+    for (u32 s = 0; s < RESAMPLES; s++)
+        slopes[s] = resampled_slope(counts, sizes, means, replicates, reference, s, chosen, drawn);
+    qsort(slopes, RESAMPLES, sizeof *slopes, by_value);
+    fit->slope = slope_of(counts, errors, sizes);
+    fit->slope_low = slopes[RESAMPLES / 40];
+    fit->slope_high = slopes[RESAMPLES - 1 - RESAMPLES / 40];
+done:
+    free(slopes);
+    free(drawn);
+    free(chosen);
+    return status;
+}

@@ -1,0 +1,90 @@
+/* Functions on the unit square whose spectra are known, and their means over point sets. */
+#include <math.h>
+#include <string.h>
+
+#include "base/parallel.h"
+#include "base/status.h"
+#include "hash.h"
+
+static const double pi = 3.14159265358979323846;
+
+static const struct {
+    const char *name;
+    double size;
+} known[] = {{"step", 0.0},     {"box", 0.5},  {"disk", 0.6},
+             {"gaussian", 0.6}, {"tent", 0.8}, {"plane-wave", 0.2}};
+enum {
+    KNOWN = sizeof known / sizeof *known
+};
+
+clshear_status clshear_integrand_find(const char *name, clshear_integrand *integrand)
+{
+    for (int i = 0; i < KNOWN; i++)
+        if (strcmp(name, known[i].name) == 0) {
+            *integrand =
+                (clshear_integrand){.kind = (clshear_integrand_kind)i, .size = known[i].size};
+            return CLSHEAR_OK;
+        }
+    return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,
+                   "no integrand %s: there are step, box, disk, gaussian, tent and plane-wave",
+                   name);
+}
+
+double clshear_integrand_at(const clshear_integrand *integrand, double x, double y)
+{
+    const double angle = integrand->angle_deg * pi / 180.0, size = integrand->size;
+    const double along = (x - 0.5) * cos(angle) + (y - 0.5) * sin(angle);
+    const double across = (y - 0.5) * cos(angle) - (x - 0.5) * sin(angle);
+    switch (integrand->kind) {
+    case CLSHEAR_INTEGRAND_STEP:
+        return along < size ? 1.0 : 0.0;
+    case CLSHEAR_INTEGRAND_BOX:
+        return fabs(along) < 0.5 * size && fabs(across) < 0.5 * size ? 1.0 : 0.0;
+    case CLSHEAR_INTEGRAND_DISK:
+        return along * along + across * across < 0.25 * size * size ? 1.0 : 0.0;
+    case CLSHEAR_INTEGRAND_GAUSSIAN:
+        return exp(-(8.0 * along * along + 72.0 * across * across) / (size * size));
+    case CLSHEAR_INTEGRAND_TENT:
+        return fmax(1.0 - 2.0 * fabs(along) / size, 0.0);
+    default:
+        return 0.5 + 0.5 * cos(2.0 * pi * along / size);
+    }
+}
+
+typedef struct integration {
+    const clshear_points *points;
+    const clshear_integrand *integrand;
+    int homogenise;
+    uint32_t seed;
+    double *means;
+} integration;
+
+static void integrate_sets(void *user, size_t begin, size_t end)
+{
+    const integration *job = user;
+    const clshear_points *points = job->points;
+    for (size_t set = begin; set < end; set++) {
+        const u32 key = cs_key(job->seed ^ 0x746f7275u, (u32)set);
+        const double scale = job->homogenise ? 0x1p-32 : 0.0;
+        const double shift[2] = {scale * cs_key(key, 0), scale * cs_key(key, 1)};
+        double sum = 0.0;
+        for (size_t i = 0; i < points->count; i++) {
+            const float *point = points->values + (set * points->count + i) * points->dimensions;
+            const double x = (double)point[0] + shift[0], y = (double)point[1] + shift[1];
+            sum += clshear_integrand_at(job->integrand, x - floor(x), y - floor(y));
+        }
+        job->means[set] = sum / (double)points->count;
+    }
+}
+
+void clshear_points_integrate(const clshear_points *points, const clshear_integrand *integrand,
+                              int homogenise, uint32_t seed, double *means)
+{
+    integration job = {points, integrand, homogenise, seed, means};
+    if (points->dimensions < 2) {
+        for (size_t set = 0; set < points->sets; set++)
+            means[set] = NAN;
+        return;
+    }
+    cs_parallel(0, points->sets, integrate_sets, &job);
+}
