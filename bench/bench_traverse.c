@@ -119,7 +119,7 @@ static void make_camera_rays(bench *state)
     for (size_t i = 0; i < rays->count; i++) {
         u32 pixel = cs_tiled_pixel((u32)(i / spp), (u32)size, (u32)size), index = (u32)(i % spp);
         u32 key = cs_pattern_key(0, pixel, 0);
-        float tuple[CS_DIMENSIONS];
+        float tuple[CS_DIMENSIONS] = {0};
         cs_draw(&pattern, NULL, key, index, 2, tuple);
         cs_film_lens point =
             cs_shear(tuple[0], tuple[1], tuple[2], tuple[3], CS_SHEAR_EQUAL_AREA, &frame.optics,
