@@ -284,9 +284,9 @@ CLSHEAR_API size_t clshear_spectrum_radius(const clshear_spectrum *spectrum);
 CLSHEAR_API void clshear_spectrum_radial(const clshear_spectrum *spectrum, float *mean,
                                          float *anisotropy_db);
 
-/* Power at the multiples 1 ... R of the frequency of length 1 in direction (x, y), each at the
- * nearest whole frequency; (x, y) is not 0. Lines of one frequency's width are seen here and lost
- * in rings. */
+/* Power along direction (x, y), not 0, at the distances 1 ... R from frequency 0: each that of the
+ * nearest multiple, but not 0, of (x, y) where these are whole numbers within the spectrum, else of
+ * the nearest whole frequency. Lines of one frequency's width are seen here and lost in rings. */
 CLSHEAR_API void clshear_spectrum_along(const clshear_spectrum *spectrum, double x, double y,
                                         float *power);
 

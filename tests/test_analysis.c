@@ -113,9 +113,11 @@ static void rings_and_directions_are_read_off(void **state)
         assert_true(fabsf(mean[r] - 1.0f) < 0.08f);
         assert_true(fabsf(anisotropy[r] + 10.0f) < 4.0f);
     }
-    clshear_spectrum_along(&spectrum, 0.0, 2.0, along);
+    clshear_spectrum_along(&spectrum, 0.0, 1.0, along);
     for (size_t r = 0; r < 32; r++)
         assert_true(along[r] == spectrum.power[(40 + r + 1) * 65 + 32]);
+    clshear_spectrum_along(&spectrum, 1.0, -3.0, along); /* radius 20: 6 times */
+    assert_true(along[19] == spectrum.power[(40 - 18) * 65 + 32 + 6]);
     clshear_spectrum_free(&spectrum);
     clshear_points_free(&points);
 }

@@ -57,8 +57,11 @@ void clshear_spectrum_along(const clshear_spectrum *spectrum, double x, double y
 {
     const size_t radii = clshear_spectrum_radius(spectrum);
     const double length = hypot(x, y);
+    const int whole = x == floor(x) && y == floor(y) && length <= (double)radii;
     for (size_t i = 0; i < radii; i++) {
-        const double scale = (double)(i + 1) / length;
+        double scale = (double)(i + 1) / length;
+        if (whole) scale = floor(scale + 0.5) > 1.0 ? floor(scale + 0.5) : 1.0;
+        if (whole && scale * length >= (double)radii + 1.0) scale -= 1.0;
         power[i] = (float)power_at(spectrum, lround(x * scale), lround(y * scale));
     }
 }

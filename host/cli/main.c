@@ -3,9 +3,15 @@
 
 #include "cli/points.h"
 #include "cli/render.h"
+#include "cli/spectrum.h"
 
 int main(int argc, char **argv)
 {
-    if (argc > 1 && strcmp(argv[1], "points") == 0) return cli_points(argc - 1, argv + 1);
+    static const struct {
+        const char *name;
+        int (*run)(int argc, char **argv);
+    } commands[] = {{"points", cli_points}, {"spectrum", cli_spectrum}};
+    for (size_t i = 0; argc > 1 && i < sizeof commands / sizeof *commands; i++)
+        if (strcmp(argv[1], commands[i].name) == 0) return commands[i].run(argc - 1, argv + 1);
     return cli_render(argc, argv);
 }

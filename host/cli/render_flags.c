@@ -277,7 +277,8 @@ static const cli_flag flags[] = {
 
 const cli_command cli_render_command = {
     .summary = "usage: clshear SCENE [flags]\n"
-               "       clshear points [flags]     point sets; see clshear points --help\n\n"
+               "       clshear points [flags]     point sets; see clshear points --help\n"
+               "       clshear spectrum [flags]   their power spectra\n\n"
                "Render SCENE (OBJ, glTF, PLY, STL) with depth of field.\n\n"
                "  clshear scenes/cornell.obj --spp 1024 --out img.exr\n",
     .notes = "Without --out, writes the scene's name with .exr in the current folder.\n"
