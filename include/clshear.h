@@ -322,6 +322,11 @@ typedef struct clshear_integrand {
 CLSHEAR_API clshear_status clshear_integrand_find(const char *name, clshear_integrand *integrand);
 CLSHEAR_API double clshear_integrand_at(const clshear_integrand *integrand, double x, double y);
 
+/* Its means over side x side cells, row by row from y = 0, and its mean square, both from 4 x 4
+ * values in each cell: what clshear_predict_variance takes. */
+CLSHEAR_API void clshear_integrand_tabulate(const clshear_integrand *integrand, size_t side,
+                                            float *cells, double *mean_square);
+
 /* Mean of the integrand over the first two coordinates of every set's points: `sets` values. With
  * `homogenise`, each set is first shifted at random around the torus. NaN for points of one
  * dimension. */

@@ -122,28 +122,6 @@ static void rings_and_directions_are_read_off(void **state)
     clshear_points_free(&points);
 }
 
-static float *grid_of(const clshear_integrand *integrand, size_t side, double *mean_square)
-{
-    enum {
-        PARTS = 4
-    };
-    float *grid = calloc(side * side, sizeof *grid);
-    *mean_square = 0.0;
-    for (size_t i = 0; i < side * side; i++) {
-        double sum = 0.0;
-        for (int p = 0; p < PARTS * PARTS; p++) {
-            const double x = ((double)(i % side) + (p % PARTS + 0.5) / PARTS) / (double)side;
-            const double y = ((double)(i / side) + (p / PARTS + 0.5) / PARTS) / (double)side;
-            const double value = clshear_integrand_at(integrand, x, y);
-            sum += value;
-            *mean_square += value * value;
-        }
-        grid[i] = (float)(sum / (PARTS * PARTS));
-    }
-    *mean_square /= (double)(side * side * PARTS * PARTS);
-    return grid;
-}
-
 static double variance_of(const double *values, size_t count)
 {
     double mean = 0.0, sum = 0.0;
@@ -179,7 +157,8 @@ static void prediction_equals_measurement(void **state)
             double mean_square, *means = malloc(2 * SETS * sizeof *means);
             assert_int_equal(clshear_integrand_find(integrands[f], &integrand), CLSHEAR_OK);
             integrand.angle_deg = 20.0;
-            float *grid = grid_of(&integrand, SIDE, &mean_square);
+            float *grid = malloc((size_t)SIDE * SIDE * sizeof *grid);
+            clshear_integrand_tabulate(&integrand, SIDE, grid, &mean_square);
             assert_int_equal(
                 clshear_predict_variance(&spectrum, grid, SIDE, mean_square, &predicted),
                 CLSHEAR_OK);

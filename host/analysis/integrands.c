@@ -51,6 +51,27 @@ double clshear_integrand_at(const clshear_integrand *integrand, double x, double
     }
 }
 
+void clshear_integrand_tabulate(const clshear_integrand *integrand, size_t side, float *cells,
+                                double *mean_square)
+{
+    enum {
+        PARTS = 4
+    };
+    double squares = 0.0;
+    for (size_t i = 0; i < side * side; i++) {
+        double sum = 0.0;
+        for (int p = 0; p < PARTS * PARTS; p++) {
+            const double x = ((double)(i % side) + (p % PARTS + 0.5) / PARTS) / (double)side;
+            const double y = ((double)(i / side) + (p / PARTS + 0.5) / PARTS) / (double)side;
+            const double value = clshear_integrand_at(integrand, x, y);
+            sum += value;
+            squares += value * value;
+        }
+        cells[i] = (float)(sum / (PARTS * PARTS));
+    }
+    *mean_square = squares / (double)(side * side * PARTS * PARTS);
+}
+
 typedef struct integration {
     const clshear_points *points;
     const clshear_integrand *integrand;

@@ -9,11 +9,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/parse.h"
 #include "cli/progress.h"
+#include "cli/scene.h"
 
 static char default_output[4096];
-static char settings_path[4096];
 
 static void warn(void *user, const char *line)
 {
@@ -92,61 +91,6 @@ static int check_outputs(const cli_job *job)
         code = check_output("out", job->outputs[i]);
     if (job->gain != NULL && code == CLI_DONE) code = check_output("gain", job->gain);
     return code;
-}
-
-static void override_vector(const cli_vector *given, float *value)
-{
-    if (given->given) memcpy(value, given->value, sizeof given->value);
-}
-
-/* The scene's camera with what the flags say. */
-static clshear_status choose_camera(const cli_job *job, const clshear_scene *scene,
-                                    clshear_camera *camera)
-{
-    const int width = job->options.width, height = job->options.height;
-    clshear_status status = clshear_scene_camera(scene, width, height, camera);
-    if (status != CLSHEAR_OK) return status;
-    override_vector(&job->eye, camera->eye);
-    override_vector(&job->target, camera->target);
-    override_vector(&job->up, camera->up);
-    if (job->fov.given) camera->fov_deg = job->fov.value;
-    camera->aperture = job->aperture;
-    camera->image = &job->aperture_image;
-    camera->blades = job->blades;
-    camera->blade_rotation_deg = job->blade_rotation_deg;
-    camera->anamorphic = job->anamorphic;
-    if (job->f_stop.given)
-        camera->lens_radius = clshear_lens_radius(camera, job->f_stop.value, job->unit_m.value);
-    if (job->lens_radius.given) camera->lens_radius = job->lens_radius.value;
-    if (job->focal_distance.given) camera->focal_distance = job->focal_distance.value;
-    if (job->focus_pixel_given)
-        status = clshear_camera_focus(scene, width, height, job->focus_pixel[0],
-                                      job->focus_pixel[1], camera);
-    if (status != CLSHEAR_OK) return status;
-    const int lens_chosen = camera->lens_radius >= 0.0f;
-    const int focus_chosen = camera->focal_distance > 0.0f;
-    status = clshear_camera_complete(scene, width, height, camera);
-    if (status != CLSHEAR_OK || job->quiet) return status;
-    if (!focus_chosen && camera->lens_radius > 0.0f)
-        fprintf(stderr, "clshear: focused on the middle of the picture, --focal-distance %g\n",
-                (double)camera->focal_distance);
-    if (!lens_chosen)
-        fprintf(stderr, "clshear: no lens given, a moderate blur: --lens-radius %g\n",
-                (double)camera->lens_radius);
-    return CLSHEAR_OK;
-}
-
-/* Tells what the file and the flags left open. */
-static void tell_choices(const cli_job *job, const clshear_scene *scene,
-                         const clshear_camera *camera)
-{
-    const clshear_scene_info info = clshear_scene_describe(scene);
-    if (job->quiet) return;
-    if (!info.file_camera && !job->eye.given)
-        fprintf(stderr, "clshear: no camera given, the scene is framed: --eye %g,%g,%g\n",
-                (double)camera->eye[0], (double)camera->eye[1], (double)camera->eye[2]);
-    if (info.lights + info.emitters == 0)
-        fprintf(stderr, "clshear: no light given, a point light above the scene's middle\n");
 }
 
 /* The command that was given; words that a shell would take apart in quotes. */
@@ -241,8 +185,8 @@ static int render(cli_job *job, clshear_context *context, clshear_scene *scene, 
     clshear_film *film = NULL;
     for (int i = 0; i < job->light_count; i++)
         if (clshear_scene_add_light(scene, &job->lights[i]) != CLSHEAR_OK) return fail(context);
-    if (choose_camera(job, scene, &camera) != CLSHEAR_OK) return fail(context);
-    tell_choices(job, scene, &camera);
+    if (cli_choose_camera(job, scene, &camera) != CLSHEAR_OK) return fail(context);
+    cli_tell_choices(job, scene, &camera);
     clshear_film *base = NULL;
     if (job->extend != NULL && clshear_film_read(context, job->extend, &base) != CLSHEAR_OK)
         return fail(context);
@@ -288,49 +232,11 @@ static int run(cli_job *job, const char *command)
     return code;
 }
 
-/* "path/scene.obj" -> "path/scene.flags", if that file exists. */
-static const char *settings_beside(const char *scene)
-{
-    const char *dot = strrchr(scene, '.'), *slash = strrchr(scene, '/');
-    if (dot == NULL || (slash != NULL && dot < slash)) return NULL;
-    snprintf(settings_path, sizeof settings_path, "%.*s.flags", (int)(dot - scene), scene);
-    FILE *stream = fopen(settings_path, "rb");
-    if (stream == NULL) return NULL;
-    fclose(stream);
-    return settings_path;
-}
-
-/* Reads the settings file, if there is one, and then the command line, which wins. */
-static int parse(int argc, char **argv, cli_job *job)
-{
-    const cli_command *command = &cli_render_command;
-    cli_job line = cli_job_defaults();
-    int code = cli_parse_words(command, &line, argc, argv, &line.scene);
-    *job = line;
-    if (code != CLI_DONE || line.help || line.version || line.list_devices || line.list_samplers)
-        return code;
-    if (line.scene == NULL) {
-        fprintf(stderr, "clshear: no scene given; try: clshear SCENE --out img.exr\n");
-        return CLI_USAGE;
-    }
-    const char *settings = line.settings != NULL ? line.settings : settings_beside(line.scene);
-    if (settings == NULL) return CLI_DONE;
-    cli_job file = cli_job_defaults();
-    code = cli_parse_settings(command, &file, settings);
-    if (code != CLI_DONE) return code;
-    if (!line.quiet) fprintf(stderr, "clshear: settings from %s\n", settings);
-    /* The command line is read over the file's settings; its lights and outputs replace the
-     * file's. */
-    if (line.light_count > 0) file.light_count = 0;
-    if (line.output_count > 0) file.output_count = 0;
-    *job = file;
-    return cli_parse_words(command, job, argc, argv, &job->scene);
-}
-
 int cli_render(int argc, char **argv)
 {
+    const cli_job defaults = cli_job_defaults();
     cli_job job;
-    int code = parse(argc, argv, &job);
+    int code = cli_parse_scene(&cli_render_command, &defaults, sizeof job, argc, argv, &job);
     if (code != CLI_DONE) return code;
     if (job.help) {
         cli_print_help(&cli_render_command);
@@ -342,6 +248,10 @@ int cli_render(int argc, char **argv)
     }
     if (job.list_devices) return list_devices();
     if (job.list_samplers) return list_samplers();
+    if (job.scene == NULL) {
+        fprintf(stderr, "clshear: no scene given; try: clshear SCENE --out img.exr\n");
+        return CLI_USAGE;
+    }
     char *words = command_line(argc, argv);
     code = run(&job, words);
     free(words);

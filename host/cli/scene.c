@@ -1,0 +1,102 @@
+#include "cli/scene.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/parse.h"
+
+static char settings_path[4096];
+
+static void override_vector(const cli_vector *given, float *value)
+{
+    if (given->given) memcpy(value, given->value, sizeof given->value);
+}
+
+clshear_status cli_choose_camera(const cli_job *job, const clshear_scene *scene,
+                                 clshear_camera *camera)
+{
+    const int width = job->options.width, height = job->options.height;
+    clshear_status status = clshear_scene_camera(scene, width, height, camera);
+    if (status != CLSHEAR_OK) return status;
+    override_vector(&job->eye, camera->eye);
+    override_vector(&job->target, camera->target);
+    override_vector(&job->up, camera->up);
+    if (job->fov.given) camera->fov_deg = job->fov.value;
+    camera->aperture = job->aperture;
+    camera->image = &job->aperture_image;
+    camera->blades = job->blades;
+    camera->blade_rotation_deg = job->blade_rotation_deg;
+    camera->anamorphic = job->anamorphic;
+    if (job->f_stop.given)
+        camera->lens_radius = clshear_lens_radius(camera, job->f_stop.value, job->unit_m.value);
+    if (job->lens_radius.given) camera->lens_radius = job->lens_radius.value;
+    if (job->focal_distance.given) camera->focal_distance = job->focal_distance.value;
+    if (job->focus_pixel_given)
+        status = clshear_camera_focus(scene, width, height, job->focus_pixel[0],
+                                      job->focus_pixel[1], camera);
+    if (status != CLSHEAR_OK) return status;
+    const int lens_chosen = camera->lens_radius >= 0.0f;
+    const int focus_chosen = camera->focal_distance > 0.0f;
+    status = clshear_camera_complete(scene, width, height, camera);
+    if (status != CLSHEAR_OK || job->quiet) return status;
+    if (!focus_chosen && camera->lens_radius > 0.0f)
+        fprintf(stderr, "clshear: focused on the middle of the picture, --focal-distance %g\n",
+                (double)camera->focal_distance);
+    if (!lens_chosen)
+        fprintf(stderr, "clshear: no lens given, a moderate blur: --lens-radius %g\n",
+                (double)camera->lens_radius);
+    return CLSHEAR_OK;
+}
+
+void cli_tell_choices(const cli_job *job, const clshear_scene *scene, const clshear_camera *camera)
+{
+    const clshear_scene_info info = clshear_scene_describe(scene);
+    if (job->quiet) return;
+    if (!info.file_camera && !job->eye.given)
+        fprintf(stderr, "clshear: no camera given, the scene is framed: --eye %g,%g,%g\n",
+                (double)camera->eye[0], (double)camera->eye[1], (double)camera->eye[2]);
+    if (info.lights + info.emitters == 0)
+        fprintf(stderr, "clshear: no light given, a point light above the scene's middle\n");
+}
+
+/* "path/scene.obj" -> "path/scene.flags", if that file exists. */
+static const char *settings_beside(const char *scene)
+{
+    const char *dot = strrchr(scene, '.'), *slash = strrchr(scene, '/');
+    if (dot == NULL || (slash != NULL && dot < slash)) return NULL;
+    snprintf(settings_path, sizeof settings_path, "%.*s.flags", (int)(dot - scene), scene);
+    FILE *stream = fopen(settings_path, "rb");
+    if (stream == NULL) return NULL;
+    fclose(stream);
+    return settings_path;
+}
+
+/* Reads the settings file and then the line again, which wins; its lights and outputs replace the
+ * file's. `line`: what the line says by itself. */
+static int read_over_settings(const cli_command *command, const char *settings, const cli_job *line,
+                              int argc, char **argv, cli_job *job)
+{
+    int code = cli_parse_settings(command, job, settings);
+    if (code != CLI_DONE) return code;
+    if (!line->quiet) fprintf(stderr, "clshear: settings from %s\n", settings);
+    if (line->light_count > 0) job->light_count = 0;
+    if (line->output_count > 0) job->output_count = 0;
+    return cli_parse_words(command, job, argc, argv, &job->scene);
+}
+
+int cli_parse_scene(const cli_command *command, const void *defaults, size_t size, int argc,
+                    char **argv, void *result)
+{
+    cli_job *job = result, line;
+    memcpy(result, defaults, size);
+    int code = cli_parse_words(command, job, argc, argv, &job->scene);
+    if (code != CLI_DONE || job->help || job->version || job->list_devices || job->list_samplers)
+        return code;
+    if (job->scene == NULL) return CLI_DONE;
+    line = *job;
+    const char *settings = line.settings != NULL ? line.settings : settings_beside(line.scene);
+    if (settings == NULL) return CLI_DONE;
+    memcpy(result, defaults, size);
+    return read_over_settings(command, settings, &line, argc, argv, job);
+}

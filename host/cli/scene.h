@@ -1,0 +1,21 @@
+/* What commands that render have in common: a scene with its settings and its camera. */
+#ifndef CS_CLI_SCENE_H
+#define CS_CLI_SCENE_H
+
+#include "cli/flags.h"
+#include "cli/job.h"
+
+/* Reads the words into `job`, over the settings file of the scene if there is one. `job` and
+ * `defaults` are `size` bytes and begin with a cli_job; without a scene, job.scene is NULL. Returns
+ * CLI_DONE, CLI_FAILED or CLI_USAGE. */
+int cli_parse_scene(const cli_command *command, const void *defaults, size_t size, int argc,
+                    char **argv, void *job);
+
+/* The scene's camera with what the flags say. */
+clshear_status cli_choose_camera(const cli_job *job, const clshear_scene *scene,
+                                 clshear_camera *camera);
+
+/* Tells what the file and the flags left open. */
+void cli_tell_choices(const cli_job *job, const clshear_scene *scene, const clshear_camera *camera);
+
+#endif
