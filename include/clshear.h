@@ -324,8 +324,9 @@ CLSHEAR_API double clshear_integrand_at(const clshear_integrand *integrand, doub
 
 /* Its means over side x side cells, row by row from y = 0, and its mean square, both from 4 x 4
  * values in each cell: what clshear_predict_variance takes. */
-CLSHEAR_API void clshear_integrand_tabulate(const clshear_integrand *integrand, size_t side,
-                                            float *cells, double *mean_square);
+CLSHEAR_API clshear_status clshear_integrand_tabulate(const clshear_integrand *integrand,
+                                                      size_t side, float *cells,
+                                                      double *mean_square);
 
 /* Mean of the integrand over the first two coordinates of every set's points: `sets` values. With
  * `homogenise`, each set is first shifted at random around the torus. NaN for points of one
@@ -368,7 +369,7 @@ typedef struct clshear_prediction {
 /* Variance of the mean of the integrand at N samples that are shifted at random around the torus:
  * the sum over frequencies f of P_samples(f) P_integrand(f) / N, which is exact. `integrand`:
  * side x side means of the function over cells of the unit square; side is even and at least twice
- * the spectrum's sides. mean_square: of the function itself. */
+ * the spectrum's sides, better eight times. mean_square: of the function itself. */
 CLSHEAR_API clshear_status clshear_predict_variance(const clshear_spectrum *samples,
                                                     const float *integrand, size_t side,
                                                     double mean_square,

@@ -117,6 +117,39 @@ oiiotool --create 8x8 1 --fill:color=0 8x8 -o dark.exr --create 300x200 3 --fill
     done
 }
 
+# The analysis: tables to standard output or files, pictures, plots; points from files.
+expect 0 "radius,mean,anisotropy_db,along 1:0" -- spectrum --n 64 --sets 4 --resolution 16
+[ "$(echo "$output" | wc -l)" -eq 8 ] || wrong "rings: $output"
+expect 0 "" -- points --sampler mj --n 64 --sets 4 --dims xu --out p.txt
+expect 0 "" -- spectrum --in p.txt --resolution 32,20 --direction 1,2 --out p.exr --out p.png --out p.csv \
+    --plot rings.svg --keep
+[ -z "$output" ] || wrong "spectrum printed: $output"
+grep -q "along 1:2" p.csv || wrong "no profile in p.csv"
+case $(oiiotool --info -v p.exr) in *"32 x   20, 1 channel"*Power*) ;; *) wrong "p.exr" ;; esac
+[ -s rings.svg ] && [ -s rings.svg.dat ] && [ -s rings.svg.gp ] || wrong "plot, data or script missing"
+expect 2 "leave out --sampler" -- spectrum --in p.txt --n 16
+expect 2 "--projection xyz: must be two letters" -- spectrum --projection xyz
+expect 2 "--resolution 1: must be" -- spectrum --resolution 1
+expect 2 "--out a.gif: must be" -- spectrum --out a.gif
+expect 2 "--plot a.pdf: must be a name that ends in .png or .svg" -- spectrum --plot a.pdf
+expect 1 "none.txt" -- spectrum --in none.txt
+expect 0 "predicted as isotropic," -- predict --integrand step --sampler nrooks --n 16 --sets 50 --measure 50
+case $output in *"measured,"*) ;; *) wrong "not measured: $output" ;; esac
+expect 2 "give an --integrand" -- predict --n 16
+expect 2 "--integrand blob: must be step, box" -- predict --integrand blob
+expect 0 "target,sampler,shear,n,replicates,variance,slope" -- converge --integrand box --sampler mj --nreps 20
+[ "$(echo "$output" | grep -c '^box,mj,none,')" -eq 4 ] || wrong "converge: $output"
+expect 0 "" -- converge "$cornell" --quiet --pixels '302,130;3,4' --sampler mj --nreps 8 --nsamps 4,16 \
+    --out c.json --plot c.png --reference 0.3
+python3 -c 'import json; s = json.load(open("c.json"))["series"]; assert len(s) == 4 and len(s[0]["mse"]) == 2' ||
+    wrong "c.json"
+[ -s c.png ] && [ ! -e c.png.dat ] || wrong "plot missing, or its data left"
+expect 2 "give an --integrand, or a SCENE with --pixels" -- converge --sampler mj
+expect 2 "--nsamps 64,16: must be 2 to 32 rising" -- converge --integrand box --nsamps 64,16
+expect 1 "crop 600,601,3,4" -- converge "$cornell" --quiet --pixels 600,3
+output=$(PATH=/nonexistent "$program" converge --integrand box --nreps 4 --plot no.png 2>&1)
+case $?$output in 0*"no gnuplot here: no.png is not drawn"*) ;; *) wrong "without gnuplot: $output" ;; esac
+
 # A scene without camera, lens and light says what was chosen.
 cat >bare.obj <<'END'
 v -1 -1 0

@@ -1,5 +1,6 @@
 /* Functions on the unit square whose spectra are known, and their means over point sets. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/parallel.h"
@@ -51,25 +52,47 @@ double clshear_integrand_at(const clshear_integrand *integrand, double x, double
     }
 }
 
-void clshear_integrand_tabulate(const clshear_integrand *integrand, size_t side, float *cells,
-                                double *mean_square)
+enum {
+    PARTS = 4 /* values along a side of a cell */
+};
+
+typedef struct tabulation {
+    const clshear_integrand *integrand;
+    size_t side;
+    float *cells;
+    double *squares; /* summed, of each row */
+} tabulation;
+
+static void tabulate_rows(void *user, size_t begin, size_t end)
 {
-    enum {
-        PARTS = 4
-    };
-    double squares = 0.0;
-    for (size_t i = 0; i < side * side; i++) {
-        double sum = 0.0;
-        for (int p = 0; p < PARTS * PARTS; p++) {
-            const double x = ((double)(i % side) + (p % PARTS + 0.5) / PARTS) / (double)side;
-            const double y = ((double)(i / side) + (p / PARTS + 0.5) / PARTS) / (double)side;
-            const double value = clshear_integrand_at(integrand, x, y);
-            sum += value;
-            squares += value * value;
+    const tabulation *job = user;
+    const double step = 1.0 / (PARTS * (double)job->side);
+    for (size_t row = begin; row < end; row++)
+        for (size_t column = 0; column < job->side; column++) {
+            double sum = 0.0;
+            for (size_t part = 0; part < PARTS * PARTS; part++) {
+                const double x = step * ((double)(column * PARTS + part % PARTS) + 0.5);
+                const double y = step * ((double)(row * PARTS + part / PARTS) + 0.5);
+                const double value = clshear_integrand_at(job->integrand, x, y);
+                sum += value;
+                job->squares[row] += value * value;
+            }
+            job->cells[row * job->side + column] = (float)(sum / (PARTS * PARTS));
         }
-        cells[i] = (float)(sum / (PARTS * PARTS));
-    }
-    *mean_square = squares / (double)(side * side * PARTS * PARTS);
+}
+
+clshear_status clshear_integrand_tabulate(const clshear_integrand *integrand, size_t side,
+                                          float *cells, double *mean_square)
+{
+    tabulation job = {integrand, side, cells, calloc(side, sizeof *job.squares)};
+    if (job.squares == NULL)
+        return cs_fail(cs_thread_error(), CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    cs_parallel(0, side, tabulate_rows, &job);
+    *mean_square = 0.0;
+    for (size_t row = 0; row < side; row++)
+        *mean_square += job.squares[row] / ((double)(side * side) * PARTS * PARTS);
+    free(job.squares);
+    return CLSHEAR_OK;
 }
 
 typedef struct integration {

@@ -17,21 +17,15 @@ static int cone_of(double x, double y)
     return cone < CLSHEAR_CONES ? cone : 0;
 }
 
-/* What a mean over cells of side 1/side leaves of a frequency. */
-static double cell_response(double frequency, size_t side)
-{
-    const double x = pi * frequency / (double)side;
-    return fabs(x) < 1e-9 ? 1.0 : sin(x) / x;
-}
-
-/* Energy of the integrand at (x, y), from the half plane of columns that FFTW returns. */
+/* Energy of the integrand at (x, y), from the half plane of columns that FFTW returns. That the
+ * values are means over cells is not undone: it takes as much from smooth functions as aliases add
+ * to those with jumps. */
 static double energy_at(const fftw_complex *transform, size_t side, ptrdiff_t x, ptrdiff_t y)
 {
     if (x < 0) x = -x, y = -y;
     const size_t row = (size_t)(y < 0 ? y + (ptrdiff_t)side : y);
     const double *value = transform[row * (side / 2 + 1) + (size_t)x];
-    const double response = cell_response((double)x, side) * cell_response((double)y, side);
-    const double scale = (double)side * (double)side * response;
+    const double scale = (double)side * (double)side;
     return (value[0] * value[0] + value[1] * value[1]) / (scale * scale);
 }
 
@@ -83,7 +77,6 @@ static void sum_up(const clshear_spectrum *samples, const fftw_complex *transfor
         p->variance += p->cones[cone];
 }
 
-/* Twice the side of the larger square in which the spectrum fits: more rings than it has. */
 static size_t longer_side(const clshear_spectrum *samples)
 {
     return samples->width > samples->height ? samples->width : samples->height;

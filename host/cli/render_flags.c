@@ -278,7 +278,9 @@ static const cli_flag flags[] = {
 const cli_command cli_render_command = {
     .summary = "usage: clshear SCENE [flags]\n"
                "       clshear points [flags]     point sets; see clshear points --help\n"
-               "       clshear spectrum [flags]   their power spectra\n\n"
+               "       clshear spectrum [flags]   their power spectra\n"
+               "       clshear predict [flags]    variance expected from spectra\n"
+               "       clshear converge [flags]   variance against samples\n\n"
                "Render SCENE (OBJ, glTF, PLY, STL) with depth of field.\n\n"
                "  clshear scenes/cornell.obj --spp 1024 --out img.exr\n",
     .notes = "Without --out, writes the scene's name with .exr in the current folder.\n"

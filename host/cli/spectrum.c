@@ -108,7 +108,7 @@ static const cli_flag flags[] = {
     {"projection dims", "LETTERS", "two coordinates out of xyuvpq (xy)", store_projection},
     {"resolution", "R", "frequencies along a side, or W,H (256)", store_resolution},
     {"direction", "X,Y", "profile along this direction too; repeatable", store_direction},
-    {"out o", "FILE", ".exr .png .jpg .tif: the plane; .csv or -: rings; repeatable", store_out},
+    {"out o", "FILE", ".exr .png .tif: the plane; .csv -: rings; repeatable", store_out},
     {"dc", NULL, "keep frequency 0 in pictures and data", store_dc},
     {"plot", "FILE", "draw rings and profiles, .png or .svg, by gnuplot", store_plot},
     {"keep", NULL, "leave the plot's data and script beside it", store_keep},
