@@ -72,7 +72,8 @@ static void tabulate_rows(void *user, size_t begin, size_t end)
             double sum = 0.0;
             for (size_t part = 0; part < PARTS * PARTS; part++) {
                 const double x = step * ((double)(column * PARTS + part % PARTS) + 0.5);
-                const double y = step * ((double)(row * PARTS + part / PARTS) + 0.5);
+                const size_t down = part / PARTS;
+                const double y = step * ((double)(row * PARTS + down) + 0.5);
                 const double value = clshear_integrand_at(job->integrand, x, y);
                 sum += value;
                 job->squares[row] += value * value;

@@ -5,19 +5,19 @@
 #include "cli/converge.h"
 #include "cli/render.h"
 
-/* The words of a list separated by `separator`, as copies that live as long as the process. Returns
- * how many, or 0 if there are more than `most` or empty ones. */
+/* Cuts a list at its separators. The words lie in one copy, words[0], which lives as long as the
+ * process. Returns how many, or 0 if there are more than `most` or empty ones. */
 static int split(const char *text, char separator, const char **words, int most)
 {
     int count = 0;
-    for (const char *start = text; start != NULL;) {
-        const char *end = strchr(start, separator);
-        const size_t length = end != NULL ? (size_t)(end - start) : strlen(start);
-        if (length == 0 || count == most) return 0;
-        char *word = strndup(start, length);
-        if (word == NULL) return 0;
-        words[count++] = word;
-        start = end != NULL ? end + 1 : NULL;
+    char *rest = strdup(text);
+    words[0] = rest;
+    while (rest != NULL) {
+        char *end = strchr(rest, separator);
+        if (end != NULL) *end++ = '\0';
+        if (*rest == '\0' || count == most) return 0;
+        words[count++] = rest;
+        rest = end;
     }
     return count;
 }
@@ -42,7 +42,7 @@ static const char *store_angle(void *target, const char *value)
 static const char *store_pixels(void *target, const char *value)
 {
     cli_converge_job *job = target;
-    const char *words[CLI_MOST_PIXELS];
+    const char *words[CLI_MOST_PIXELS] = {0};
     const int count = split(value, ';', words, CLI_MOST_PIXELS);
     job->pixel_count = 0;
     for (int i = 0; i < count; i++)
@@ -71,7 +71,7 @@ static const char *store_shears(void *target, const char *value)
 static const char *store_counts(void *target, const char *value)
 {
     cli_converge_job *job = target;
-    const char *words[CLI_MOST_SIZES];
+    const char *words[CLI_MOST_SIZES] = {0};
     job->size_count = split(value, ',', words, CLI_MOST_SIZES);
     for (int i = 0; i < job->size_count; i++)
         if (!cli_read_count(words[i], 1, &job->counts[i]) ||

@@ -226,9 +226,8 @@ static int measure(const spectrum_job *job)
     const char *projection = job->projection;
     int code = CLI_FAILED;
     if (projection == NULL && job->source.in == NULL) projection = "xy";
-    if (cli_source_make(&job->source, projection, &points) != CLSHEAR_OK)
-        fail(clshear_message(NULL));
-    else if (clshear_context_create(&job->context, &context) != CLSHEAR_OK)
+    if (cli_source_make(&job->source, projection, &points) != CLSHEAR_OK ||
+        clshear_context_create(&job->context, &context) != CLSHEAR_OK)
         fail(clshear_message(NULL));
     else if (clshear_spectrum_measure(context, &points, (size_t)job->resolution[0],
                                       (size_t)job->resolution[1], &spectrum) != CLSHEAR_OK)
