@@ -214,6 +214,7 @@ int cli_converge(int argc, char **argv)
         cli_print_help(&cli_converge_help);
         return CLI_DONE;
     }
+    if (job.size_given) job.integrand.size = job.size;
     if (job.output_count == 0 && job.plot.path == NULL) job.outputs[job.output_count++] = "-";
     return run(&job);
 }

@@ -16,12 +16,14 @@ typedef struct cli_converge_job {
     cli_job render;
     clshear_integrand integrand;
     const char *integrand_name; /* NULL: pixels of a scene */
+    double size;
+    int size_given;
     int pixels[CLI_MOST_PIXELS][2];
     int pixel_count;
-    const char *samplers[CLI_MOST_NAMES];
+    char *samplers[CLI_MOST_NAMES];
     int sampler_count;
     clshear_shear shears[3];
-    const char *shear_names[3];
+    char *shear_names[3]; /* these two live as long as the process */
     int shear_count;
     uint32_t counts[CLI_MOST_SIZES];
     int size_count;

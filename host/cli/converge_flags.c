@@ -5,9 +5,9 @@
 #include "cli/converge.h"
 #include "cli/render.h"
 
-/* Cuts a list at its separators. The words lie in one copy, words[0], which lives as long as the
- * process. Returns how many, or 0 if there are more than `most` or empty ones. */
-static int split(const char *text, char separator, const char **words, int most)
+/* Cuts a list at its separators. The words lie in one copy, words[0], which is the caller's;
+ * free(). Returns how many, or 0 if there are more than `most` or empty ones. */
+static int split(const char *text, char separator, char **words, int most)
 {
     int count = 0;
     char *rest = strdup(text);
@@ -39,14 +39,22 @@ static const char *store_angle(void *target, const char *value)
     return cli_read_numbers(value, 1, &job->integrand.angle_deg) ? NULL : "degrees";
 }
 
+static const char *store_size(void *target, const char *value)
+{
+    cli_converge_job *job = target;
+    job->size_given = 1;
+    return cli_read_numbers(value, 1, &job->size) ? NULL : "a number";
+}
+
 static const char *store_pixels(void *target, const char *value)
 {
     cli_converge_job *job = target;
-    const char *words[CLI_MOST_PIXELS] = {0};
+    char *words[CLI_MOST_PIXELS] = {0};
     const int count = split(value, ';', words, CLI_MOST_PIXELS);
     job->pixel_count = 0;
     for (int i = 0; i < count; i++)
         if (cli_read_ints(words[i], 2, 0, 65535, job->pixels[i])) job->pixel_count++;
+    free(words[0]);
     return count > 0 && job->pixel_count == count ? NULL : "x,y;x,y;... of up to 16 pixels";
 }
 
@@ -71,12 +79,13 @@ static const char *store_shears(void *target, const char *value)
 static const char *store_counts(void *target, const char *value)
 {
     cli_converge_job *job = target;
-    const char *words[CLI_MOST_SIZES] = {0};
+    char *words[CLI_MOST_SIZES] = {0};
     job->size_count = split(value, ',', words, CLI_MOST_SIZES);
     for (int i = 0; i < job->size_count; i++)
         if (!cli_read_count(words[i], 1, &job->counts[i]) ||
             (i > 0 && job->counts[i] <= job->counts[i - 1]))
             job->size_count = 0;
+    free(words[0]);
     return job->size_count >= 2 ? NULL : "2 to 32 rising whole numbers, with commas";
 }
 
@@ -122,6 +131,7 @@ static const char *store_keep(void *target, const char *value)
 static const cli_flag own_flags[] = {
     {"integrand", "NAME", "step, box, disk, gaussian, tent or plane-wave", store_integrand},
     {"angle", "DEG", "direction of the integrand (0)", store_angle},
+    {"size", "S", "its size, or offset of a step", store_size},
     {"pixels", "X,Y;X,Y", "pixels of SCENE instead; quote the semicolons", store_pixels},
     {"nsamps n", "N,N,...", "samples in a pattern (16,64,256,1024)", store_counts},
     {"nreps replicates", "R", "independent patterns of each (200)", store_replicates},
