@@ -296,6 +296,11 @@ CLSHEAR_API clshear_status clshear_spectrum_write(const clshear_spectrum *spectr
                                                   const char *path);
 CLSHEAR_API void clshear_spectrum_free(clshear_spectrum *spectrum);
 
+/* Power of the discrete Fourier transform of width x height values, row by row: |f|^2 relative to
+ * its mean over all frequencies but 0; as a spectrum of one set. */
+CLSHEAR_API clshear_status clshear_spectrum_of_grid(const float *values, size_t width,
+                                                    size_t height, clshear_spectrum *spectrum);
+
 /* ------------------------------------------------------------------------------------------------
  * Variance: measured, fitted and predicted, of integrals over the unit square. Functions fail with
  * a message that clshear_message(NULL) has.
@@ -438,6 +443,24 @@ typedef struct clshear_film clshear_film;
  * `Samples` channel says how much that is, and the status is CLSHEAR_CANCELLED. */
 CLSHEAR_API clshear_status clshear_render(clshear_scene *scene, const clshear_camera *camera,
                                           const clshear_options *options, clshear_film **film);
+
+/* Side of the square around the aperture in the unit in which shears count: 1 for squares and
+ * images, more for disks and polygons, whose unit is the side of a square as large. */
+CLSHEAR_API float clshear_lens_extent(const clshear_camera *camera);
+
+/* The integrand of pixel (x, y) of a width x height image: radiance at `count` points of four
+ * coordinates each, film x and y from the pixel's left upper corner (0 to 1 is the pixel), and lens
+ * u and v, where 0 to 1 is the square around the aperture, whatever its shape. `rgb`: 3 floats a
+ * point. Area lights are seen from one point of each emitter. The camera's lens must be chosen. */
+CLSHEAR_API clshear_status clshear_radiance(clshear_scene *scene, const clshear_camera *camera,
+                                            int width, int height, int x, int y,
+                                            const float *points, size_t count, float *rgb);
+
+/* Writes planes of floats, named R, G, B and whatever else, as clshear_film_write does. Fails with
+ * a message that clshear_message(NULL) has. */
+CLSHEAR_API clshear_status clshear_image_write(const char *path, int width, int height,
+                                               size_t channels, const char *const *names,
+                                               const float *const *planes);
 
 /* ------------------------------------------------------------------------------------------------
  * Film: the rendered pixels

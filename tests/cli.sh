@@ -144,6 +144,20 @@ expect 0 "" -- converge "$cornell" --quiet --pixels '302,130;3,4' --sampler mj -
 python3 -c 'import json; s = json.load(open("c.json"))["series"]; assert len(s) == 4 and len(s[0]["mse"]) == 2' ||
     wrong "c.json"
 [ -s c.png ] && [ ! -e c.png.dat ] || wrong "plot missing, or its data left"
+expect 0 "" -- slice "$cornell" --quiet --pixel 302,130 --resolution 32,16 --out q.exr --out q.png \
+    --spectrum qs.png
+case $(oiiotool --info -v q.exr) in *"32 x   16, 3 channel"*) ;; *) wrong "q.exr" ;; esac
+[ -s qs.png ] || wrong "no spectrum of the slice"
+expect 0 "" -- slice "$cornell" --quiet --pixel 302,130 --projection 4d --resolution 8 --out q.npy
+[ "$(stat -c %s q.npy)" -eq $((128 + 8 * 8 * 8 * 8 * 3 * 4)) ] || wrong "size of q.npy"
+expect 2 "give a SCENE and a --pixel" -- slice "$cornell"
+expect 2 ".npy is for --projection 4d" -- slice "$cornell" --pixel 1,1 --out q.npy
+expect 2 "--projection xx: must be two letters" -- slice "$cornell" --pixel 1,1 --projection xx
+expect 1 "crop 600,601" -- slice "$cornell" --quiet --pixel 600,1 --out q.png
+for command in points spectrum predict converge slice; do
+    expect 0 "usage: clshear $command" -- $command --help
+    [ "$(echo "$output" | awk 'length > 80' | wc -l)" -eq 0 ] || wrong "$command --help wider than 80"
+done
 expect 2 "give an --integrand, or a SCENE with --pixels" -- converge --sampler mj
 expect 2 "--nsamps 64,16: must be 2 to 32 rising" -- converge --integrand box --nsamps 64,16
 expect 1 "crop 600,601,3,4" -- converge "$cornell" --quiet --pixels 600,3

@@ -12,7 +12,7 @@ cd "$scratch"
 grep -h '^    build/' "$root"/README.md "$root"/docs/*.md "$root"/scenes/README.md | while read -r command; do
     echo "+ $command"
     # A picture of documentation size is not what is tested here.
-    case $command in *bench* | *points* | *--list* | *"--extend "*) bash -c "$command" ;; *) bash -c "$command --spp 8 --quiet" ;; esac
+    case $command in *bench* | *points* | *slice* | *--list* | *"--extend "*) bash -c "$command" ;; *) bash -c "$command --spp 8 --quiet" ;; esac
 done
 
 awk '/^```c$/ { inside = 1; next } /^```/ { inside = 0 } inside' "$root/README.md" >readme.c

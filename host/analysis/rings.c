@@ -103,3 +103,16 @@ done:
     free(plane);
     return status;
 }
+
+clshear_status clshear_image_write(const char *path, int width, int height, size_t channels,
+                                   const char *const *names, const float *const *planes)
+{
+    const cs_picture picture = {.width = width,
+                                .height = height,
+                                .full_width = width,
+                                .full_height = height,
+                                .channel_count = channels,
+                                .names = names,
+                                .planes = planes};
+    return cs_image_write(path, &picture, cs_thread_error());
+}

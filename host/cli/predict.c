@@ -101,13 +101,12 @@ static const cli_flag flags[] = {
 
 static const cli_command command = {
     .name = "predict",
-    .summary =
-        "usage: clshear predict --integrand NAME [flags]\n"
-        "Predict the variance of an integral from the power spectra of samples and integrand.\n\n"
-        "  clshear predict --integrand step --angle 30 --sampler mj --n 256 --measure 4000\n",
-    .notes = "The variance is that of sets shifted at random around the torus, for which the sum\n"
-             "over frequencies is exact. Cones are eighths of a half turn from the x axis; the\n"
-             "tail is what lies beyond the spectrum, at the level of random points.\n",
+    .summary = "usage: clshear predict --integrand NAME [flags]\n"
+               "Predict the variance of an integral from the spectra of samples and integrand.\n\n"
+               "  clshear predict --integrand step --angle 30 --sampler mj --n 64 --measure 4000\n",
+    .notes = "The variance is that of sets shifted at random around the torus, for which the\n"
+             "sum over frequencies is exact. Cones are eighths of a half turn from the x axis;\n"
+             "the tail is what lies beyond the spectrum, at the level of random points.\n",
     .flags = flags,
     .flag_count = sizeof flags / sizeof *flags,
 };

@@ -279,6 +279,7 @@ const cli_command cli_render_command = {
     .summary = "usage: clshear SCENE [flags]\n"
                "       clshear points [flags]     point sets; see clshear points --help\n"
                "       clshear spectrum [flags]   their power spectra\n"
+               "       clshear slice SCENE [flags] the integrand of a pixel\n"
                "       clshear predict [flags]    variance expected from spectra\n"
                "       clshear converge [flags]   variance against samples\n\n"
                "Render SCENE (OBJ, glTF, PLY, STL) with depth of field.\n\n"

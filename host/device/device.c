@@ -27,10 +27,12 @@ struct cs_buffer {
 };
 
 static const char *const kernel_names[CS_KERNEL_COUNT] = {
-    "cs_render", "cs_trace", "cs_points", "cs_draw_sum", "cs_exponentials", "cs_periodogram"};
+    "cs_render",       "cs_trace",       "cs_points",     "cs_draw_sum",
+    "cs_exponentials", "cs_periodogram", "cs_radiance_at"};
 
 static cs_program program_of(cs_kernel kernel)
 {
+    if (kernel == CS_KERNEL_RADIANCE) return CS_PROGRAM_RADIANCE;
     return kernel < CS_KERNEL_EXPONENTIALS ? CS_PROGRAM_RENDER : CS_PROGRAM_ANALYSIS;
 }
 

@@ -18,6 +18,7 @@ typedef enum cs_kernel {
     CS_KERNEL_DRAW_SUM,
     CS_KERNEL_EXPONENTIALS,
     CS_KERNEL_PERIODOGRAM,
+    CS_KERNEL_RADIANCE,
     CS_KERNEL_COUNT
 } cs_kernel;
 
@@ -25,6 +26,7 @@ typedef enum cs_kernel {
 typedef enum cs_program {
     CS_PROGRAM_RENDER,
     CS_PROGRAM_ANALYSIS,
+    CS_PROGRAM_RADIANCE,
     CS_PROGRAM_COUNT
 } cs_program;
 

@@ -25,6 +25,11 @@ float cs_optics_unit(const clshear_camera *camera)
     }
 }
 
+float clshear_lens_extent(const clshear_camera *camera)
+{
+    return 2.0f / cs_optics_unit(camera);
+}
+
 /* Reach and deviation of a disk of area 1 or a square. */
 static void set_extent(cs_optics *optics, f32 reach, f32 deviation)
 {
