@@ -68,7 +68,7 @@ static inline vfloat cs_cube_root(vfloat x)
  * segment left of u), cos(psi / 2) is analytic in mass^(2/3): a fit replaces the iteration. */
 static inline vfloat cs_disk_quantile(vfloat mass)
 {
-    vfloat tail = cs_max(cs_min(mass, 1.0f - mass), (vfloat)(0.0f));
+    vfloat tail = cs_max(cs_min(mass, 1.0f - mass), (vfloat)(1e-20f)); /* 0 has no such root */
     vfloat root = cs_cube_root(tail);
     vfloat q = root * root;
     vfloat p = (vfloat)(0.30320378f);

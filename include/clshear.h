@@ -347,7 +347,7 @@ typedef struct clshear_fit {
     double slope_high;
 } clshear_fit;
 
-/* Fits estimates from `replicates` (2 or more) patterns of each of `sizes` (2 or more) different
+/* Fits estimates from `replicates` (2 or more) patterns of each of `sizes` (2 or more) rising
  * counts: means[k * replicates + r]. `errors`: for each count the variance of one pattern or, where
  * `reference` is not NULL, its mean squared difference from *reference. Sizes whose error is 0 are
  * left out of the fit; slopes are NaN where fewer than two remain. */

@@ -159,9 +159,13 @@ for command in points spectrum predict converge slice; do
     [ "$(echo "$output" | awk 'length > 80' | wc -l)" -eq 0 ] || wrong "$command --help wider than 80"
 done
 expect 2 "give an --integrand, or a SCENE with --pixels" -- converge --sampler mj
+expect 0 "pixel 3:4,mj,none,16" -- converge "$cornell" --quiet --pixels 3,4 --sampler mj --nreps 4 \
+    --nsamps 4,16 --aperture bright.exr
+expect 2 "--size 0: must be above 0" -- predict --integrand plane-wave --size 0
+expect 1 "too few frequencies" -- spectrum --resolution 2 --n 4 --sets 1 --plot p.png
 expect 2 "--nsamps 64,16: must be 2 to 32 rising" -- converge --integrand box --nsamps 64,16
 expect 1 "crop 600,601,3,4" -- converge "$cornell" --quiet --pixels 600,3
-output=$(PATH=/nonexistent "$program" converge --integrand box --nreps 4 --plot no.png 2>&1)
+output=$(PATH=/nonexistent "$program" converge --integrand disk --nreps 4 --plot no.png 2>&1)
 case $?$output in 0*"no gnuplot here: no.png is not drawn"*) ;; *) wrong "without gnuplot: $output" ;; esac
 
 # A scene without camera, lens and light says what was chosen.

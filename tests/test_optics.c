@@ -102,6 +102,28 @@ static void measure_is_kept(void **state)
     }
 }
 
+/* Whatever the tuple, also at its very ends: inside filter and aperture. */
+static void extreme_tuples_are_inside(void **state)
+{
+    (void)state;
+    static const f32 ends[] = {0.0f, 6e-8f, 5e-7f, 0.5f, 0.99999994f};
+    for (u32 which = 0; which < VARIANTS; which++) {
+        cs_optics_tables made = lens(which);
+        const cs_optics *o = &made.optics;
+        const f32 half = 0.5f * o->filter_width + 1e-5f;
+        for (u32 i = 0; i < 625 * SHEARS; i++) {
+            const cs_film_lens p =
+                cs_shear(ends[i % 5], ends[i / 5 % 5], ends[i / 25 % 5], ends[i / 125 % 5],
+                         CS_SHEAR_EQUAL_AREA, o, made.table.items, shears[i / 625]);
+            if (!(fabsf(p.u) <= 1.0001f * o->reach[0] && fabsf(p.v) <= 1.0001f * o->reach[1] &&
+                  fabsf(p.x - 0.5f) <= half && fabsf(p.y - 0.5f) <= half))
+                fail_msg("lens %u, tuple %u: %g %g %g %g", which, i, (double)p.x, (double)p.y,
+                         (double)p.u, (double)p.v);
+        }
+        cs_optics_free(&made);
+    }
+}
+
 /* The fibre coordinate in x depends on the first coordinate alone and grows with it; through a
  * square so does that in y. */
 static void first_pair_fixes_the_fibre(void **state)
@@ -288,6 +310,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(measure_is_kept),
+        cmocka_unit_test(extreme_tuples_are_inside),
         cmocka_unit_test(first_pair_fixes_the_fibre),
         cmocka_unit_test(fibre_is_a_quantile),
         cmocka_unit_test(polygons_are_regular),

@@ -15,7 +15,7 @@ static double error_of(const double *values, const uint32_t *chosen, size_t coun
                        const double *reference)
 {
     double sum = 0.0, square = 0.0;
-    const double origin = reference != NULL ? *reference : values[0];
+    const double origin = reference != NULL ? *reference : values[chosen != NULL ? chosen[0] : 0];
     for (size_t i = 0; i < count; i++) {
         const double value = values[chosen != NULL ? chosen[i] : i] - origin;
         sum += value;
@@ -66,19 +66,26 @@ clshear_status clshear_fit_slope(const uint32_t *counts, size_t sizes, const dou
     cs_error *error = cs_thread_error();
     double *slopes = calloc(RESAMPLES, sizeof *slopes), *drawn = calloc(sizes + 1, sizeof *drawn);
     uint32_t *chosen = calloc(replicates + 1, sizeof *chosen);
+    size_t found = 0;
     CS_REQUIRE(sizes >= 2 && replicates >= 2, CLSHEAR_BAD_ARGUMENT,
                "a slope of %zu sizes and %zu replicates: needs 2 or more of both", sizes,
                replicates);
     CS_REQUIRE(slopes != NULL && drawn != NULL && chosen != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory");
+    for (size_t k = 1; k < sizes; k++)
+        CS_REQUIRE(counts[k] > counts[k - 1], CLSHEAR_BAD_ARGUMENT,
+                   "a slope over %u and %u samples: numbers must rise", counts[k - 1], counts[k]);
     for (size_t k = 0; k < sizes; k++)
         errors[k] = error_of(means + k * replicates, NULL, replicates, reference);
-    for (u32 s = 0; s < RESAMPLES; s++)
-        slopes[s] = resampled_slope(counts, sizes, means, replicates, reference, s, chosen, drawn);
-    qsort(slopes, RESAMPLES, sizeof *slopes, by_value);
+    for (u32 s = 0; s < RESAMPLES; s++) {
+        const double slope =
+            resampled_slope(counts, sizes, means, replicates, reference, s, chosen, drawn);
+        if (isfinite(slope)) slopes[found++] = slope;
+    }
+    qsort(slopes, found, sizeof *slopes, by_value);
     fit->slope = slope_of(counts, errors, sizes);
-    fit->slope_low = slopes[RESAMPLES / 40];
-    fit->slope_high = slopes[RESAMPLES - 1 - RESAMPLES / 40];
+    fit->slope_low = found > 0 ? slopes[found / 40] : NAN;
+    fit->slope_high = found > 0 ? slopes[found - 1 - found / 40] : NAN;
 done:
     free(slopes);
     free(drawn);

@@ -179,6 +179,7 @@ done:
 
 void clshear_spectrum_free(clshear_spectrum *spectrum)
 {
+    if (spectrum == NULL) return;
     free(spectrum->power);
     *spectrum = (clshear_spectrum){0};
 }

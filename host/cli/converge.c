@@ -58,6 +58,7 @@ static clshear_status render_pixel(const cli_converge_job *job, const view *v, c
     options.shear = shear;
     options.replicates = job->replicates;
     options.keep_patterns = 1;
+    options.adaptive = options.gain = options.extendable = 0; /* what is measured is one pattern */
     if (options.oracle == CLSHEAR_ORACLE_PILOT) options.oracle = CLSHEAR_ORACLE_CENTRE;
     for (int k = 0; k < job->size_count; k++) {
         clshear_film *film = NULL;
@@ -121,23 +122,14 @@ static int study_pixels(const cli_converge_job *job, const view *v, cli_study *s
 }
 
 /* Opens the scene and studies its pixels. */
-static int study_scene(const cli_converge_job *job, cli_study *study, double *means)
+static int study_scene(cli_converge_job *job, cli_study *study, double *means)
 {
     view v = {0};
-    int code = CLI_FAILED;
-    clshear_status status = CLSHEAR_OK;
-    if (clshear_context_create(&job->render.context, &v.context) != CLSHEAR_OK)
-        return fail(clshear_message(NULL));
-    status = clshear_scene_load(v.context, job->render.scene, &v.scene);
-    for (int i = 0; i < job->render.light_count && status == CLSHEAR_OK; i++)
-        status = clshear_scene_add_light(v.scene, &job->render.lights[i]);
-    if (status == CLSHEAR_OK) status = cli_choose_camera(&job->render, v.scene, &v.camera);
-    if (status == CLSHEAR_OK)
-        code = study_pixels(job, &v, study, means);
-    else
-        fail(clshear_message(v.context));
-    clshear_scene_free(v.scene);
-    clshear_context_free(v.context);
+    int code = cli_open_scene(&job->render, &v.context, &v.scene);
+    if (code == CLI_DONE && cli_choose_camera(&job->render, v.scene, &v.camera) != CLSHEAR_OK)
+        code = fail(clshear_message(v.context));
+    if (code == CLI_DONE) code = study_pixels(job, &v, study, means);
+    cli_close_scene(&job->render, v.context, v.scene);
     return code;
 }
 
@@ -158,7 +150,10 @@ static int write_output(const char *path, const cli_study *study)
 static int check(const cli_converge_job *job)
 {
     const int pixels = job->pixel_count > 0;
-    if (pixels == (job->integrand_name != NULL))
+    if (job->integrand_name != NULL && job->integrand.kind != CLSHEAR_INTEGRAND_STEP &&
+        !(job->integrand.size > 0.0))
+        fprintf(stderr, "clshear: --size %g: must be above 0\n", job->integrand.size);
+    else if (pixels == (job->integrand_name != NULL))
         fprintf(stderr, "clshear: give an --integrand, or a SCENE with --pixels\n");
     else if (pixels && job->render.scene == NULL)
         fprintf(stderr, "clshear: --pixels need a SCENE\n");
@@ -171,7 +166,7 @@ static int check(const cli_converge_job *job)
     return CLI_USAGE;
 }
 
-static int run(const cli_converge_job *job)
+static int run(cli_converge_job *job)
 {
     int code = check(job);
     if (code != CLI_DONE) return code;

@@ -232,6 +232,10 @@ int cli_predict(int argc, char **argv)
                                            : "--measure needs a sampler to draw other sets from");
         return CLI_USAGE;
     }
+    if (job.integrand.kind != CLSHEAR_INTEGRAND_STEP && !(job.integrand.size > 0.0)) {
+        fprintf(stderr, "clshear: --size %g: must be above 0\n", job.integrand.size);
+        return CLI_USAGE;
+    }
     if (job.projection == NULL && job.source.in == NULL) job.projection = "xy";
     code = predict(&job, &prediction);
     if (code == CLI_DONE && job.measured_sets > 0) code = measure(&job, &measured);

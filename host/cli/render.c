@@ -14,12 +14,6 @@
 
 static char default_output[4096];
 
-static void warn(void *user, const char *line)
-{
-    const cli_job *job = user;
-    if (!job->quiet) fprintf(stderr, "clshear: %s\n", line);
-}
-
 static int fail(const clshear_context *context)
 {
     fprintf(stderr, "clshear: %s\n", clshear_message(context));
@@ -183,8 +177,6 @@ static int render(cli_job *job, clshear_context *context, clshear_scene *scene, 
 {
     clshear_camera camera;
     clshear_film *film = NULL;
-    for (int i = 0; i < job->light_count; i++)
-        if (clshear_scene_add_light(scene, &job->lights[i]) != CLSHEAR_OK) return fail(context);
     if (cli_choose_camera(job, scene, &camera) != CLSHEAR_OK) return fail(context);
     cli_tell_choices(job, scene, &camera);
     clshear_film *base = NULL;
@@ -215,20 +207,9 @@ static int run(cli_job *job, const char *command)
     choose_output(job);
     int code = check_outputs(job);
     if (code != CLI_DONE) return code;
-    job->context.warn = warn;
-    job->context.warn_user = job;
-    if (job->aperture_file != NULL &&
-        clshear_aperture_image_read(job->aperture_file, &job->aperture_image) != CLSHEAR_OK)
-        return fail(NULL);
-    if (clshear_context_create(&job->context, &context) != CLSHEAR_OK)
-        code = fail(NULL);
-    else if (clshear_scene_load(context, job->scene, &scene) != CLSHEAR_OK)
-        code = fail(context);
-    else
-        code = render(job, context, scene, command);
-    clshear_scene_free(scene);
-    clshear_context_free(context);
-    clshear_aperture_image_free(&job->aperture_image);
+    code = cli_open_scene(job, &context, &scene);
+    if (code == CLI_DONE) code = render(job, context, scene, command);
+    cli_close_scene(job, context, scene);
     return code;
 }
 

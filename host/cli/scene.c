@@ -91,12 +91,45 @@ int cli_parse_scene(const cli_command *command, const void *defaults, size_t siz
     cli_job *job = result, line;
     memcpy(result, defaults, size);
     int code = cli_parse_words(command, job, argc, argv, &job->scene);
-    if (code != CLI_DONE || job->help || job->version || job->list_devices || job->list_samplers)
-        return code;
-    if (job->scene == NULL) return CLI_DONE;
+    const int renders = command->name == NULL;
+    if (code != CLI_DONE || job->help || job->scene == NULL) return code;
+    if (renders && (job->version || job->list_devices || job->list_samplers)) return CLI_DONE;
     line = *job;
     const char *settings = line.settings != NULL ? line.settings : settings_beside(line.scene);
     if (settings == NULL) return CLI_DONE;
     memcpy(result, defaults, size);
     return read_over_settings(command, settings, &line, argc, argv, job);
+}
+
+static void warn(void *user, const char *line)
+{
+    const cli_job *job = user;
+    if (!job->quiet) fprintf(stderr, "clshear: %s\n", line);
+}
+
+static int fail(const clshear_context *context)
+{
+    fprintf(stderr, "clshear: %s\n", clshear_message(context));
+    return CLI_FAILED;
+}
+
+int cli_open_scene(cli_job *job, clshear_context **context, clshear_scene **scene)
+{
+    job->context.warn = warn;
+    job->context.warn_user = job;
+    if (job->aperture_file != NULL &&
+        clshear_aperture_image_read(job->aperture_file, &job->aperture_image) != CLSHEAR_OK)
+        return fail(NULL);
+    if (clshear_context_create(&job->context, context) != CLSHEAR_OK) return fail(NULL);
+    if (clshear_scene_load(*context, job->scene, scene) != CLSHEAR_OK) return fail(*context);
+    for (int i = 0; i < job->light_count; i++)
+        if (clshear_scene_add_light(*scene, &job->lights[i]) != CLSHEAR_OK) return fail(*context);
+    return CLI_DONE;
+}
+
+void cli_close_scene(cli_job *job, clshear_context *context, clshear_scene *scene)
+{
+    clshear_scene_free(scene);
+    clshear_context_free(context);
+    clshear_aperture_image_free(&job->aperture_image);
 }

@@ -11,6 +11,12 @@
 int cli_parse_scene(const cli_command *command, const void *defaults, size_t size, int argc,
                     char **argv, void *job);
 
+/* Reads the aperture's image, opens the device and the scene, and adds the lights. Warnings go to
+ * the standard error stream unless job->quiet. Returns CLI_DONE or CLI_FAILED, with a line printed;
+ * what was opened is closed by cli_close_scene in either case. */
+int cli_open_scene(cli_job *job, clshear_context **context, clshear_scene **scene);
+void cli_close_scene(cli_job *job, clshear_context *context, clshear_scene *scene);
+
 /* The scene's camera with what the flags say. */
 clshear_status cli_choose_camera(const cli_job *job, const clshear_scene *scene,
                                  clshear_camera *camera);

@@ -99,5 +99,13 @@ static void write_script(FILE *stream, const void *user)
 
 int cli_study_draw(const cli_study *study, const cli_plot *plot)
 {
+    int visible = 0;
+    for (int s = 0; s < study->series_count; s++)
+        for (size_t k = 0; k < study->sizes; k++)
+            visible |= study->series[s].errors[k] > 0.0;
+    if (plot->path != NULL && !visible) {
+        fprintf(stderr, "clshear: all errors are 0: %s is not drawn\n", plot->path);
+        return 0;
+    }
     return cli_plot_draw(plot, write_data, write_script, study);
 }

@@ -178,9 +178,7 @@ static int compute(const cli_slice_job *job, clshear_context *context, clshear_s
     }
     for (size_t i = 0; i < slice->count; i++)
         place(job, i, points + 4 * i);
-    for (int i = 0; i < job->render.light_count && status == CLSHEAR_OK; i++)
-        status = clshear_scene_add_light(scene, &job->render.lights[i]);
-    if (status == CLSHEAR_OK) status = cli_choose_camera(&job->render, scene, &camera);
+    status = cli_choose_camera(&job->render, scene, &camera);
     if (status == CLSHEAR_OK) status = find_slope(job, scene, &camera, slice);
     if (status == CLSHEAR_OK)
         status =
@@ -218,17 +216,11 @@ static int run(cli_slice_job *job)
     cli_slice slice = {.width = (int)width,
                        .height = (int)height,
                        .count = four ? width * width * width * width : width * height};
-    int code = CLI_FAILED;
-    if (clshear_context_create(&job->render.context, &context) != CLSHEAR_OK)
-        return fail(clshear_message(NULL));
-    if (clshear_scene_load(context, job->render.scene, &scene) != CLSHEAR_OK)
-        fail(clshear_message(context));
-    else
-        code = compute(job, context, scene, &slice);
+    int code = cli_open_scene(&job->render, &context, &scene);
+    if (code == CLI_DONE) code = compute(job, context, scene, &slice);
     if (code == CLI_DONE) code = cli_slice_write(job, &slice);
     free(slice.rgb);
-    clshear_scene_free(scene);
-    clshear_context_free(context);
+    cli_close_scene(&job->render, context, scene);
     return code;
 }
 

@@ -213,7 +213,10 @@ static int write_outputs(const spectrum_job *job, const clshear_spectrum *spectr
         else if (clshear_spectrum_write(spectrum, job->keep_dc, path) != CLSHEAR_OK)
             code = fail(clshear_message(NULL));
     }
-    if (code == CLI_DONE) code = cli_plot_draw(&job->plot, write_table, write_script, &t);
+    if (code == CLI_DONE && job->plot.path != NULL && t.radii < 2)
+        code = fail("--plot: too few frequencies; give a larger --resolution");
+    else if (code == CLI_DONE)
+        code = cli_plot_draw(&job->plot, write_table, write_script, &t);
     free(t.mean);
     return code;
 }

@@ -87,8 +87,12 @@ clshear_status cs_aperture_image_make(const clshear_aperture_image *image, cs_op
     const size_t rows = width + 1 + (size_t)width * (height + 1);
     f32 *row = cs_array_extend(&tables->table, rows * CS_PROFILE_COLUMNS);
     if (row == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    double most = 0.0;
+    for (u32 i = 0; i < width * height; i++)
+        most = fmax(most, (double)image->luminance[i]);
     for (u32 i = 0; i < width; i++)
-        columns[i] = (float)strip_sum(&(strip){image->luminance + i, width, height, reach[1]});
+        columns[i] =
+            (float)(strip_sum(&(strip){image->luminance + i, width, height, reach[1]}) / most);
     double variance[2] = {fill_rows(&(strip){columns, 1, width, reach[0]}, row), 0.0};
     row += (size_t)(width + 1) * CS_PROFILE_COLUMNS;
     for (u32 i = 0; i < width; i++) {
@@ -118,6 +122,7 @@ clshear_status clshear_aperture_image_read(const char *path, clshear_aperture_im
 
 void clshear_aperture_image_free(clshear_aperture_image *image)
 {
+    if (image == NULL) return;
     free(image->luminance);
     *image = (clshear_aperture_image){0};
 }

@@ -57,13 +57,14 @@ clshear_status clshear_points_draw(const char *name, size_t wanted, size_t sets,
     CS_REQUIRE(wanted >= 1 && wanted <= most, CLSHEAR_BAD_ARGUMENT,
                "%zu points of sampler %s: must be 1 to %u", wanted, cs_sampler_name(sampler), most);
     const u32 count = cs_sampler_count(sampler, (u32)wanted);
-    draw_job job = {.pattern = cs_pattern_of(sampler, 0, count), .seed = seed, .points = points};
-    *points = (clshear_points){
+    clshear_points made = {
         .sets = sets, .count = count, .dimensions = CS_DIMENSIONS, .names = "xyuvpq"};
+    draw_job job = {.pattern = cs_pattern_of(sampler, 0, count), .seed = seed, .points = &made};
     CS_TRY(cs_rows_make(&job.pattern, CS_ORDER_SEQUENCE, &rows, error));
-    CS_TRY(cs_points_reserve(points, error));
+    CS_TRY(cs_points_reserve(&made, error));
     job.rows = rows.items;
     cs_parallel(0, sets, draw_sets, &job);
+    *points = made;
 done:
     cs_array_free(&rows);
     return status;
@@ -123,6 +124,7 @@ clshear_status clshear_points_select(clshear_points *points, const char *names)
 
 void clshear_points_free(clshear_points *points)
 {
+    if (points == NULL) return;
     free(points->values);
     *points = (clshear_points){0};
 }

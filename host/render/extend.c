@@ -1,6 +1,7 @@
 /* Going on with a render: more samples of the same patterns, without redoing those it has. */
 #include "render/extend.h"
 
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,19 +37,21 @@ static void recipe_of(const cs_job *job, char *text, size_t size)
 {
     const clshear_options *o = &job->options;
     const cs_scene *scene = &job->scene->scene;
-    u32 camera = 0, light = 0, world = 0;
-    add_words(&camera, &job->camera, sizeof job->camera);
-    add_array(&camera, &job->optics.table);
+    u32 camera = 0, lens = 0, light = 0, world = 0;
+    add_words(&camera, &job->camera, offsetof(cs_camera, optics));
+    add_words(&lens, &job->camera.optics, sizeof job->camera.optics);
+    add_array(&lens, &job->optics.table);
     add_array(&light, &scene->lights);
     add_array(&world, &scene->positions);
     add_array(&world, &scene->indices);
     add_array(&world, &scene->materials);
     add_array(&world, &scene->texels);
     snprintf(text, size,
-             "sampler=%s;seed=%u;replicates=%u;shear=%d;size=%dx%d;camera=%08x;lights=%08x;"
+             "sampler=%s;seed=%u;replicates=%u;shear=%d;size=%dx%d;camera=%08x;aperture or "
+             "filter=%08x;lights=%08x;"
              "scene=%08x",
              cs_sampler_name(job->pattern.sampler), o->seed, o->replicates, (int)o->shear, o->width,
-             o->height, camera, light, world);
+             o->height, camera, lens, light, world);
 }
 
 /* Name of the first thing in which two recipes differ. */
