@@ -12,7 +12,7 @@ static const double pi = 3.14159265358979323846;
 static const struct {
     const char *name;
     double size;
-} known[] = {{"step", 0.0},     {"box", 0.53},  {"disk", 0.6},
+} known[] = {{"step", 0.0},     {"box", 0.53}, {"disk", 0.6},
              {"gaussian", 0.6}, {"tent", 0.8}, {"plane-wave", 0.2}};
 enum {
     KNOWN = sizeof known / sizeof *known

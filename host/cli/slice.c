@@ -140,7 +140,8 @@ static void place(const cli_slice_job *job, size_t index, float *point)
     const long first = strchr(letters, job->projection[0]) - letters;
     const long second = strchr(letters, job->projection[1]) - letters;
     point[first] = ((float)(index % width) + 0.5f) / (float)width;
-    point[second] = ((float)(index / width) + 0.5f) / (float)job->resolution[1];
+    const size_t row = index / width;
+    point[second] = ((float)row + 0.5f) / (float)job->resolution[1];
 }
 
 /* How the second coordinate moves the first along a fibre, from the oracle's shear. */
