@@ -356,6 +356,12 @@ CLSHEAR_API clshear_status clshear_fit_slope(const uint32_t *counts, size_t size
                                              const double *reference, double *errors,
                                              clshear_fit *fit);
 
+/* The same for errors that are means over parts, such as the tiles of an image: parts[k * count +
+ * i]. The bootstrap is over the parts, the same ones for all sizes. */
+CLSHEAR_API clshear_status clshear_fit_slope_of_parts(const uint32_t *counts, size_t sizes,
+                                                      const double *parts, size_t count,
+                                                      double *errors, clshear_fit *fit);
+
 enum {
     CLSHEAR_CONES = 8
 };

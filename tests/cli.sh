@@ -158,7 +158,10 @@ for command in points spectrum predict converge slice; do
     expect 0 "usage: clshear $command" -- $command --help
     [ "$(echo "$output" | awk 'length > 80' | wc -l)" -eq 0 ] || wrong "$command --help wider than 80"
 done
-expect 2 "give an --integrand, or a SCENE with --pixels" -- converge --sampler mj
+expect 0 "image,mj,none,4,8," -- converge "$cornell" --quiet --width 24 --height 20 --sampler mj --nsamps 4,16
+[ "$(echo "$output" | wc -l)" -eq 5 ] || wrong "converge of an image: $output"
+expect 2 "give either an --integrand or a SCENE" -- converge --sampler mj
+expect 2 "give either an --integrand or a SCENE" -- converge "$cornell" --integrand box
 expect 0 "pixel 3:4,mj,none,16" -- converge "$cornell" --quiet --pixels 3,4 --sampler mj --nreps 4 \
     --nsamps 4,16 --aperture bright.exr
 expect 2 "--size 0: must be above 0" -- predict --integrand plane-wave --size 0

@@ -58,6 +58,29 @@ static double resampled_slope(const uint32_t *counts, size_t sizes, const double
     return slope_of(counts, errors, sizes);
 }
 
+/* Slope and interval from `found` resampled slopes. */
+static void summarise(double slope, double *slopes, size_t found, clshear_fit *fit)
+{
+    qsort(slopes, found, sizeof *slopes, by_value);
+    fit->slope = slope;
+    fit->slope_low = found > 0 ? slopes[found / 40] : NAN;
+    fit->slope_high = found > 0 ? slopes[found - 1 - found / 40] : NAN;
+}
+
+static clshear_status check(const uint32_t *counts, size_t sizes, size_t values, cs_error *error)
+{
+    if (sizes < 2 || values < 2)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "a slope of %zu sizes and %zu values of each: needs 2 or more of both",
+                       sizes, values);
+    for (size_t k = 1; k < sizes; k++)
+        if (counts[k] <= counts[k - 1])
+            return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                           "a slope over %u and %u samples: numbers must rise", counts[k - 1],
+                           counts[k]);
+    return CLSHEAR_OK;
+}
+
 clshear_status clshear_fit_slope(const uint32_t *counts, size_t sizes, const double *means,
                                  size_t replicates, const double *reference, double *errors,
                                  clshear_fit *fit)
@@ -67,14 +90,9 @@ clshear_status clshear_fit_slope(const uint32_t *counts, size_t sizes, const dou
     double *slopes = calloc(RESAMPLES, sizeof *slopes), *drawn = calloc(sizes + 1, sizeof *drawn);
     uint32_t *chosen = calloc(replicates + 1, sizeof *chosen);
     size_t found = 0;
-    CS_REQUIRE(sizes >= 2 && replicates >= 2, CLSHEAR_BAD_ARGUMENT,
-               "a slope of %zu sizes and %zu replicates: needs 2 or more of both", sizes,
-               replicates);
+    CS_TRY(check(counts, sizes, replicates, error));
     CS_REQUIRE(slopes != NULL && drawn != NULL && chosen != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory");
-    for (size_t k = 1; k < sizes; k++)
-        CS_REQUIRE(counts[k] > counts[k - 1], CLSHEAR_BAD_ARGUMENT,
-                   "a slope over %u and %u samples: numbers must rise", counts[k - 1], counts[k]);
     for (size_t k = 0; k < sizes; k++)
         errors[k] = error_of(means + k * replicates, NULL, replicates, reference);
     for (u32 s = 0; s < RESAMPLES; s++) {
@@ -82,13 +100,43 @@ clshear_status clshear_fit_slope(const uint32_t *counts, size_t sizes, const dou
             resampled_slope(counts, sizes, means, replicates, reference, s, chosen, drawn);
         if (isfinite(slope)) slopes[found++] = slope;
     }
-    qsort(slopes, found, sizeof *slopes, by_value);
-    fit->slope = slope_of(counts, errors, sizes);
-    fit->slope_low = found > 0 ? slopes[found / 40] : NAN;
-    fit->slope_high = found > 0 ? slopes[found - 1 - found / 40] : NAN;
+    summarise(slope_of(counts, errors, sizes), slopes, found, fit);
 done:
     free(slopes);
     free(drawn);
     free(chosen);
+    return status;
+}
+
+clshear_status clshear_fit_slope_of_parts(const uint32_t *counts, size_t sizes, const double *parts,
+                                          size_t count, double *errors, clshear_fit *fit)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_error *error = cs_thread_error();
+    double *slopes = calloc(RESAMPLES, sizeof *slopes), *sums = calloc(sizes + 1, sizeof *sums);
+    size_t found = 0;
+    CS_TRY(check(counts, sizes, count, error));
+    CS_REQUIRE(slopes != NULL && sums != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    for (u32 s = 0; s < RESAMPLES; s++) {
+        const u32 key = cs_key(0x70617274u, s);
+        for (size_t k = 0; k < sizes; k++)
+            sums[k] = 0.0;
+        for (u32 i = 0; i < count; i++) {
+            const size_t part = (size_t)((uint64_t)cs_key(key, i) * count >> 32);
+            for (size_t k = 0; k < sizes; k++)
+                sums[k] += parts[k * count + part];
+        }
+        const double slope = slope_of(counts, sums, sizes);
+        if (isfinite(slope)) slopes[found++] = slope;
+    }
+    for (size_t k = 0; k < sizes; k++) {
+        errors[k] = 0.0;
+        for (size_t i = 0; i < count; i++)
+            errors[k] += parts[k * count + i] / (double)count;
+    }
+    summarise(slope_of(counts, errors, sizes), slopes, found, fit);
+done:
+    free(slopes);
+    free(sums);
     return status;
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/converge_image.h"
 #include "cli/render.h"
 #include "cli/scene.h"
 
@@ -41,32 +42,18 @@ static double pattern_mean(const clshear_film *film, uint32_t replicate)
     return sum;
 }
 
-typedef struct view {
-    clshear_context *context;
-    clshear_scene *scene;
-    clshear_camera camera;
-} view;
-
 /* The same of a pixel. */
-static clshear_status render_pixel(const cli_converge_job *job, const view *v, const int *pixel,
-                                   clshear_shear shear, cli_series *series, double *means)
+static clshear_status render_pixel(const cli_converge_job *job, const cli_view *view,
+                                   const int *pixel, clshear_shear shear, cli_series *series,
+                                   double *means)
 {
-    clshear_options options = job->render.options;
     const int crop[4] = {pixel[0], pixel[0] + 1, pixel[1], pixel[1] + 1};
-    memcpy(options.crop, crop, sizeof crop);
-    options.sampler = series->sampler;
-    options.shear = shear;
-    options.replicates = job->replicates;
-    options.keep_patterns = 1;
-    options.adaptive = options.gain = options.extendable = 0; /* what is measured is one pattern */
-    if (options.oracle == CLSHEAR_ORACLE_PILOT) options.oracle = CLSHEAR_ORACLE_CENTRE;
     for (int k = 0; k < job->size_count; k++) {
         clshear_film *film = NULL;
-        if ((double)job->counts[k] * job->replicates > 2e9)
-            options.spp = 2000000001u;
-        else
-            options.spp = job->counts[k] * job->replicates;
-        clshear_status status = clshear_render(v->scene, &v->camera, &options, &film);
+        clshear_options options = cli_converge_options(job, series->sampler, shear, job->counts[k]);
+        memcpy(options.crop, crop, sizeof crop);
+        options.keep_patterns = 1;
+        clshear_status status = clshear_render(view->scene, &view->camera, &options, &film);
         if (status != CLSHEAR_OK) return status;
         series->counts[k] =
             (uint32_t)(*clshear_film_channel(film, "Samples") / (float)job->replicates + 0.5f);
@@ -103,7 +90,8 @@ static int study_integrand(const cli_converge_job *job, cli_study *study, double
     return CLI_DONE;
 }
 
-static int study_pixels(const cli_converge_job *job, const view *v, cli_study *study, double *means)
+static int study_pixels(const cli_converge_job *job, const cli_view *v, cli_study *study,
+                        double *means)
 {
     for (int p = 0; p < job->pixel_count; p++)
         for (int s = 0; s < job->sampler_count; s++)
@@ -124,11 +112,13 @@ static int study_pixels(const cli_converge_job *job, const view *v, cli_study *s
 /* Opens the scene and studies its pixels. */
 static int study_scene(cli_converge_job *job, cli_study *study, double *means)
 {
-    view v = {0};
+    cli_view v = {0};
     int code = cli_open_scene(&job->render, &v.context, &v.scene);
     if (code == CLI_DONE && cli_choose_camera(&job->render, v.scene, &v.camera) != CLSHEAR_OK)
         code = fail(clshear_message(v.context));
-    if (code == CLI_DONE) code = study_pixels(job, &v, study, means);
+    if (code == CLI_DONE)
+        code = job->pixel_count > 0 ? study_pixels(job, &v, study, means)
+                                    : cli_study_image(job, &v, study);
     cli_close_scene(&job->render, v.context, v.scene);
     return code;
 }
@@ -149,16 +139,18 @@ static int write_output(const char *path, const cli_study *study)
 
 static int check(const cli_converge_job *job)
 {
-    const int pixels = job->pixel_count > 0;
+    const int rendered = job->integrand_name == NULL;
+    const int targets = job->pixel_count > 0 ? job->pixel_count : 1;
     if (job->integrand_name != NULL && job->integrand.kind != CLSHEAR_INTEGRAND_STEP &&
         !(job->integrand.size > 0.0))
         fprintf(stderr, "clshear: --size %g: must be above 0\n", job->integrand.size);
-    else if (pixels == (job->integrand_name != NULL))
-        fprintf(stderr, "clshear: give an --integrand, or a SCENE with --pixels\n");
-    else if (pixels && job->render.scene == NULL)
-        fprintf(stderr, "clshear: --pixels need a SCENE\n");
-    else if (job->sampler_count * (pixels ? job->pixel_count * job->shear_count : 1) >
-             CLI_MOST_SERIES)
+    else if (rendered == (job->render.scene == NULL))
+        fprintf(stderr, "clshear: give either an --integrand or a SCENE\n");
+    else if (job->pixel_count > 0 && !rendered)
+        fprintf(stderr, "clshear: --pixels are of a SCENE, not of an --integrand\n");
+    else if (job->has_reference && rendered && job->pixel_count == 0)
+        fprintf(stderr, "clshear: --reference is of --pixels or an --integrand\n");
+    else if (job->sampler_count * (rendered ? targets * job->shear_count : 1) > CLI_MOST_SERIES)
         fprintf(stderr, "clshear: more than %d curves; give fewer pixels, samplers or shears\n",
                 CLI_MOST_SERIES);
     else
@@ -178,8 +170,8 @@ static int run(cli_converge_job *job)
         study->sizes = (size_t)job->size_count;
         study->replicates = job->replicates;
         study->has_reference = job->has_reference;
-        code = job->pixel_count > 0 ? study_scene(job, study, means)
-                                    : study_integrand(job, study, means);
+        code = job->integrand_name == NULL ? study_scene(job, study, means)
+                                           : study_integrand(job, study, means);
         for (int i = 0; i < job->output_count && code == CLI_DONE; i++)
             code = write_output(job->outputs[i], study);
         if (code == CLI_DONE) code = cli_study_draw(study, &job->plot);
@@ -201,7 +193,7 @@ int cli_converge(int argc, char **argv)
                                        .shear_count = 2,
                                        .counts = {16, 64, 256, 1024},
                                        .size_count = 4,
-                                       .replicates = 200};
+                                       .replicates = 0};
     cli_converge_job job;
     int code = cli_parse_scene(&command, &defaults, sizeof job, argc, argv, &job);
     if (code != CLI_DONE) return code;
@@ -210,6 +202,8 @@ int cli_converge(int argc, char **argv)
         return CLI_DONE;
     }
     if (job.size_given) job.integrand.size = job.size;
+    if (job.replicates == 0)
+        job.replicates = job.integrand_name == NULL && job.pixel_count == 0 ? 8 : 200;
     if (job.output_count == 0 && job.plot.path == NULL) job.outputs[job.output_count++] = "-";
     return run(&job);
 }

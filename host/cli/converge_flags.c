@@ -132,9 +132,9 @@ static const cli_flag own_flags[] = {
     {"integrand", "NAME", "step, box, disk, gaussian, tent or plane-wave", store_integrand},
     {"angle", "DEG", "direction of the integrand (0)", store_angle},
     {"size", "S", "its size, or offset of a step", store_size},
-    {"pixels", "X,Y;X,Y", "pixels of SCENE instead; quote the semicolons", store_pixels},
+    {"pixels", "X,Y;X,Y", "pixels of SCENE (the whole image)", store_pixels},
     {"nsamps n", "N,N,...", "samples in a pattern (16,64,256,1024)", store_counts},
-    {"nreps replicates", "R", "independent patterns of each (200)", store_replicates},
+    {"nreps replicates", "R", "independent patterns of each (200; image 8)", store_replicates},
     {"sampler", "A,B,...", "see clshear --list-samplers (mj,sz)", store_samplers},
     {"shear", "A,B,...", "equal-area, toroidal, none (none,equal-area)", store_shears},
     {"reference", "VALUE", "true value: errors are squared differences", store_reference},
@@ -164,9 +164,10 @@ const cli_command cli_converge_help = {
                "Measure how variance falls with the number of samples, and fit its slope.\n\n"
                "  clshear converge --integrand disk --sampler random,mj --plot disk.png\n"
                "  clshear converge scenes/cornell.obj --pixels '302,130;146,330' --sampler mj\n",
-    .notes = "With SCENE, flags of rendering say camera, lens and light; the value is the mean\n"
-             "of R, G and B. Slopes are least squares in logarithms, with 95 % intervals by\n"
-             "bootstrap over the replicates.\n",
+    .notes = "With SCENE, flags of rendering say camera, lens, light. A pixel's value is the\n"
+             "mean of R, G and B; without --pixels, errors are variances averaged over the\n"
+             "image. Slopes are least squares in logarithms, with 95 % intervals by bootstrap\n"
+             "over the replicates, or the image's tiles. --oracle pilot counts as centre.\n",
     .flags = own_flags,
     .flag_count = OWN_FLAGS,
 };
