@@ -2,10 +2,10 @@
 # Only the public functions leave the shared library, and all of them do.
 set -eu
 library=$1
-header=$(dirname "$0")/../include/clshear.h
+headers=$(dirname "$0")/../include
 exported=$(nm -D --defined-only "$library" | awk '$2 ~ /[TDBRV]/ {print $3}' | sort -u)
 others=$(echo "$exported" | grep -v '^clshear_' || true)
-declared=$(grep -o 'clshear_[a-z_]*(' "$header" | tr -d '(' | sort -u)
+declared=$(grep -oh 'clshear_[a-z_]*(' "$headers"/*.h | tr -d '(' | sort -u)
 missing=$(for name in $declared; do echo "$exported" | grep -qx "$name" || echo "$name"; done)
 [ -z "$others" ] || { echo "exported but not public: $others"; exit 1; }
 [ -z "$missing" ] || { echo "declared but not exported: $missing"; exit 1; }

@@ -12,7 +12,6 @@ typedef struct points_job {
     cli_source source;
     const char *out;
     const char *dimensions;
-    int help;
 } points_job;
 
 static const char *store_dimensions(void *target, const char *value)
@@ -35,19 +34,11 @@ static const char *store_out(void *target, const char *value)
     return NULL;
 }
 
-static const char *store_help(void *target, const char *value)
-{
-    points_job *job = target;
-    (void)value;
-    job->help = 1;
-    return NULL;
-}
-
 static const cli_flag flags[] = {
     CLI_SOURCE_FLAGS("1"),
     {"dims", "LETTERS", "coordinates, in this order, out of xyuvpq (xyuv)", store_dimensions},
     {"out o", "FILE", ".exr, .csv, or text; - is standard output (-)", store_out},
-    {"help h", NULL, "print this and stop", store_help},
+    {"help h", NULL, "print this and stop", cli_store_source_help},
 };
 
 static const cli_command command = {
@@ -68,7 +59,7 @@ int cli_points(int argc, char **argv)
     clshear_points points = {0};
     int code = cli_parse_words(&command, &job, argc, argv, NULL);
     if (code != CLI_DONE) return code;
-    if (job.help) {
+    if (job.source.help) {
         cli_print_help(&command);
         return CLI_DONE;
     }

@@ -11,22 +11,12 @@
 
 typedef struct predict_job {
     cli_source source; /* first: the stores of points write there */
-    const char *projection;
     clshear_integrand integrand;
     const char *integrand_name;
     int resolution;
     uint32_t measured_sets; /* 0: not measured */
     const char *out;
-    clshear_context_options context;
-    int help;
 } predict_job;
-
-static const char *store_projection(void *target, const char *value)
-{
-    predict_job *job = target;
-    job->projection = value;
-    return strlen(value) == 2 && strspn(value, "xyuvpq") == 2 ? NULL : "two letters out of xyuvpq";
-}
 
 static const char *store_integrand(void *target, const char *value)
 {
@@ -71,32 +61,18 @@ static const char *store_out(void *target, const char *value)
     return *value != '\0' ? NULL : "a file, or - for standard output";
 }
 
-static const char *store_device(void *target, const char *value)
-{
-    predict_job *job = target;
-    job->context.device = value;
-    return NULL;
-}
-
-static const char *store_help(void *target, const char *value)
-{
-    predict_job *job = target;
-    (void)value;
-    job->help = 1;
-    return NULL;
-}
-
 static const cli_flag flags[] = {
     {"integrand", "NAME", "step, box, disk, gaussian, tent or plane-wave", store_integrand},
     {"angle", "DEG", "its direction (0)", store_angle},
     {"size", "S", "its size, or offset of a step", store_size},
     {"measure", "M", "measure too, with M other sets", store_measure},
     CLI_SOURCE_FLAGS("1000"),
-    {"projection dims", "LETTERS", "two coordinates out of xyuvpq (xy)", store_projection},
+    {"projection dims", "LETTERS", "two coordinates out of xyuvpq (xy)",
+     cli_store_source_projection},
     {"resolution", "R", "frequencies along a side, up to 1023 (255)", store_resolution},
     {"out o", "FILE", "table, - is standard output (-)", store_out},
-    {"device", "NAME", "OpenCL device: number or part of its name", store_device},
-    {"help h", NULL, "print this and stop", store_help},
+    {"device", "NAME", "OpenCL device: number or part of its name", cli_store_source_device},
+    {"help h", NULL, "print this and stop", cli_store_source_help},
 };
 
 static const cli_command command = {
@@ -134,7 +110,7 @@ static int measure(const predict_job *job, measurement *result)
     source.seed = job->source.seed + 1;
     if (means == NULL) {
         fail("out of memory");
-    } else if (cli_source_make(&source, job->projection, &points) != CLSHEAR_OK) {
+    } else if (cli_source_make(&source, job->source.projection, &points) != CLSHEAR_OK) {
         fail(clshear_message(NULL));
     } else {
         const double sets = (double)points.sets;
@@ -189,8 +165,8 @@ static int predict(const predict_job *job, clshear_prediction *prediction)
     int code = CLI_FAILED;
     if (cells == NULL) {
         fail("out of memory");
-    } else if (cli_source_make(&job->source, job->projection, &points) != CLSHEAR_OK ||
-               clshear_context_create(&job->context, &context) != CLSHEAR_OK) {
+    } else if (cli_source_make(&job->source, job->source.projection, &points) != CLSHEAR_OK ||
+               clshear_context_create(&job->source.context, &context) != CLSHEAR_OK) {
         fail(clshear_message(NULL));
     } else if (clshear_spectrum_measure(context, &points, resolution, resolution, &spectrum) !=
                CLSHEAR_OK) {
@@ -214,13 +190,12 @@ int cli_predict(int argc, char **argv)
     predict_job job = {.source = {.count = 1024, .sets = 1000, .shear = CLSHEAR_SHEAR_EQUAL_AREA},
                        .integrand = {.size = NAN},
                        .resolution = 255,
-                       .out = "-",
-                       .context = clshear_context_defaults()};
+                       .out = "-"};
     clshear_prediction prediction;
     measurement measured = {0};
     int code = cli_parse_words(&command, &job, argc, argv, NULL);
     if (code != CLI_DONE) return code;
-    if (job.help) {
+    if (job.source.help) {
         cli_print_help(&command);
         return CLI_DONE;
     }
@@ -236,7 +211,7 @@ int cli_predict(int argc, char **argv)
         fprintf(stderr, "clshear: --size %g: must be above 0\n", job.integrand.size);
         return CLI_USAGE;
     }
-    if (job.projection == NULL && job.source.in == NULL) job.projection = "xy";
+    if (job.source.projection == NULL && job.source.in == NULL) job.source.projection = "xy";
     code = predict(&job, &prediction);
     if (code == CLI_DONE && job.measured_sets > 0) code = measure(&job, &measured);
     return code == CLI_DONE ? print(&job, &prediction, &measured) : code;

@@ -1,6 +1,7 @@
 #include "cli/source.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "cli/flags.h"
 
@@ -49,6 +50,28 @@ const char *cli_store_source_in(void *target, const char *value)
 {
     cli_source *job = target;
     job->in = value;
+    return NULL;
+}
+
+const char *cli_store_source_projection(void *target, const char *value)
+{
+    cli_source *job = target;
+    job->projection = value;
+    return strlen(value) == 2 && strspn(value, "xyuvpq") == 2 ? NULL : "two letters out of xyuvpq";
+}
+
+const char *cli_store_source_device(void *target, const char *value)
+{
+    cli_source *job = target;
+    job->context.device = value;
+    return NULL;
+}
+
+const char *cli_store_source_help(void *target, const char *value)
+{
+    cli_source *job = target;
+    (void)value;
+    job->help = 1;
     return NULL;
 }
 

@@ -11,7 +11,10 @@ typedef struct cli_source {
     uint32_t count, sets, seed;
     clshear_shear shear;
     float shear_px;
-    int draws; /* a flag was given that says what to draw */
+    int draws;              /* a flag was given that says what to draw */
+    const char *projection; /* of commands that take two coordinates */
+    clshear_context_options context;
+    int help;
 } cli_source;
 
 const char *cli_store_source_sampler(void *target, const char *value);
@@ -21,6 +24,9 @@ const char *cli_store_source_seed(void *target, const char *value);
 const char *cli_store_source_shear(void *target, const char *value);
 const char *cli_store_source_shear_px(void *target, const char *value);
 const char *cli_store_source_in(void *target, const char *value);
+const char *cli_store_source_projection(void *target, const char *value);
+const char *cli_store_source_device(void *target, const char *value);
+const char *cli_store_source_help(void *target, const char *value);
 
 /* Their lines in a table of flags; `sets` is the default in words. */
 #define CLI_SOURCE_FLAGS(sets)                                                                    \

@@ -14,23 +14,14 @@ enum {
 
 typedef struct spectrum_job {
     cli_source source; /* first: the stores of points write there */
-    const char *projection;
     int resolution[2];
     const char *outputs[CLI_MAX_OUTPUTS];
     int output_count;
     double directions[MOST_DIRECTIONS][2];
     int direction_count;
-    clshear_context_options context;
     cli_plot plot;
-    int keep_dc, help;
+    int keep_dc;
 } spectrum_job;
-
-static const char *store_projection(void *target, const char *value)
-{
-    spectrum_job *job = target;
-    job->projection = value;
-    return strlen(value) == 2 && strspn(value, "xyuvpq") == 2 ? NULL : "two letters out of xyuvpq";
-}
 
 static const char *store_resolution(void *target, const char *value)
 {
@@ -88,32 +79,18 @@ static const char *store_dc(void *target, const char *value)
     return NULL;
 }
 
-static const char *store_device(void *target, const char *value)
-{
-    spectrum_job *job = target;
-    job->context.device = value;
-    return NULL;
-}
-
-static const char *store_help(void *target, const char *value)
-{
-    spectrum_job *job = target;
-    (void)value;
-    job->help = 1;
-    return NULL;
-}
-
 static const cli_flag flags[] = {
     CLI_SOURCE_FLAGS("100"),
-    {"projection dims", "LETTERS", "two coordinates out of xyuvpq (xy)", store_projection},
+    {"projection dims", "LETTERS", "two coordinates out of xyuvpq (xy)",
+     cli_store_source_projection},
     {"resolution", "R", "frequencies along a side, or W,H (256)", store_resolution},
     {"direction", "X,Y", "profile along this direction too; repeatable", store_direction},
     {"out o", "FILE", ".exr .png .tif: the plane; .csv -: rings; repeatable", store_out},
     {"dc", NULL, "keep frequency 0 in pictures and data", store_dc},
     {"plot", "FILE", "draw rings and profiles, .png or .svg, by gnuplot", store_plot},
     {"keep", NULL, "leave the plot's data and script beside it", store_keep},
-    {"device", "NAME", "OpenCL device: number or part of its name", store_device},
-    {"help h", NULL, "print this and stop", store_help},
+    {"device", "NAME", "OpenCL device: number or part of its name", cli_store_source_device},
+    {"help h", NULL, "print this and stop", cli_store_source_help},
 };
 
 static const cli_command command = {
@@ -226,11 +203,11 @@ static int measure(const spectrum_job *job)
     clshear_points points = {0};
     clshear_context *context = NULL;
     clshear_spectrum spectrum = {0};
-    const char *projection = job->projection;
+    const char *projection = job->source.projection;
     int code = CLI_FAILED;
     if (projection == NULL && job->source.in == NULL) projection = "xy";
     if (cli_source_make(&job->source, projection, &points) != CLSHEAR_OK ||
-        clshear_context_create(&job->context, &context) != CLSHEAR_OK)
+        clshear_context_create(&job->source.context, &context) != CLSHEAR_OK)
         fail(clshear_message(NULL));
     else if (clshear_spectrum_measure(context, &points, (size_t)job->resolution[0],
                                       (size_t)job->resolution[1], &spectrum) != CLSHEAR_OK)
@@ -248,11 +225,10 @@ int cli_spectrum(int argc, char **argv)
     spectrum_job job = {.source = {.count = 1024, .sets = 100, .shear = CLSHEAR_SHEAR_EQUAL_AREA},
                         .resolution = {256, 256},
                         .directions = {{1, 0}, {0, 1}, {1, 1}},
-                        .direction_count = 3,
-                        .context = clshear_context_defaults()};
+                        .direction_count = 3};
     int code = cli_parse_words(&command, &job, argc, argv, NULL);
     if (code != CLI_DONE) return code;
-    if (job.help) {
+    if (job.source.help) {
         cli_print_help(&command);
         return CLI_DONE;
     }
