@@ -166,6 +166,21 @@ expect 0 "pixel 3:4,mj,none,16" -- converge "$cornell" --quiet --pixels 3,4 --sa
     --nsamps 4,16 --aperture bright.exr
 expect 2 "--size 0: must be above 0" -- predict --integrand plane-wave --size 0
 expect 1 "too few frequencies" -- spectrum --resolution 2 --n 4 --sets 1 --plot p.png
+
+# A full disk costs one line, and not the file that was there.
+echo precious >kept.csv
+for line in "spectrum --n 16 --sets 2 --resolution 16" "predict --integrand disk --n 16 --sets 2" \
+    "converge --integrand disk --nreps 4"; do
+    # shellcheck disable=SC2086
+    output=$("$program" $line 2>&1 >/dev/full)
+    [ $? -eq 1 ] && [ "$output" = "clshear: standard output: cannot be written: No space left on device" ] ||
+        wrong "$line to a full disk: $output"
+done
+# Without a device: drivers write files of their own.
+output=$(ulimit -f 0 && trap '' XFSZ && "$program" converge --integrand disk --nreps 4 --out kept.csv 2>&1)
+case $?$output in 1*"kept.csv: cannot be written: File too large"*) ;; *) wrong "no room: $output" ;; esac
+[ "$(cat kept.csv)" = precious ] || wrong "kept.csv is lost"
+[ -z "$(ls | grep part)" ] || wrong "parts of files are left: $(ls | grep part)"
 expect 2 "--nsamps 64,16: must be 2 to 32 rising" -- converge --integrand box --nsamps 64,16
 expect 1 "crop 600,601,3,4" -- converge "$cornell" --quiet --pixels 600,3
 output=$(PATH=/nonexistent "$program" converge --integrand disk --nreps 4 --plot no.png 2>&1)

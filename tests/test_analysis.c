@@ -216,6 +216,14 @@ static void slopes_are_fitted(void **state)
     }
     assert_int_equal(clshear_fit_slope(counts, 1, means, 200, NULL, errors, &fit),
                      CLSHEAR_BAD_ARGUMENT);
+    const uint32_t same[] = {16, 16};
+    assert_int_equal(clshear_fit_slope(same, 2, means, 200, NULL, errors, &fit),
+                     CLSHEAR_BAD_ARGUMENT);
+    for (int i = 0; i < 800; i++) /* parts whose means fall exactly as N^-1.5 */
+        means[i] = pow(counts[i / 200], -1.5) * (1.0 + i % 200);
+    assert_int_equal(clshear_fit_slope_of_parts(counts, 4, means, 200, errors, &fit), CLSHEAR_OK);
+    assert_true(fabs(fit.slope + 1.5) < 1e-9 && fabs(fit.slope_low + 1.5) < 1e-9);
+    assert_true(fabs(errors[1] - pow(64.0, -1.5) * 100.5) < 1e-9);
 }
 
 int main(void)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/converge_image.h"
+#include "cli/output.h"
 #include "cli/render.h"
 #include "cli/scene.h"
 
@@ -116,6 +117,7 @@ static int study_scene(cli_converge_job *job, cli_study *study, double *means)
     int code = cli_open_scene(&job->render, &v.context, &v.scene);
     if (code == CLI_DONE && cli_choose_camera(&job->render, v.scene, &v.camera) != CLSHEAR_OK)
         code = fail(clshear_message(v.context));
+    if (code == CLI_DONE) cli_tell_choices(&job->render, v.scene, &v.camera);
     if (code == CLI_DONE)
         code = job->pixel_count > 0 ? study_pixels(job, &v, study, means)
                                     : cli_study_image(job, &v, study);
@@ -126,15 +128,8 @@ static int study_scene(cli_converge_job *job, cli_study *study, double *means)
 static int write_output(const char *path, const cli_study *study)
 {
     const char *dot = strrchr(path, '.');
-    const int to_stdout = strcmp(path, "-") == 0;
-    FILE *stream = to_stdout ? stdout : fopen(path, "w");
-    if (stream != NULL && dot != NULL && strcmp(dot, ".json") == 0)
-        cli_study_write_json(stream, study);
-    else if (stream != NULL)
-        cli_study_write_csv(stream, study);
-    if (stream != NULL && (to_stdout ? fflush(stream) : fclose(stream)) == 0) return CLI_DONE;
-    perror(path);
-    return CLI_FAILED;
+    const int is_json = dot != NULL && strcmp(dot, ".json") == 0;
+    return cli_write_file(path, is_json ? cli_study_write_json : cli_study_write_csv, study);
 }
 
 static int check(const cli_converge_job *job)

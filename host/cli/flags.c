@@ -50,6 +50,15 @@ int cli_read_count(const char *text, double low, uint32_t *value)
     return 1;
 }
 
+const char *cli_read_sides(const char *text, int *sides)
+{
+    if (cli_read_ints(text, 1, 2, 8192, sides)) {
+        sides[1] = sides[0];
+        return NULL;
+    }
+    return cli_read_ints(text, 2, 2, 8192, sides) ? NULL : "R or W,H, each 2 to 8192";
+}
+
 const char *cli_check_sampler(const char *name)
 {
     clshear_sampler_info info;

@@ -38,6 +38,9 @@ int cli_read_floats(const char *text, int count, float *values);
 int cli_read_ints(const char *text, int count, double low, double high, int *values);
 int cli_read_count(const char *text, double low, uint32_t *value);
 
+/* Two sides of 2 to 8192, W,H or one number for both: NULL, or what they should have been. */
+const char *cli_read_sides(const char *text, int *sides);
+
 /* For store functions that keep a sampler's name: NULL, or what it should have been. */
 const char *cli_check_sampler(const char *name);
 

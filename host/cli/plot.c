@@ -1,12 +1,12 @@
 #include "cli/plot.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "cli/job.h"
+#include "cli/output.h"
 
 static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                       "#e69f00", "#56b4e9", "#000000", "#999999"};
@@ -51,41 +51,62 @@ static void write_quoted(FILE *stream, const char *text)
     fputc('\'', stream);
 }
 
-static int write_file(const char *path, void (*write)(FILE *stream, const void *user),
-                      const void *user, const cli_plot *plot, const char *data)
+typedef struct drawing {
+    const cli_plot *plot;
+    const char *data;
+    void (*write_script)(FILE *stream, const void *user);
+    const void *user;
+} drawing;
+
+/* A script that stands by itself; `target` can be set to draw elsewhere. */
+static void write_script(FILE *stream, const void *user)
 {
-    FILE *stream = fopen(path, "w");
-    if (stream != NULL && data != NULL) {
-        fprintf(stream, "set terminal %s\nset output ",
-                ends_in(plot->path, ".svg") ? "svg size 800,560 font 'sans,14' background '#ffffff'"
-                                            : "pngcairo size 960,672 font 'sans,13'");
-        write_quoted(stream, plot->path);
-        fprintf(stream, "\ndata = ");
-        write_quoted(stream, data);
-        fprintf(stream, "\nset grid lc rgb '#dddddd'\n");
-    }
-    if (stream != NULL) write(stream, user);
-    if (stream != NULL && fclose(stream) == 0) return 1;
-    fprintf(stderr, "clshear: %s: cannot be written: %s\n", path, strerror(errno));
-    return 0;
+    const drawing *d = user;
+    fprintf(stream, "set terminal %s\nif (!exists('target')) target = ",
+            ends_in(d->plot->path, ".svg") ? "svg size 800,560 font 'sans,14' background '#ffffff'"
+                                           : "pngcairo size 960,672 font 'sans,13'");
+    write_quoted(stream, d->plot->path);
+    fprintf(stream, "\nset output target\ndata = ");
+    write_quoted(stream, d->data);
+    fprintf(stream, "\nset grid lc rgb '#dddddd'\n");
+    d->write_script(stream, d->user);
 }
 
-/* Runs gnuplot on a script; its complaints go to the standard error stream. */
-static int run_gnuplot(const char *script)
+/* Runs gnuplot on a script that draws into `target`; its complaints go to the standard error
+ * stream.
+ */
+static int run_gnuplot(const char *script, const char *target)
 {
+    char assignment[4200];
     int state = 0;
+    FILE *text = fmemopen(assignment, sizeof assignment, "w");
+    if (text == NULL) return 0;
+    fprintf(text, "target = ");
+    write_quoted(text, target);
+    fclose(text);
     fflush(NULL);
     const pid_t child = fork();
     if (child == 0) {
-        execlp("gnuplot", "gnuplot", script, (char *)NULL);
+        execlp("gnuplot", "gnuplot", "-e", assignment, script, (char *)NULL);
         _exit(127);
     }
     return child > 0 && waitpid(child, &state, 0) == child && WIFEXITED(state) &&
            WEXITSTATUS(state) == 0;
 }
 
+/* Draws beside the plot and gives it its name when it is complete. */
+static int draw(const cli_plot *plot, const char *script)
+{
+    char part[4096];
+    snprintf(part, sizeof part, "%s.part%ld", plot->path, (long)getpid());
+    if (run_gnuplot(script, part) && rename(part, plot->path) == 0) return CLI_DONE;
+    unlink(part);
+    fprintf(stderr, "clshear: %s: gnuplot could not draw it\n", plot->path);
+    return CLI_FAILED;
+}
+
 int cli_plot_draw(const cli_plot *plot, void (*write_data)(FILE *stream, const void *user),
-                  void (*write_script)(FILE *stream, const void *user), const void *user)
+                  void (*write_curves)(FILE *stream, const void *user), const void *user)
 {
     char data[4096], script[4096];
     if (plot->path == NULL) return CLI_DONE;
@@ -96,15 +117,13 @@ int cli_plot_draw(const cli_plot *plot, void (*write_data)(FILE *stream, const v
     if (!drawn && !plot->keep) return CLI_DONE;
     snprintf(data, sizeof data, "%s.dat", plot->path);
     snprintf(script, sizeof script, "%s.gp", plot->path);
-    int good = write_file(data, write_data, user, plot, NULL) &&
-               write_file(script, write_script, user, plot, data);
-    if (good && drawn && !run_gnuplot(script)) {
-        fprintf(stderr, "clshear: %s: gnuplot could not draw it\n", plot->path);
-        good = 0;
-    }
+    const drawing d = {plot, data, write_curves, user};
+    int code = cli_write_file(data, write_data, user);
+    if (code == CLI_DONE) code = cli_write_file(script, write_script, &d);
+    if (code == CLI_DONE && drawn) code = draw(plot, script);
     if (!plot->keep) {
         unlink(data);
         unlink(script);
     }
-    return good ? CLI_DONE : CLI_FAILED;
+    return code;
 }

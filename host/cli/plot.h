@@ -12,11 +12,11 @@ typedef struct cli_plot {
 /* For store functions: NULL, or what the name should have been. */
 const char *cli_read_plot_path(const char *value, const char **path);
 
-/* Draws: `write_data` writes the data file, `write_script` a gnuplot script that plots the file
+/* Draws: `write_data` writes the data file, `write_curves` a gnuplot script that plots the file
  * called by the string variable `data`, without terminal and output. Without gnuplot one line says
  * so, which is no failure. Returns CLI_DONE or CLI_FAILED. */
 int cli_plot_draw(const cli_plot *plot, void (*write_data)(FILE *stream, const void *user),
-                  void (*write_script)(FILE *stream, const void *user), const void *user);
+                  void (*write_curves)(FILE *stream, const void *user), const void *user);
 
 /* Gnuplot style of curve number `index`: colours that the colour-blind tell apart (Okabe & Ito
  * 2008). */

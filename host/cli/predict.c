@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/flags.h"
+#include "cli/output.h"
 #include "cli/parse.h"
 #include "cli/source.h"
 
@@ -131,25 +132,26 @@ static int measure(const predict_job *job, measurement *result)
     return code;
 }
 
-static int print(const predict_job *job, const clshear_prediction *p, const measurement *measured)
+typedef struct result {
+    clshear_prediction prediction;
+    measurement measured;
+    int is_measured;
+} result;
+
+static void write_table(FILE *stream, const void *user)
 {
-    FILE *stream = strcmp(job->out, "-") == 0 ? stdout : fopen(job->out, "w");
-    if (stream == NULL) {
-        perror(job->out);
-        return CLI_FAILED;
-    }
+    const result *r = user;
+    const clshear_prediction *p = &r->prediction;
     fprintf(stream, "part,variance\n");
     for (int k = 0; k < CLSHEAR_CONES; k++)
         fprintf(stream, "cone %g-%g deg,%.5g\n", 180.0 * k / CLSHEAR_CONES,
                 180.0 * (k + 1) / CLSHEAR_CONES, p->cones[k]);
     fprintf(stream, "tail,%.5g\npredicted,%.5g\npredicted as isotropic,%.5g\n", p->tail,
             p->variance, p->isotropic);
-    if (job->measured_sets > 0)
+    if (r->is_measured)
         fprintf(stream, "measured,%.5g\nmeasured 95%% low,%.5g\nmeasured 95%% high,%.5g\n",
-                measured->variance, measured->variance - 1.96 * measured->error,
-                measured->variance + 1.96 * measured->error);
-    const int failed = stream == stdout ? fflush(stream) : fclose(stream);
-    return failed ? fail("the table cannot be written") : CLI_DONE;
+                r->measured.variance, r->measured.variance - 1.96 * r->measured.error,
+                r->measured.variance + 1.96 * r->measured.error);
 }
 
 /* Spectrum, integrand, sum. */
@@ -191,8 +193,7 @@ int cli_predict(int argc, char **argv)
                        .integrand = {.size = NAN},
                        .resolution = 255,
                        .out = "-"};
-    clshear_prediction prediction;
-    measurement measured = {0};
+    result found = {0};
     int code = cli_parse_words(&command, &job, argc, argv, NULL);
     if (code != CLI_DONE) return code;
     if (job.source.help) {
@@ -212,7 +213,8 @@ int cli_predict(int argc, char **argv)
         return CLI_USAGE;
     }
     if (job.source.projection == NULL && job.source.in == NULL) job.source.projection = "xy";
-    code = predict(&job, &prediction);
-    if (code == CLI_DONE && job.measured_sets > 0) code = measure(&job, &measured);
-    return code == CLI_DONE ? print(&job, &prediction, &measured) : code;
+    code = predict(&job, &found.prediction);
+    found.is_measured = job.measured_sets > 0;
+    if (code == CLI_DONE && found.is_measured) code = measure(&job, &found.measured);
+    return code == CLI_DONE ? cli_write_file(job.out, write_table, &found) : code;
 }

@@ -51,8 +51,9 @@ static void write_series(FILE *stream, const cli_study *study, const cli_series 
     fprintf(stream, "]}");
 }
 
-void cli_study_write_json(FILE *stream, const cli_study *study)
+void cli_study_write_json(FILE *stream, const void *user)
 {
+    const cli_study *study = user;
     fprintf(stream, "{\n  \"replicates\": %u,\n  \"series\": [\n", study->replicates);
     for (int s = 0; s < study->series_count; s++) {
         write_series(stream, study, &study->series[s]);

@@ -32,7 +32,7 @@ typedef struct cli_study {
 } cli_study;
 
 void cli_study_write_csv(FILE *stream, const void *study);
-void cli_study_write_json(FILE *stream, const cli_study *study);
+void cli_study_write_json(FILE *stream, const void *study);
 
 /* A log-log plot with lines of slope -1, -1.5 and -2 through the first point of the first series.
  */

@@ -33,12 +33,7 @@ static const char *store_projection(void *target, const char *value)
 static const char *store_resolution(void *target, const char *value)
 {
     cli_slice_job *job = target;
-    int *sides = job->resolution;
-    if (cli_read_ints(value, 1, 2, 8192, sides)) {
-        sides[1] = sides[0];
-        return NULL;
-    }
-    return cli_read_ints(value, 2, 2, 8192, sides) ? NULL : "R or W,H, each 2 to 8192";
+    return cli_read_sides(value, job->resolution);
 }
 
 static const char *store_at(void *target, const char *value)
@@ -152,7 +147,8 @@ static clshear_status find_slope(const cli_slice_job *job, clshear_scene *scene,
     clshear_options options = job->render.options;
     const int crop[4] = {job->pixel[0], job->pixel[0] + 1, job->pixel[1], job->pixel[1] + 1};
     memcpy(options.crop, crop, sizeof crop);
-    options.spp = 1;
+    options.spp = options.replicates = 1;
+    options.adaptive = options.gain = options.extendable = 0;
     clshear_status status = clshear_render(scene, camera, &options, &film);
     if (status != CLSHEAR_OK) return status;
     const double shear = (double)*clshear_film_channel(film, "Shear");
@@ -180,6 +176,7 @@ static int compute(const cli_slice_job *job, clshear_context *context, clshear_s
     for (size_t i = 0; i < slice->count; i++)
         place(job, i, points + 4 * i);
     status = cli_choose_camera(&job->render, scene, &camera);
+    if (status == CLSHEAR_OK) cli_tell_choices(&job->render, scene, &camera);
     if (status == CLSHEAR_OK) status = find_slope(job, scene, &camera, slice);
     if (status == CLSHEAR_OK)
         status =

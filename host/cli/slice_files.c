@@ -4,11 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/output.h"
 #include "cli/slice.h"
 
-static int fail(const char *path, const char *why)
+static int fail(const char *message)
 {
-    fprintf(stderr, "clshear: %s%s%s\n", path, *path != '\0' ? ": " : "", why);
+    fprintf(stderr, "clshear: %s\n", message);
     return CLI_FAILED;
 }
 
@@ -40,7 +41,7 @@ static int write_slice(const cli_slice_job *job, const cli_slice *slice, const c
 {
     static const char *const names[] = {"R", "G", "B"};
     float *memory = malloc(3 * slice->count * sizeof *memory), most = 1e-30f;
-    if (memory == NULL) return fail("", "out of memory");
+    if (memory == NULL) return fail("out of memory");
     float *const planes[3] = {memory, memory + slice->count, memory + 2 * slice->count};
     for (size_t i = 0; i < 3 * slice->count; i++)
         most = slice->rgb[i] > most ? slice->rgb[i] : most;
@@ -52,16 +53,15 @@ static int write_slice(const cli_slice_job *job, const cli_slice *slice, const c
     const clshear_status status = clshear_image_write(path, slice->width, slice->height, 3, names,
                                                       (const float *const *)planes);
     free(memory);
-    return status == CLSHEAR_OK ? CLI_DONE : fail("", clshear_message(NULL));
+    return status == CLSHEAR_OK ? CLI_DONE : fail(clshear_message(NULL));
 }
 
 /* Version 1.0 of the format: a magic string, the length of a header in Python's syntax, data. */
-static int write_npy(const cli_slice_job *job, const cli_slice *slice, const char *path)
+static void write_npy(FILE *stream, const void *user)
 {
+    const cli_slice *slice = user;
+    const int r = slice->width;
     char header[118];
-    const int r = job->resolution[0];
-    FILE *stream = fopen(path, "wb");
-    if (stream == NULL) return fail(path, "cannot be written");
     int length = snprintf(
         header, sizeof header,
         "{'descr': '<f4', 'fortran_order': False, 'shape': (%d, %d, %d, %d, 3), }", r, r, r, r);
@@ -72,8 +72,6 @@ static int write_npy(const cli_slice_job *job, const cli_slice *slice, const cha
     fputc(0, stream);
     fwrite(header, 1, sizeof header, stream);
     fwrite(slice->rgb, sizeof *slice->rgb, 3 * slice->count, stream);
-    const int failed = ferror(stream);
-    return fclose(stream) != 0 || failed ? fail(path, "cannot be written") : CLI_DONE;
 }
 
 /* Logarithms of the power from 10^-5 (black) to 10^3 (white), with the line on which a surface of
@@ -85,9 +83,9 @@ static int draw_spectrum(const cli_slice_job *job, const cli_slice *slice,
     if (is_data(path))
         return clshear_spectrum_write(spectrum, 0, path) == CLSHEAR_OK
                    ? CLI_DONE
-                   : fail("", clshear_message(NULL));
+                   : fail(clshear_message(NULL));
     float *memory = malloc(3 * slice->count * sizeof *memory);
-    if (memory == NULL) return fail("", "out of memory");
+    if (memory == NULL) return fail("out of memory");
     float *const planes[3] = {memory, memory + slice->count, memory + 2 * slice->count};
     for (size_t i = 0; i < slice->count; i++) {
         const double level = (log10((double)spectrum->power[i] + 1e-12) + 5.0) / 8.0;
@@ -101,7 +99,7 @@ static int draw_spectrum(const cli_slice_job *job, const cli_slice *slice,
     const clshear_status status = clshear_image_write(path, slice->width, slice->height, 3, names,
                                                       (const float *const *)planes);
     free(memory);
-    return status == CLSHEAR_OK ? CLI_DONE : fail("", clshear_message(NULL));
+    return status == CLSHEAR_OK ? CLI_DONE : fail(clshear_message(NULL));
 }
 
 /* Hann's window over `count` values: without it the jump from one edge to the other is all that is
@@ -117,7 +115,7 @@ static int write_spectrum(const cli_slice_job *job, const cli_slice *slice)
     float *grey = malloc(slice->count * sizeof *grey);
     double mean = 0.0;
     int code = CLI_FAILED;
-    if (grey == NULL) return fail("", "out of memory");
+    if (grey == NULL) return fail("out of memory");
     for (size_t i = 0; i < slice->count; i++) {
         grey[i] = (slice->rgb[3 * i] + slice->rgb[3 * i + 1] + slice->rgb[3 * i + 2]) / 3.0f;
         mean += (double)grey[i] / (double)slice->count;
@@ -131,7 +129,7 @@ static int write_spectrum(const cli_slice_job *job, const cli_slice *slice)
         CLSHEAR_OK)
         code = draw_spectrum(job, slice, &spectrum, job->spectrum);
     else
-        fail("", clshear_message(NULL));
+        fail(clshear_message(NULL));
     clshear_spectrum_free(&spectrum);
     free(grey);
     return code;
@@ -141,8 +139,9 @@ int cli_slice_write(const cli_slice_job *job, const cli_slice *slice)
 {
     int code = CLI_DONE;
     for (int i = 0; i < job->output_count && code == CLI_DONE; i++)
-        code = strcmp(job->projection, "4d") == 0 ? write_npy(job, slice, job->outputs[i])
-                                                  : write_slice(job, slice, job->outputs[i]);
+        code = strcmp(job->projection, "4d") == 0
+                   ? cli_write_file(job->outputs[i], write_npy, slice)
+                   : write_slice(job, slice, job->outputs[i]);
     if (code == CLI_DONE && job->spectrum != NULL) code = write_spectrum(job, slice);
     return code;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/flags.h"
+#include "cli/output.h"
 #include "cli/parse.h"
 #include "cli/plot.h"
 #include "cli/source.h"
@@ -26,12 +27,7 @@ typedef struct spectrum_job {
 static const char *store_resolution(void *target, const char *value)
 {
     spectrum_job *job = target;
-    int *sides = job->resolution;
-    if (cli_read_ints(value, 1, 2, 8192, sides)) {
-        sides[1] = sides[0];
-        return NULL;
-    }
-    return cli_read_ints(value, 2, 2, 8192, sides) ? NULL : "R or W,H, each 2 to 8192";
+    return cli_read_sides(value, job->resolution);
 }
 
 static const char *store_direction(void *target, const char *value)
@@ -159,19 +155,6 @@ static void write_script(FILE *stream, const void *user)
             cli_plot_colour(0));
 }
 
-static int write_csv(const char *path, const table *t)
-{
-    if (strcmp(path, "-") == 0) {
-        write_table(stdout, t);
-        return fflush(stdout) == 0 ? CLI_DONE : CLI_FAILED;
-    }
-    FILE *stream = fopen(path, "w");
-    if (stream != NULL) write_table(stream, t);
-    if (stream != NULL && fclose(stream) == 0) return CLI_DONE;
-    perror(path);
-    return CLI_FAILED;
-}
-
 static int fail(const char *message)
 {
     fprintf(stderr, "clshear: %s\n", message);
@@ -186,7 +169,7 @@ static int write_outputs(const spectrum_job *job, const clshear_spectrum *spectr
     for (int i = 0; i < job->output_count && code == CLI_DONE; i++) {
         const char *path = job->outputs[i], *dot = strrchr(path, '.');
         if (strcmp(path, "-") == 0 || strcmp(dot, ".csv") == 0)
-            code = write_csv(path, &t);
+            code = cli_write_file(path, write_table, &t);
         else if (clshear_spectrum_write(spectrum, job->keep_dc, path) != CLSHEAR_OK)
             code = fail(clshear_message(NULL));
     }

@@ -126,7 +126,12 @@ clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_error
     if (device->programs[program] != NULL) return CLSHEAR_OK;
     clshear_status status = cs_program_build(device->context, device->id, program, device->packet,
                                              &device->programs[program], error);
-    return status == CLSHEAR_OK ? create_kernels(device, program, error) : status;
+    if (status == CLSHEAR_OK) status = create_kernels(device, program, error);
+    if (status != CLSHEAR_OK && device->programs[program] != NULL) { /* so that it is tried again */
+        clReleaseProgram(device->programs[program]);
+        device->programs[program] = NULL;
+    }
+    return status;
 }
 
 void cs_device_close(cs_device *device)

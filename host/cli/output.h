@@ -1,0 +1,13 @@
+/* Text and data files of commands: complete or not at all. */
+#ifndef CS_CLI_OUTPUT_H
+#define CS_CLI_OUTPUT_H
+
+#include <stdio.h>
+
+/* Writes a file with what `write` puts out; "-" is standard output. A file appears under its name
+ * only when it is complete, so one that was there survives a failure. Returns CLI_DONE or
+ * CLI_FAILED, with a line printed. */
+int cli_write_file(const char *path, void (*write)(FILE *stream, const void *user),
+                   const void *user);
+
+#endif
