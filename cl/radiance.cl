@@ -2,14 +2,18 @@
 #include "frame.h"
 #include "lens.h"
 #include "shade.h"
+#include "shear.h"
 
 /* One work-item computes CS_PACKET points. Global size: count / CS_PACKET; `count` is a multiple of
  * it.
  *
  * x, y: the pixel. points: six planes of `count` floats: place in the pixel (its left upper corner
- * is 0, 0), lens coordinates in aperture widths from the centre, and a sample for area lights.
- * radiance: out, three planes of `count` floats. The others: the scene, see cs_world. */
+ * is 0, 0), lens coordinates in aperture widths from the centre, and a sample for area lights; or,
+ * where `tuples` is not 0, what a sampler draws, to be sheared by `shear` as frame.shear_mode says,
+ * with the optics' table. radiance: out, three planes of `count` floats. The others: the scene, see
+ * cs_world. */
 __kernel void cs_radiance_at(const cs_frame frame, const uint x, const uint y, const uint count,
+                             const uint tuples, const float shear, cs_optics_table table,
                              __global const float *points, __global float *radiance,
                              __global const cs_node *nodes, __global const cs_triangle *triangles,
                              __global const cs_face *faces, __global const cs_vertex *vertices,
@@ -24,6 +28,14 @@ __kernel void cs_radiance_at(const cs_frame frame, const uint x, const uint y, c
     vfloat point[6];
     for (int plane = 0; plane < 6; plane++)
         point[plane] = *(__global const vfloat *)(points + (size_t)plane * count + first);
+    if (tuples) {
+        cs_film_lens place = cs_shear(point[0], point[1], point[2], point[3], frame.shear_mode,
+                                      &frame.camera.optics, table, shear);
+        point[0] = place.x;
+        point[1] = place.y;
+        point[2] = place.u;
+        point[3] = place.v;
+    }
     cs_ray ray =
         cs_lens_ray(frame.camera, point[0] + (f32)x, point[1] + (f32)y, point[2], point[3]);
     cs_pair emitter;

@@ -2,28 +2,36 @@
  *
  * The exponential of a point at frequency (a, b) is the product of one of a and one of b, so those
  * are tabulated for each point first; what is left is a product of two complex matrices. */
+#include "frequencies.h"
 #include "packet.h"
 
 /* Rows of the spectrum that a work-item sums up at once: their sums stay in registers. */
 #define CS_SPECTRUM_ROWS 8
 
-/* exp(-2 pi i f x) for `count` points and frequencies first, first + 1, ...: one work-item for
- * CS_PACKET frequencies of a point. Multiples of x are taken modulo 1 in whole numbers, exactly.
+/* exp(-2 pi i f.x) for `count` points and the frequencies of each column: one work-item for
+ * CS_PACKET columns of a point. Multiples of x are taken modulo 1 in whole numbers, exactly.
  *
- * Global size: at least count * columns / CS_PACKET. points: `count` coordinates in [0, 1),
- * `stride` floats apart, the first at `offset`. real, imaginary: count * columns floats each;
- * columns is a multiple of CS_PACKET. */
-__kernel void cs_exponentials(const uint count, const uint columns, const int first,
-                              const uint stride, const uint offset, __global const float *points,
-                              __global float *real, __global float *imaginary)
+ * Global size: at least count * columns / CS_PACKET. points: `count` points in [0, 1), of `stride`
+ * coordinates. real, imaginary: count * columns floats each; columns is a multiple of CS_PACKET. */
+__kernel void cs_exponentials(const uint count, const uint columns, const cs_frequencies set,
+                              const uint stride, __global const float *points, __global float *real,
+                              __global float *imaginary)
 {
     uint blocks = columns / (uint)CS_PACKET;
     uint point = (uint)get_global_id(0) / blocks;
     uint column = (uint)get_global_id(0) % blocks * (uint)CS_PACKET;
     if (point >= count) return;
-    uint turn = convert_uint(points[(size_t)point * stride + offset] * 4294967296.0f);
-    vuint multiple = ((vuint)((uint)first + column) + CS_LANE_INDEX) * turn;
-    vfloat half_turns = CS_OVER_LANES(convert_float)(cs_as_vint(multiple)) * 0x1p-31f;
+    vuint index = (vuint)(column) + CS_LANE_INDEX;
+    vuint part[2];
+    part[1] = index / set.wide;
+    part[0] = index - part[1] * set.wide;
+    vuint turns = (vuint)(0u);
+    for (int i = 0; i < 2; i++) {
+        float x = points[(size_t)point * stride + set.coordinate[i]];
+        turns += ((vuint)((uint)set.first[i]) + part[i] * (uint)set.step[i]) *
+                 convert_uint(x * 4294967296.0f);
+    }
+    vfloat half_turns = CS_OVER_LANES(convert_float)(cs_as_vint(turns)) * 0x1p-31f;
     size_t at = (size_t)point * columns + column;
     *(__global vfloat *)(real + at) = cospi(half_turns);
     *(__global vfloat *)(imaginary + at) = -sinpi(half_turns);

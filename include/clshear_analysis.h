@@ -119,6 +119,17 @@ CLSHEAR_API clshear_status clshear_fit_slope_of_parts(const uint32_t *counts, si
                                                       const double *parts, size_t count,
                                                       double *errors, clshear_fit *fit);
 
+/* A function of four coordinates: writes its values at `count` points of four coordinates each, all
+ * in [0, 1]. What it returns but CLSHEAR_OK is returned by those that call it. */
+typedef clshear_status (*clshear_function)(void *user, const float *points, size_t count,
+                                           float *values);
+
+/* As clshear_points_integrate, of a function of x, y, u and v and points that begin with these. */
+CLSHEAR_API clshear_status clshear_points_integrate_4d(const clshear_points *points,
+                                                       clshear_function function, void *user,
+                                                       int homogenise, uint32_t seed,
+                                                       double *means);
+
 enum {
     CLSHEAR_CONES = 8
 };
@@ -143,6 +154,40 @@ CLSHEAR_API clshear_status clshear_predict_variance(const clshear_spectrum *samp
                                                     double mean_square,
                                                     clshear_prediction *prediction);
 
+/* How far, in each coordinate, the frequencies go that clshear_predict_variance_4d adds up. */
+typedef struct clshear_reach {
+    uint32_t axis;  /* of one coordinate: 1 to 65536; should be 4 N */
+    uint32_t plane; /* of two: 1 to 2047 */
+    uint32_t block; /* of three or four: 1 to 15 */
+} clshear_reach;
+
+enum {
+    CLSHEAR_PARTS = 12
+};
+
+/* Where the variance of an integral over four coordinates comes from. Parts: frequencies of x, y, u
+ * and v alone; of xy, xu, xv, yu, yv and uv; of three or four (the block); the rest (the tail). */
+typedef struct clshear_prediction_4d {
+    double variance;                /* the sum of all parts */
+    double parts[CLSHEAR_PARTS];    /* of the variance */
+    double energies[CLSHEAR_PARTS]; /* of the integrand's own variance */
+    double energy;                  /* their sum */
+} clshear_prediction_4d;
+
+/* "x", "y", ... "block", "tail". */
+CLSHEAR_API const char *clshear_prediction_part(int part);
+
+/* Variance of the mean of a function at N samples that are shifted at random around the torus, from
+ * the power of samples that begin with x, y, u and v. No lattice of four dimensions reaches as far
+ * as samples are good, so parts go as far as each needs; the tail counts as random points would.
+ * The function's energy at each frequency is the cross power of independently shifted grids, so
+ * that neither aliases nor chance add to it. */
+CLSHEAR_API clshear_status clshear_predict_variance_4d(clshear_context *context,
+                                                       const clshear_points *samples,
+                                                       clshear_function function, void *user,
+                                                       const clshear_reach *reach,
+                                                       clshear_prediction_4d *prediction);
+
 /* ------------------------------------------------------------------------------------------------
  * Integrands of pixels
  * --------------------------------------------------------------------------------------------- */
@@ -158,6 +203,14 @@ CLSHEAR_API float clshear_lens_extent(const clshear_camera *camera);
 CLSHEAR_API clshear_status clshear_radiance(clshear_scene *scene, const clshear_camera *camera,
                                             int width, int height, int x, int y,
                                             const float *points, size_t count, float *rgb);
+
+/* The same at `count` tuples of four coordinates that a sampler draws: radiance where the options'
+ * shear, by `shear_px`, and filter take them. Of the options also width and height count. */
+CLSHEAR_API clshear_status clshear_radiance_of_samples(clshear_scene *scene,
+                                                       const clshear_camera *camera,
+                                                       const clshear_options *options, int x, int y,
+                                                       float shear_px, const float *samples,
+                                                       size_t count, float *rgb);
 
 /* Writes planes of floats, named R, G, B and whatever else, as clshear_film_write does. Fails with
  * a message that clshear_message(NULL) has. */

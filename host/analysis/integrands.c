@@ -133,3 +133,34 @@ void clshear_points_integrate(const clshear_points *points, const clshear_integr
     }
     cs_parallel(0, points->sets, integrate_sets, &job);
 }
+
+clshear_status clshear_points_integrate_4d(const clshear_points *points, clshear_function function,
+                                           void *user, int homogenise, uint32_t seed, double *means)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_error *error = cs_thread_error();
+    const size_t count = points->count;
+    float *places = malloc(4 * count * sizeof *places), *values = malloc(count * sizeof *values);
+    CS_REQUIRE(places != NULL && values != NULL, CLSHEAR_OUT_OF_MEMORY,
+               "out of memory for %zu points", count);
+    CS_REQUIRE(points->dimensions >= 4, CLSHEAR_BAD_ARGUMENT,
+               "points of %zu dimensions: must begin with x, y, u, v", points->dimensions);
+    for (size_t set = 0; set < points->sets; set++) {
+        const u32 key = cs_key(seed ^ 0x746f7275u, (u32)set);
+        for (size_t i = 0; i < 4 * count; i++) {
+            const size_t d = i % 4, at = (set * count + i / 4) * points->dimensions + d;
+            const double shift = homogenise ? 0x1p-32 * cs_key(key, (u32)d) : 0.0;
+            const double place = (double)points->values[at] + shift;
+            places[i] = fminf((float)(place - floor(place)), 0.99999994f);
+        }
+        status = function(user, places, count, values);
+        if (status != CLSHEAR_OK) break;
+        means[set] = 0.0;
+        for (size_t i = 0; i < count; i++)
+            means[set] += (double)values[i] / (double)count;
+    }
+done:
+    free(places);
+    free(values);
+    return status;
+}

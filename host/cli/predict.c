@@ -8,6 +8,7 @@
 #include "cli/flags.h"
 #include "cli/output.h"
 #include "cli/parse.h"
+#include "cli/predict_pixel.h"
 #include "cli/source.h"
 
 typedef struct predict_job {
@@ -62,10 +63,19 @@ static const char *store_out(void *target, const char *value)
     return *value != '\0' ? NULL : "a file, or - for standard output";
 }
 
+/* Pixels are another parser's (cli_predict): this one only lists the flag. */
+static const char *store_pixel(void *target, const char *value)
+{
+    (void)target;
+    (void)value;
+    return "given once, with a SCENE";
+}
+
 static const cli_flag flags[] = {
     {"integrand", "NAME", "step, box, disk, gaussian, tent or plane-wave", store_integrand},
     {"angle", "DEG", "its direction (0)", store_angle},
     {"size", "S", "its size, or offset of a step", store_size},
+    {"pixel", "X,Y", "of SCENE, in four dimensions: has its own --help", store_pixel},
     {"measure", "M", "measure too, with M other sets", store_measure},
     CLI_SOURCE_FLAGS("1000"),
     {"projection dims", "LETTERS", "two coordinates out of xyuvpq (xy)",
@@ -79,11 +89,14 @@ static const cli_flag flags[] = {
 static const cli_command command = {
     .name = "predict",
     .summary = "usage: clshear predict --integrand NAME [flags]\n"
+               "       clshear predict SCENE --pixel X,Y [flags]\n"
                "Predict the variance of an integral from the spectra of samples and integrand.\n\n"
-               "  clshear predict --integrand step --angle 30 --sampler mj --n 64 --measure 4000\n",
+               "  clshear predict --integrand step --angle 30 --sampler mj --n 64 --measure 4000\n"
+               "  clshear predict scenes/cornell.obj --pixel 302,130 --sampler mj --measure 1000\n",
     .notes = "The variance is that of sets shifted at random around the torus, for which the\n"
              "sum over frequencies is exact. Cones are eighths of a half turn from the x axis;\n"
-             "the tail is what lies beyond the spectrum, at the level of random points.\n",
+             "the tail is what lies beyond the spectrum, at the level of random points.\n"
+             "clshear predict SCENE --pixel X,Y --help tells of pixels.\n",
     .flags = flags,
     .flag_count = sizeof flags / sizeof *flags,
 };
@@ -194,6 +207,9 @@ int cli_predict(int argc, char **argv)
                        .resolution = 255,
                        .out = "-"};
     result found = {0};
+    for (int i = 1; i < argc; i++)
+        if (strcmp(argv[i], "--pixel") == 0 || strncmp(argv[i], "--pixel=", 8) == 0)
+            return cli_predict_pixel(argc, argv);
     int code = cli_parse_words(&command, &job, argc, argv, NULL);
     if (code != CLI_DONE) return code;
     if (job.source.help) {

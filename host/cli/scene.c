@@ -133,3 +133,19 @@ void cli_close_scene(cli_job *job, clshear_context *context, clshear_scene *scen
     clshear_context_free(context);
     clshear_aperture_image_free(&job->aperture_image);
 }
+
+clshear_status cli_find_shear(const cli_job *job, clshear_scene *scene,
+                              const clshear_camera *camera, const int *pixel, float *shear_px)
+{
+    clshear_film *film = NULL;
+    clshear_options options = job->options;
+    const int crop[4] = {pixel[0], pixel[0] + 1, pixel[1], pixel[1] + 1};
+    memcpy(options.crop, crop, sizeof crop);
+    options.spp = options.replicates = 1;
+    options.adaptive = options.gain = options.extendable = 0;
+    clshear_status status = clshear_render(scene, camera, &options, &film);
+    if (status != CLSHEAR_OK) return status;
+    *shear_px = *clshear_film_channel(film, "Shear");
+    clshear_film_free(film);
+    return CLSHEAR_OK;
+}

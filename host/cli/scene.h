@@ -21,6 +21,11 @@ void cli_close_scene(cli_job *job, clshear_context *context, clshear_scene *scen
 clshear_status cli_choose_camera(const cli_job *job, const clshear_scene *scene,
                                  clshear_camera *camera);
 
+/* The shear in pixels that the oracle has for a pixel of the image; the pilot's is that of the
+ * centre's depth. */
+clshear_status cli_find_shear(const cli_job *job, clshear_scene *scene,
+                              const clshear_camera *camera, const int *pixel, float *shear_px);
+
 /* Tells what the file and the flags left open. */
 void cli_tell_choices(const cli_job *job, const clshear_scene *scene, const clshear_camera *camera);
 

@@ -143,21 +143,14 @@ static void place(const cli_slice_job *job, size_t index, float *point)
 static clshear_status find_slope(const cli_slice_job *job, clshear_scene *scene,
                                  const clshear_camera *camera, cli_slice *slice)
 {
-    clshear_film *film = NULL;
-    clshear_options options = job->render.options;
-    const int crop[4] = {job->pixel[0], job->pixel[0] + 1, job->pixel[1], job->pixel[1] + 1};
-    memcpy(options.crop, crop, sizeof crop);
-    options.spp = options.replicates = 1;
-    options.adaptive = options.gain = options.extendable = 0;
-    clshear_status status = clshear_render(scene, camera, &options, &film);
+    float shear = 0.0f;
+    const clshear_status status = cli_find_shear(&job->render, scene, camera, job->pixel, &shear);
     if (status != CLSHEAR_OK) return status;
-    const double shear = (double)*clshear_film_channel(film, "Shear");
     const double anamorphic = camera->anamorphic > 0.0f ? (double)camera->anamorphic : 1.0;
-    const double extent = (double)clshear_lens_extent(camera) * shear;
+    const double extent = (double)clshear_lens_extent(camera) * (double)shear;
     slice->slope = 0.0;
     if (strcmp(job->projection, "xu") == 0) slice->slope = extent / anamorphic;
     if (strcmp(job->projection, "yv") == 0) slice->slope = extent;
-    clshear_film_free(film);
     return CLSHEAR_OK;
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "frame.h"
+#include "optics/optics.h"
 #include "render/handles.h"
 #include "scene/camera.h"
 
@@ -17,7 +18,12 @@ typedef struct evaluation {
     clshear_scene *scene;
     cs_frame frame;
     u32 pixel[2];
-    f32 lens_scale; /* from the square around the aperture to aperture widths */
+    u32 tuples; /* not 0: points are what a sampler draws */
+    f32 shear_px;
+    f32 lens_offset; /* of points that are places: to the centre of the square around the */
+    f32 lens_scale;  /* aperture, and from that square to aperture widths */
+    cs_optics_tables optics;
+    cs_buffer *table;
     cs_buffer *points;
     cs_buffer *radiance;
     float *planes; /* PLANES * CHUNK */
@@ -26,13 +32,16 @@ typedef struct evaluation {
 static clshear_status launch(const evaluation *e, u32 count, cs_error *error)
 {
     enum {
-        BEFORE_WORLD = 6
+        BEFORE_WORLD = 9
     };
     cs_argument arguments[BEFORE_WORLD + CS_WORLD_BUFFERS] = {
         {.value = &e->frame, .size = sizeof e->frame},
         {.value = &e->pixel[0], .size = sizeof e->pixel[0]},
         {.value = &e->pixel[1], .size = sizeof e->pixel[1]},
         {.value = &count, .size = sizeof count},
+        {.value = &e->tuples, .size = sizeof e->tuples},
+        {.value = &e->shear_px, .size = sizeof e->shear_px},
+        {.buffer = e->table},
         {.buffer = e->points},
         {.buffer = e->radiance}};
     for (int i = 0; i < CS_WORLD_BUFFERS; i++)
@@ -52,8 +61,8 @@ static clshear_status evaluate(evaluation *e, const float *points, size_t count,
         const float *point = points + 4 * (i < count ? i : count - 1);
         e->planes[i] = point[0];
         e->planes[all + i] = point[1];
-        e->planes[2 * all + i] = (point[2] - 0.5f) * e->lens_scale;
-        e->planes[3 * all + i] = (point[3] - 0.5f) * e->lens_scale;
+        e->planes[2 * all + i] = (point[2] - e->lens_offset) * e->lens_scale;
+        e->planes[3 * all + i] = (point[3] - e->lens_offset) * e->lens_scale;
         e->planes[4 * all + i] = e->planes[5 * all + i] = 0.5f;
     }
     CS_TRY(cs_buffer_write(e->points, 0, PLANES * all * sizeof(float), e->planes, error));
@@ -66,38 +75,86 @@ done:
     return status;
 }
 
+static clshear_status prepare(evaluation *e, const clshear_camera *camera,
+                              const clshear_options *options, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_device *device = e->scene->context->device;
+    const u32 width = (u32)options->width, height = (u32)options->height;
+    CS_REQUIRE(e->pixel[0] < width && e->pixel[1] < height, CLSHEAR_BAD_ARGUMENT,
+               "pixel %d,%d is outside the %d x %d image", (int)e->pixel[0], (int)e->pixel[1],
+               options->width, options->height);
+    CS_REQUIRE(camera->lens_radius >= 0.0f && camera->focal_distance > 0.0f, CLSHEAR_BAD_ARGUMENT,
+               "the camera's lens is not chosen");
+    CS_TRY(cs_camera_frame(camera, options->width, options->height, &e->frame.camera, error));
+    CS_TRY(cs_optics_make(camera, options->filter, options->filter_width_px, &e->optics, error));
+    CS_REQUIRE(options->shear != CLSHEAR_SHEAR_TOROIDAL || e->optics.optics.closed || !e->tuples,
+               CLSHEAR_BAD_ARGUMENT,
+               "a toroidal shear is of a disk or square with a box filter 1 px wide");
+    e->frame.camera.optics = e->optics.optics;
+    e->frame.shear_mode = (u32)options->shear;
+    e->frame.lights = e->scene->world.lights;
+    e->frame.emitters = e->scene->world.emitters;
+    e->planes = malloc((size_t)PLANES * CHUNK * sizeof *e->planes);
+    CS_REQUIRE(e->planes != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    CS_TRY(cs_buffer_create(device, e->optics.table.count * sizeof(f32), e->optics.table.items,
+                            &e->table, error));
+    CS_TRY(
+        cs_buffer_create(device, (size_t)PLANES * CHUNK * sizeof(float), NULL, &e->points, error));
+    CS_TRY(cs_buffer_create(device, (size_t)3 * CHUNK * sizeof(float), NULL, &e->radiance, error));
+done:
+    return status;
+}
+
+static void release(evaluation *e)
+{
+    cs_buffer_free(e->table);
+    cs_buffer_free(e->points);
+    cs_buffer_free(e->radiance);
+    cs_optics_free(&e->optics);
+    free(e->planes);
+}
+
+static clshear_status evaluate_all(evaluation *e, const float *points, size_t count, float *rgb,
+                                   cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    for (size_t first = 0; first < count; first += CHUNK)
+        CS_TRY(evaluate(e, points + 4 * first, count - first < CHUNK ? count - first : CHUNK,
+                        rgb + 3 * first, error));
+done:
+    return status;
+}
+
 clshear_status clshear_radiance(clshear_scene *scene, const clshear_camera *camera, int width,
                                 int height, int x, int y, const float *points, size_t count,
                                 float *rgb)
 {
-    clshear_status status = CLSHEAR_OK;
-    clshear_context *context = scene->context;
-    cs_error *error = &context->error;
-    evaluation e = {.scene = scene, .pixel = {(u32)x, (u32)y}};
-    CS_REQUIRE(width >= 1 && height >= 1 && x >= 0 && y >= 0 && x < width && y < height,
-               CLSHEAR_BAD_ARGUMENT, "pixel %d,%d is outside the %d x %d image", x, y, width,
-               height);
-    CS_REQUIRE(camera->lens_radius >= 0.0f && camera->focal_distance > 0.0f, CLSHEAR_BAD_ARGUMENT,
-               "the camera's lens is not chosen");
-    CS_TRY(cs_camera_frame(camera, width, height, &e.frame.camera, error));
-    e.frame.camera.optics.squeeze = camera->anamorphic > 0.0f ? 1.0f / camera->anamorphic : 1.0f;
-    e.frame.lights = scene->world.lights;
-    e.frame.emitters = scene->world.emitters;
+    cs_error *error = &scene->context->error;
+    const clshear_options options = {.width = width, .height = height};
+    evaluation e = {.scene = scene, .pixel = {(u32)x, (u32)y}, .lens_offset = 0.5f};
+    clshear_status status = prepare(&e, camera, &options, error);
     e.lens_scale = camera->lens_radius > 0.0f
                        ? 2.0f * camera->lens_radius / e.frame.camera.aperture_width
                        : 1.0f;
-    e.planes = malloc((size_t)PLANES * CHUNK * sizeof *e.planes);
-    CS_REQUIRE(e.planes != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    CS_TRY(cs_buffer_create(context->device, (size_t)PLANES * CHUNK * sizeof(float), NULL,
-                            &e.points, error));
-    CS_TRY(cs_buffer_create(context->device, (size_t)3 * CHUNK * sizeof(float), NULL, &e.radiance,
-                            error));
-    for (size_t first = 0; first < count; first += CHUNK)
-        CS_TRY(evaluate(&e, points + 4 * first, count - first < CHUNK ? count - first : CHUNK,
-                        rgb + 3 * first, error));
-done:
-    cs_buffer_free(e.points);
-    cs_buffer_free(e.radiance);
-    free(e.planes);
+    if (status == CLSHEAR_OK) status = evaluate_all(&e, points, count, rgb, error);
+    release(&e);
+    return status;
+}
+
+clshear_status clshear_radiance_of_samples(clshear_scene *scene, const clshear_camera *camera,
+                                           const clshear_options *options, int x, int y,
+                                           float shear_px, const float *samples, size_t count,
+                                           float *rgb)
+{
+    cs_error *error = &scene->context->error;
+    evaluation e = {.scene = scene,
+                    .pixel = {(u32)x, (u32)y},
+                    .tuples = 1,
+                    .shear_px = shear_px,
+                    .lens_scale = 1.0f};
+    clshear_status status = prepare(&e, camera, options, error);
+    if (status == CLSHEAR_OK) status = evaluate_all(&e, samples, count, rgb, error);
+    release(&e);
     return status;
 }

@@ -1,0 +1,21 @@
+/* Power of point sets at frequencies of one, two or four coordinates. */
+#ifndef CS_ANALYSIS_PERIODOGRAM_H
+#define CS_ANALYSIS_PERIODOGRAM_H
+
+#include "base/status.h"
+#include "clshear.h"
+#include "device/device.h"
+#include "frequencies.h"
+
+/* What columns and rows stand for: the frequency of a cell is the sum of both. */
+typedef struct cs_lattice {
+    cs_frequencies sets[2];
+    uint32_t counts[2]; /* columns, rows */
+} cs_lattice;
+
+/* The mean over sets of |sum of exp(-2 pi i f.x)|^2 / N, points of any
+ * dimensions with coordinates in [0, 1). power: counts[1] rows of counts[0]. */
+clshear_status cs_periodogram(cs_device *device, const clshear_points *points,
+                              const cs_lattice *lattice, float *power, cs_error *error);
+
+#endif
