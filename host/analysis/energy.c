@@ -1,10 +1,10 @@
 /* Energy of a function of four coordinates at frequencies of some of them.
  *
  * The function is sampled on several grids, each shifted at random by a part of a cell, with the
- * other coordinates at random. A transform of one grid is the function's coefficient at k, times a
- * phase that is taken out, plus aliases whose phases depend on the shift, plus noise. Both are
- * independent between grids and 0 on average, so the mean of products of two different grids is
- * |f|^2 without them. */
+ * other coordinates on a lattice that each cell shifts at random. A transform of one grid is the
+ * function's coefficient at k, times a phase that is taken out, plus aliases whose phases depend on
+ * the shift, plus noise. Both are independent between grids and 0 on average, so the mean of
+ * products of two different grids is |f|^2 without them. */
 #include "analysis/energy.h"
 
 #include <fftw3.h>
@@ -35,14 +35,17 @@ typedef struct accumulation {
     fftw_plan plan;
 } accumulation;
 
-/* The coordinates of point number `index` of a group. */
+/* The coordinates of point number `index` of a group. The lattice's steps are powers of an odd
+ * number over that of the samples, a power of two: each coordinate by itself is spread evenly. */
 static void place(const accumulation *a, u32 key, size_t index, float *point)
 {
     const cs_marginal *m = a->marginal;
-    const u32 own = cs_key(key, (u32)index);
+    const u32 odd = (u32)(0.382 * (double)m->samples) | 1u;
+    u32 step = m->samples > 1 ? (u32)(0x1p32 / (double)m->samples) : 0;
     size_t cell = index / m->samples;
-    for (u32 d = 0; d < 4; d++)
-        point[d] = (float)((double)cs_key(own, d) * 0x1p-32);
+    const u32 own = cs_key(key, (u32)cell), number = (u32)(index % m->samples);
+    for (u32 d = 0; d < 4; d++, step *= odd)
+        point[d] = (float)((cs_key(own, d) + number * step) >> 8) * 0x1p-24f;
     for (int d = m->rank - 1; d >= 0; d--, cell /= m->side)
         point[m->coordinate[d]] =
             (float)(((double)(cell % m->side) + a->shift[d]) / (double)m->side);

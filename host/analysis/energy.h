@@ -11,7 +11,7 @@ typedef struct cs_marginal {
     int rank;          /* 1, 2 or 4 */
     int coordinate[4]; /* which, rising */
     size_t side;       /* even */
-    size_t samples;    /* of each cell, in each of CS_ENERGY_GROUPS grids */
+    size_t samples;    /* of each cell, in each of CS_ENERGY_GROUPS grids: a power of two */
 } cs_marginal;
 
 enum {

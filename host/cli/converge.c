@@ -143,8 +143,10 @@ static int check(const cli_converge_job *job)
         fprintf(stderr, "clshear: give either an --integrand or a SCENE\n");
     else if (job->pixel_count > 0 && !rendered)
         fprintf(stderr, "clshear: --pixels are of a SCENE, not of an --integrand\n");
-    else if (job->has_reference && rendered && job->pixel_count == 0)
-        fprintf(stderr, "clshear: --reference is of --pixels or an --integrand\n");
+    else if (job->has_reference &&
+             (rendered && job->pixel_count == 0) != (job->reference_image != NULL))
+        fprintf(stderr, "clshear: --reference: a picture is of a whole image, a number of --pixels "
+                        "or an --integrand\n");
     else if (job->sampler_count * (rendered ? targets * job->shear_count : 1) > CLI_MOST_SERIES)
         fprintf(stderr, "clshear: more than %d curves; give fewer pixels, samplers or shears\n",
                 CLI_MOST_SERIES);

@@ -30,6 +30,7 @@ typedef struct cli_converge_job {
     uint32_t replicates;
     double reference;
     int has_reference;
+    const char *reference_image; /* NULL: a number */
     const char *outputs[CLI_MAX_OUTPUTS];
     int output_count;
     cli_plot plot;

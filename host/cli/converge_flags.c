@@ -98,8 +98,13 @@ static const char *store_replicates(void *target, const char *value)
 static const char *store_reference(void *target, const char *value)
 {
     cli_converge_job *job = target;
+    const char *dot = strrchr(value, '.');
     job->has_reference = 1;
-    return cli_read_numbers(value, 1, &job->reference) ? NULL : "the true value, a number";
+    if (dot != NULL && strcmp(dot, ".exr") == 0) {
+        job->reference_image = value;
+        return NULL;
+    }
+    return cli_read_numbers(value, 1, &job->reference) ? NULL : "a number, or an .exr of clshear";
 }
 
 static const char *store_out(void *target, const char *value)
@@ -137,7 +142,7 @@ static const cli_flag own_flags[] = {
     {"nreps replicates", "R", "independent patterns of each (200; image 8)", store_replicates},
     {"sampler", "A,B,...", "see clshear --list-samplers (mj,sz)", store_samplers},
     {"shear", "A,B,...", "equal-area, toroidal, none (none,equal-area)", store_shears},
-    {"reference", "VALUE", "true value: errors are squared differences", store_reference},
+    {"reference", "VALUE", "number or .exr: errors are squared differences", store_reference},
     {"out o", "FILE", ".csv or .json, - is standard output; repeatable (-)", store_out},
     {"plot", "FILE", "draw errors over N, .png or .svg, by gnuplot", store_plot},
     {"keep", NULL, "leave the plot's data and script beside it", store_keep},
@@ -166,8 +171,9 @@ const cli_command cli_converge_help = {
                "  clshear converge scenes/cornell.obj --pixels '302,130;146,330' --sampler mj\n",
     .notes = "With SCENE, flags of rendering say camera, lens, light. A pixel's value is the\n"
              "mean of R, G and B; without --pixels, errors are variances averaged over the\n"
-             "image. Slopes are least squares in logarithms, with 95 % intervals by bootstrap\n"
-             "over the replicates, or the image's tiles. --oracle pilot counts as centre.\n",
+             "image, or squared differences from a --reference, a finer render. Slopes are\n"
+             "least squares in logarithms, with 95 % intervals by bootstrap over the\n"
+             "replicates, or the image's tiles. --oracle pilot counts as centre.\n",
     .flags = own_flags,
     .flag_count = OWN_FLAGS,
 };
