@@ -134,33 +134,42 @@ void clshear_points_integrate(const clshear_points *points, const clshear_integr
     cs_parallel(0, points->sets, integrate_sets, &job);
 }
 
+/* x, y, u and v of point number `index` of all, shifted as its set is. */
+static void shifted(const clshear_points *points, size_t index, int homogenise, uint32_t seed,
+                    float *place)
+{
+    const u32 key = cs_key(seed ^ 0x746f7275u, (u32)(index / points->count));
+    for (u32 d = 0; d < 4; d++) {
+        const double shift = homogenise ? 0x1p-32 * cs_key(key, d) : 0.0;
+        const double x = (double)points->values[index * points->dimensions + d] + shift;
+        place[d] = fminf((float)(x - floor(x)), 0.99999994f);
+    }
+}
+
 clshear_status clshear_points_integrate_4d(const clshear_points *points, clshear_function function,
                                            void *user, int homogenise, uint32_t seed, double *means)
 {
+    enum {
+        CHUNK = 1 << 16
+    };
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
-    const size_t count = points->count;
-    float *places = malloc(4 * count * sizeof *places), *values = malloc(count * sizeof *values);
-    CS_REQUIRE(places != NULL && values != NULL, CLSHEAR_OUT_OF_MEMORY,
-               "out of memory for %zu points", count);
+    const size_t all = points->sets * points->count;
+    float *places = malloc((size_t)5 * CHUNK * sizeof *places), *values = places + 4 * CHUNK;
+    CS_REQUIRE(places != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     CS_REQUIRE(points->dimensions >= 4, CLSHEAR_BAD_ARGUMENT,
                "points of %zu dimensions: must begin with x, y, u, v", points->dimensions);
-    for (size_t set = 0; set < points->sets; set++) {
-        const u32 key = cs_key(seed ^ 0x746f7275u, (u32)set);
-        for (size_t i = 0; i < 4 * count; i++) {
-            const size_t d = i % 4, at = (set * count + i / 4) * points->dimensions + d;
-            const double shift = homogenise ? 0x1p-32 * cs_key(key, (u32)d) : 0.0;
-            const double place = (double)points->values[at] + shift;
-            places[i] = fminf((float)(place - floor(place)), 0.99999994f);
-        }
-        status = function(user, places, count, values);
-        if (status != CLSHEAR_OK) break;
+    for (size_t set = 0; set < points->sets; set++)
         means[set] = 0.0;
+    for (size_t first = 0; first < all; first += CHUNK) {
+        const size_t count = all - first < CHUNK ? all - first : CHUNK;
         for (size_t i = 0; i < count; i++)
-            means[set] += (double)values[i] / (double)count;
+            shifted(points, first + i, homogenise, seed, places + 4 * i);
+        CS_TRY(function(user, places, count, values));
+        for (size_t i = 0; i < count; i++)
+            means[(first + i) / points->count] += (double)values[i] / (double)points->count;
     }
 done:
     free(places);
-    free(values);
     return status;
 }

@@ -9,8 +9,8 @@
 #include "scene/camera.h"
 
 enum {
-    LANES = 16,      /* the widest packet */
-    CHUNK = 1 << 18, /* points on their way at once */
+    LANES = 16,     /* the widest packet */
+    MOST = 1 << 18, /* points on their way at once */
     PLANES = 6
 };
 
@@ -26,7 +26,8 @@ typedef struct evaluation {
     cs_buffer *table;
     cs_buffer *points;
     cs_buffer *radiance;
-    float *planes; /* PLANES * CHUNK */
+    size_t chunk;  /* points on their way at once */
+    float *planes; /* PLANES * chunk */
 } evaluation;
 
 static clshear_status launch(const evaluation *e, u32 count, cs_error *error)
@@ -51,7 +52,7 @@ static clshear_status launch(const evaluation *e, u32 count, cs_error *error)
                          arguments, BEFORE_WORLD + CS_WORLD_BUFFERS, error);
 }
 
-/* Up to CHUNK points; the last packet is filled up with the last point. */
+/* Up to `chunk` points; the last packet is filled up with the last point. */
 static clshear_status evaluate(evaluation *e, const float *points, size_t count, float *rgb,
                                cs_error *error)
 {
@@ -76,7 +77,7 @@ done:
 }
 
 static clshear_status prepare(evaluation *e, const clshear_camera *camera,
-                              const clshear_options *options, cs_error *error)
+                              const clshear_options *options, size_t count, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_device *device = e->scene->context->device;
@@ -95,13 +96,15 @@ static clshear_status prepare(evaluation *e, const clshear_camera *camera,
     e->frame.shear_mode = (u32)options->shear;
     e->frame.lights = e->scene->world.lights;
     e->frame.emitters = e->scene->world.emitters;
-    e->planes = malloc((size_t)PLANES * CHUNK * sizeof *e->planes);
+    e->chunk = count < MOST ? (count / LANES + 1) * LANES : MOST;
+    e->planes = malloc((size_t)PLANES * e->chunk * sizeof *e->planes);
     CS_REQUIRE(e->planes != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     CS_TRY(cs_buffer_create(device, e->optics.table.count * sizeof(f32), e->optics.table.items,
                             &e->table, error));
+    CS_TRY(cs_buffer_create(device, (size_t)PLANES * e->chunk * sizeof(float), NULL, &e->points,
+                            error));
     CS_TRY(
-        cs_buffer_create(device, (size_t)PLANES * CHUNK * sizeof(float), NULL, &e->points, error));
-    CS_TRY(cs_buffer_create(device, (size_t)3 * CHUNK * sizeof(float), NULL, &e->radiance, error));
+        cs_buffer_create(device, (size_t)3 * e->chunk * sizeof(float), NULL, &e->radiance, error));
 done:
     return status;
 }
@@ -119,8 +122,8 @@ static clshear_status evaluate_all(evaluation *e, const float *points, size_t co
                                    cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    for (size_t first = 0; first < count; first += CHUNK)
-        CS_TRY(evaluate(e, points + 4 * first, count - first < CHUNK ? count - first : CHUNK,
+    for (size_t first = 0; first < count; first += e->chunk)
+        CS_TRY(evaluate(e, points + 4 * first, count - first < e->chunk ? count - first : e->chunk,
                         rgb + 3 * first, error));
 done:
     return status;
@@ -133,7 +136,7 @@ clshear_status clshear_radiance(clshear_scene *scene, const clshear_camera *came
     cs_error *error = &scene->context->error;
     const clshear_options options = {.width = width, .height = height};
     evaluation e = {.scene = scene, .pixel = {(u32)x, (u32)y}, .lens_offset = 0.5f};
-    clshear_status status = prepare(&e, camera, &options, error);
+    clshear_status status = prepare(&e, camera, &options, count, error);
     e.lens_scale = camera->lens_radius > 0.0f
                        ? 2.0f * camera->lens_radius / e.frame.camera.aperture_width
                        : 1.0f;
@@ -153,7 +156,7 @@ clshear_status clshear_radiance_of_samples(clshear_scene *scene, const clshear_c
                     .tuples = 1,
                     .shear_px = shear_px,
                     .lens_scale = 1.0f};
-    clshear_status status = prepare(&e, camera, options, error);
+    clshear_status status = prepare(&e, camera, options, count, error);
     if (status == CLSHEAR_OK) status = evaluate_all(&e, samples, count, rgb, error);
     release(&e);
     return status;
