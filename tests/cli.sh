@@ -136,6 +136,11 @@ expect 1 "none.txt" -- spectrum --in none.txt
 expect 0 "predicted as isotropic," -- predict --integrand step --sampler nrooks --n 16 --sets 50 --measure 50
 case $output in *"measured,"*) ;; *) wrong "not measured: $output" ;; esac
 expect 2 "give an --integrand" -- predict --n 16
+expect 0 "measured unshifted," -- predict "$root/scenes/cornell.obj" --pixel 302,130 --quiet --n 16 --sets 4 \
+    --resolution 31 --block 2 --measure 4
+expect 2 "--pixel is of a SCENE" -- predict --pixel 3,4
+expect 1 "pixel 512,4 is outside" -- predict "$root/scenes/cornell.obj" --pixel 512,4 --n 16 --sets 4 --quiet
+expect 2 "--block 16: must be" -- predict "$root/scenes/cornell.obj" --pixel 3,4 --block 16
 expect 2 "--integrand blob: must be step, box" -- predict --integrand blob
 expect 0 "target,sampler,shear,n,replicates,variance,slope" -- converge --integrand box --sampler mj --nreps 20
 [ "$(echo "$output" | grep -c '^box,mj,none,')" -eq 4 ] || wrong "converge: $output"

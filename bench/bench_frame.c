@@ -1,0 +1,330 @@
+/* The whole way of a sample (tuple, shear, lens, trace, shadow, accumulate) against the same
+ * samples through Embree.
+ *
+ *   bench_frame [--mesh box|spheres|terrain] [--triangles N] [--spp N] [--size PX] [--rounds N]
+ *               [--threads N] [--packet W] [--lens R] [--json FILE]
+ *
+ * Embree gets its camera rays ready-made, in the kernel's order: its time is intersection, shading,
+ * occlusion and sums. Drawing and shearing the same tuples, by the same vector code as the kernel's
+ * (cs_draw_sum), is timed apart and added in a second ratio. Rounds are interleaved; medians of the
+ * ratios of rounds are printed, against medium and high quality and one, 8, 16 rays or streams at a
+ * time. The kernel's own time is held against cs_trace on the same rays: what is left of it is
+ * everything that is not traversal. Exits with 1 if the two pictures differ. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "frame.h"
+#include "measure.h"
+#include "render/handles.h"
+#include "view.h"
+
+enum {
+    KINDS = 2 * EMBREE_MODES
+};
+
+static const float intensity = 2.0f;
+
+typedef struct bench {
+    bench_view view;
+    int rounds, packet;
+    const char *json;
+    clshear_context *context;
+    clshear_scene *scene;
+    embree_scene *embree[2];
+    cs_buffer *origins, *directions, *distances, *hits, *sums, *table;
+    float *radiance[2]; /* mean and squares, by Embree; mean, by the kernel */
+    float *reach;
+    int *faces;
+} bench;
+
+static void must(const bench *state, clshear_status status)
+{
+    if (status == CLSHEAR_OK) return;
+    fprintf(stderr, "bench_frame: %s\n", clshear_message(state->context));
+    exit(1);
+}
+
+static double kernel_s(bench *state)
+{
+    clshear_film *film = NULL;
+    clshear_options options = clshear_options_defaults();
+    options.width = options.height = state->view.size;
+    options.spp = (uint32_t)state->view.spp;
+    options.replicates = 1;
+    options.oracle = CLSHEAR_ORACLE_CENTRE;
+    options.lens_rays = 0;
+    must(state, clshear_render(state->scene, &state->view.camera, &options, &film));
+    const clshear_film_info info = clshear_film_describe(film);
+    memcpy(state->radiance[1], clshear_film_channel(film, "G"),
+           (size_t)state->view.size * (size_t)state->view.size * sizeof(float));
+    clshear_film_free(film);
+    return info.kernel_s;
+}
+
+static double embree_s(bench *state, int kind)
+{
+    const double start_s = cs_now_s();
+    embree_frame(state->embree[kind % 2], (embree_mode)(kind / 2), &state->view.rays,
+                 (size_t)state->view.spp, state->view.light, intensity, state->radiance[0]);
+    return cs_now_s() - start_s;
+}
+
+/* Drawing and shearing alone, for every pixel. */
+static double tuples_s(bench *state)
+{
+    const bench_view *view = &state->view;
+    cs_device *device = state->context->device;
+    const u32 pixels = (u32)(view->size * view->size);
+    const float shear_px = 3.0f;
+    const cs_buffer *rows = NULL;
+    cs_frame frame = {.camera = view->frame,
+                      .pattern = view->pattern,
+                      .pixel_count = pixels,
+                      .shear_mode = CS_SHEAR_EQUAL_AREA};
+    must(state, cs_tables_find(&state->context->tables, device, &view->pattern, &rows,
+                               &state->context->error));
+    const cs_argument arguments[] = {{.value = &frame, .size = sizeof frame},
+                                     {.value = &shear_px, .size = sizeof shear_px},
+                                     {.buffer = rows},
+                                     {.buffer = state->table},
+                                     {.buffer = state->sums}};
+    const double start_s = cs_now_s();
+    must(state,
+         cs_device_run(device, CS_KERNEL_DRAW_SUM, pixels, arguments, 5, &state->context->error));
+    return cs_now_s() - start_s;
+}
+
+/* Tracing alone, of the rays that the buffers hold. */
+static double trace_s(bench *state, int any_hit, const float *reach)
+{
+    cs_device *device = state->context->device;
+    cs_error *error = &state->context->error;
+    const u32 count = (u32)state->view.rays.count;
+    const cs_argument arguments[] = {{.value = &count, .size = sizeof count},
+                                     {.value = &any_hit, .size = sizeof any_hit},
+                                     {.buffer = state->origins},
+                                     {.buffer = state->directions},
+                                     {.buffer = state->distances},
+                                     {.buffer = state->hits},
+                                     {.buffer = state->scene->world.buffers[0]},
+                                     {.buffer = state->scene->world.buffers[1]}};
+    must(state, cs_buffer_write(state->distances, 0, count * sizeof *reach, reach, error));
+    const double start_s = cs_now_s();
+    must(state, cs_device_run(device, CS_KERNEL_TRACE, count / (size_t)cs_device_packet(device),
+                              arguments, 8, error));
+    return cs_now_s() - start_s;
+}
+
+static void upload(bench *state, const float *origins, const float *directions)
+{
+    const size_t size = 3 * state->view.rays.count * sizeof(float);
+    cs_error *error = &state->context->error;
+    must(state, cs_buffer_write(state->origins, 0, size, origins, error));
+    must(state, cs_buffer_write(state->directions, 0, size, directions, error));
+}
+
+/* Rays from what camera rays hit to the light, in place of these. */
+static void upload_shadow_rays(bench *state)
+{
+    const ray_planes *rays = &state->view.rays;
+    const size_t plane = 3 * rays->count * sizeof(float);
+    float *origins = bench_allocate(plane), *directions = bench_allocate(plane);
+    float *distances = bench_allocate(rays->count * sizeof(float));
+    embree_trace(state->embree[1], EMBREE_ONE, 0, rays, distances, state->faces);
+    for (size_t i = 0; i < rays->count; i++) {
+        const int hit = state->faces[i] != CS_NO_HIT;
+        for (size_t axis = 0; axis < 3; axis++) {
+            const size_t at = axis * rays->count + i;
+            const float along = hit ? 0.9999f * distances[i] * rays->directions[at] : 0.0f;
+            origins[at] = rays->origins[at] + along;
+            directions[at] = state->view.light[axis] - origins[at];
+        }
+        state->reach[i] = hit ? 1.0f : -1.0f;
+    }
+    upload(state, origins, directions);
+    free(origins);
+    free(directions);
+    free(distances);
+}
+
+static void open_scene(bench *state)
+{
+    const bench_view *view = &state->view;
+    const clshear_context_options options = {.threads = view->threads, .packet = state->packet};
+    const clshear_mesh mesh = {.positions = view->scene.positions.items,
+                               .indices = view->scene.indices.items,
+                               .vertex_count = view->scene.positions.count,
+                               .triangle_count = view->scene.indices.count,
+                               .diffuse = {0.7f, 0.7f, 0.7f}};
+    clshear_light light = {.colour = {intensity, intensity, intensity}};
+    memcpy(light.vector, view->light, sizeof light.vector);
+    if (clshear_context_create(&options, &state->context) != CLSHEAR_OK) must(state, 1);
+    must(state, clshear_scene_create(state->context, &mesh, 1, &state->scene));
+    must(state, clshear_scene_add_light(state->scene, &light));
+    for (int quality = 0; quality < 2; quality++)
+        state->embree[quality] = embree_scene_create(&view->scene, quality, view->threads);
+}
+
+static void reserve(bench *state)
+{
+    const size_t plane = state->view.rays.count * sizeof(float);
+    const size_t pixels = (size_t)state->view.size * (size_t)state->view.size;
+    const cs_array *table = &state->view.optics.table;
+    cs_device *device = state->context->device;
+    cs_error *error = &state->context->error;
+    must(state, cs_buffer_create(device, 3 * plane, NULL, &state->origins, error));
+    must(state, cs_buffer_create(device, 3 * plane, NULL, &state->directions, error));
+    must(state, cs_buffer_create(device, plane, NULL, &state->distances, error));
+    must(state, cs_buffer_create(device, plane, NULL, &state->hits, error));
+    must(state, cs_buffer_create(device, pixels * sizeof(float), NULL, &state->sums, error));
+    must(state, cs_buffer_create(device, table->count * sizeof(float), table->items, &state->table,
+                                 error));
+    state->radiance[0] = bench_allocate(2 * pixels * sizeof(float));
+    state->radiance[1] = bench_allocate(pixels * sizeof(float));
+    state->reach = bench_allocate(plane);
+    state->faces = bench_allocate(state->view.rays.count * sizeof(int));
+}
+
+/* Mean difference of the two pictures over their mean. */
+static double difference(const bench *state)
+{
+    double off = 0.0, all = 0.0;
+    const u32 size = (u32)state->view.size;
+    for (u32 i = 0; i < size * size; i++) {
+        const double a = (double)state->radiance[0][2 * i];
+        const double b = (double)state->radiance[1][cs_tiled_pixel(i, size, size)];
+        off += fabs(a - b);
+        all += a;
+    }
+    return off / all;
+}
+
+typedef struct times {
+    double kernel[BENCH_MOST_ROUNDS], tuples[BENCH_MOST_ROUNDS];
+    double trace[2][BENCH_MOST_ROUNDS];
+    double embree[KINDS][BENCH_MOST_ROUNDS];
+} times;
+
+static void measure(bench *state, times *t)
+{
+    const ray_planes *rays = &state->view.rays;
+    kernel_s(state); /* compiles */
+    tuples_s(state);
+    for (int round = 0; round < state->rounds; round++) {
+        for (int kind = 0; kind < KINDS; kind++)
+            t->embree[kind][round] = embree_s(state, kind);
+        t->kernel[round] = kernel_s(state);
+        t->tuples[round] = tuples_s(state);
+    }
+    upload(state, rays->origins, rays->directions);
+    trace_s(state, 0, rays->reach);
+    double share[BENCH_MOST_ROUNDS];
+    for (int any_hit = 0; any_hit < 2; any_hit++) {
+        if (any_hit) upload_shadow_rays(state);
+        for (int round = 0; round < state->rounds; round++) {
+            t->trace[any_hit][round] =
+                trace_s(state, any_hit, any_hit ? state->reach : rays->reach);
+            share[round] = t->trace[any_hit][round] / kernel_s(state);
+        }
+        t->trace[any_hit][0] = bench_median(share, state->rounds);
+    }
+}
+
+static void report(bench *state, times *t)
+{
+    const int rounds = state->rounds;
+    const double samples = 1e-6 * (double)state->view.rays.count;
+    double best[2] = {INFINITY, INFINITY}; /* of one ray at a time, of all */
+    double best_free[2] = {INFINITY, INFINITY};
+    bench_record *record = bench_record_begin(state->json, "frame");
+    bench_record_text(record, "mesh", state->view.mesh);
+    bench_record_number(record, "triangles", (double)cs_scene_triangle_count(&state->view.scene));
+    bench_record_number(record, "spp", state->view.spp);
+    printf("| Embree | Msamples/s | ratio, tuples for free | ratio, with tuples |\n"
+           "|---|---|---|---|\n");
+    for (int kind = 0; kind < KINDS; kind++) {
+        double free_ratio[BENCH_MOST_ROUNDS], ratio[BENCH_MOST_ROUNDS];
+        for (int round = 0; round < rounds; round++) {
+            free_ratio[round] = t->embree[kind][round] / t->kernel[round];
+            ratio[round] = (t->embree[kind][round] + t->tuples[round]) / t->kernel[round];
+        }
+        const double without = bench_median(free_ratio, rounds), with = bench_median(ratio, rounds);
+        for (int all = kind / 2 == EMBREE_ONE ? 0 : 1; all < 2; all++) {
+            best[all] = fmin(best[all], with);
+            best_free[all] = fmin(best_free[all], without);
+        }
+        printf("| %s, %s | %.2f | %.2f | %.2f |\n", embree_mode_name((embree_mode)(kind / 2)),
+               kind % 2 ? "high" : "medium", samples / bench_median(t->embree[kind], rounds),
+               without, with);
+    }
+    const double kernel = bench_median(t->kernel, rounds), tuples = bench_median(t->tuples, rounds);
+    const double traced = t->trace[0][0] + t->trace[1][0];
+    printf("kernel %.2f Msamples/s; tuples %.0f %%, traversal %.0f %% of it, the rest %.0f %%\n"
+           "ratio %.2f (%.2f with tuples) to single rays, %.2f (%.2f) to Embree's best\n\n",
+           samples / kernel, 100.0 * tuples / kernel, 100.0 * traced, 100.0 * (1.0 - traced),
+           best_free[0], best[0], best_free[1], best[1]);
+    bench_record_number(record, "msamples_per_s", samples / kernel);
+    bench_record_number(record, "ratio_single_free", best_free[0]);
+    bench_record_number(record, "ratio_single", best[0]);
+    bench_record_number(record, "ratio_best_free", best_free[1]);
+    bench_record_number(record, "ratio_best", best[1]);
+    bench_record_number(record, "share_tuples", tuples / kernel);
+    bench_record_number(record, "share_traversal", traced);
+    bench_record_end(record);
+}
+
+static void close_all(bench *state)
+{
+    cs_buffer *buffers[] = {state->origins, state->directions, state->distances,
+                            state->hits,    state->sums,       state->table};
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
+        cs_buffer_free(buffers[i]);
+    for (int i = 0; i < 2; i++) {
+        embree_scene_free(state->embree[i]);
+        free(state->radiance[i]);
+    }
+    free(state->reach);
+    free(state->faces);
+    clshear_scene_free(state->scene);
+    clshear_context_free(state->context);
+    bench_view_close(&state->view);
+}
+
+int main(int argc, char **argv)
+{
+    bench state = {.view = {.mesh = "spheres",
+                            .triangles = 250000,
+                            .size = 256,
+                            .spp = 64,
+                            .lens_radius = 0.05},
+                   .rounds = 5};
+    static times t;
+    bench_view *view = &state.view;
+    const bench_flag flags[] = {{.name = "mesh", .text = &view->mesh},
+                                {.name = "triangles", .count = &view->triangles},
+                                {.name = "spp", .number = &view->spp},
+                                {.name = "size", .number = &view->size},
+                                {.name = "rounds", .number = &state.rounds},
+                                {.name = "threads", .number = &view->threads},
+                                {.name = "packet", .number = &state.packet},
+                                {.name = "lens", .real = &view->lens_radius},
+                                {.name = "json", .text = &state.json}};
+    bench_read_flags(argc, argv, flags, sizeof flags / sizeof *flags);
+    if (state.rounds < 1 || state.rounds > BENCH_MOST_ROUNDS) state.rounds = 5;
+    cs_error error;
+    cs_sampler_find(NULL, &view->sampler, &error);
+    bench_view_open(view);
+    open_scene(&state);
+    reserve(&state);
+    printf("%s, %zu triangles, %d x %d pixels, %d samples, packets of %d, %d threads\n\n",
+           view->mesh, cs_scene_triangle_count(&view->scene), view->size, view->size, view->spp,
+           cs_device_packet(state.context->device), cs_device_threads(state.context->device));
+    measure(&state, &t);
+    report(&state, &t);
+    const double off = difference(&state);
+    printf("pictures differ by %.1e of their mean\n", off);
+    close_all(&state);
+    return off > 1e-3;
+}
