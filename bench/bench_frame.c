@@ -2,7 +2,8 @@
  * samples through Embree.
  *
  *   bench_frame [--mesh box|spheres|terrain] [--triangles N] [--spp N] [--size PX] [--rounds N]
- *               [--threads N] [--packet W] [--lens R] [--json FILE]
+ *               [--threads N] [--packet W] [--lens R] [--sampler NAME] [--aperture disk|square]
+ *               [--json FILE]
  *
  * Embree gets its camera rays ready-made, in the kernel's order: its time is intersection, shading,
  * occlusion and sums. Drawing and shearing the same tuples, by the same vector code as the kernel's
@@ -29,7 +30,7 @@ static const float intensity = 2.0f;
 typedef struct bench {
     bench_view view;
     int rounds, packet;
-    const char *json;
+    const char *json, *sampler, *aperture;
     clshear_context *context;
     clshear_scene *scene;
     embree_scene *embree[2];
@@ -53,6 +54,7 @@ static double kernel_s(bench *state)
     options.width = options.height = state->view.size;
     options.spp = (uint32_t)state->view.spp;
     options.replicates = 1;
+    options.sampler = state->sampler;
     options.oracle = CLSHEAR_ORACLE_CENTRE;
     options.lens_rays = 0;
     must(state, clshear_render(state->scene, &state->view.camera, &options, &film));
@@ -242,6 +244,8 @@ static void report(bench *state, times *t)
     bench_record_text(record, "mesh", state->view.mesh);
     bench_record_number(record, "triangles", (double)cs_scene_triangle_count(&state->view.scene));
     bench_record_number(record, "spp", state->view.spp);
+    bench_record_text(record, "sampler", cs_sampler_name(state->view.sampler));
+    bench_record_text(record, "aperture", state->aperture);
     printf("| Embree | Msamples/s | ratio, tuples for free | ratio, with tuples |\n"
            "|---|---|---|---|\n");
     for (int kind = 0; kind < KINDS; kind++) {
@@ -299,7 +303,8 @@ int main(int argc, char **argv)
                             .size = 256,
                             .spp = 64,
                             .lens_radius = 0.05},
-                   .rounds = 5};
+                   .rounds = 5,
+                   .aperture = "disk"};
     static times t;
     bench_view *view = &state.view;
     const bench_flag flags[] = {{.name = "mesh", .text = &view->mesh},
@@ -310,17 +315,25 @@ int main(int argc, char **argv)
                                 {.name = "threads", .number = &view->threads},
                                 {.name = "packet", .number = &state.packet},
                                 {.name = "lens", .real = &view->lens_radius},
+                                {.name = "sampler", .text = &state.sampler},
+                                {.name = "aperture", .text = &state.aperture},
                                 {.name = "json", .text = &state.json}};
     bench_read_flags(argc, argv, flags, sizeof flags / sizeof *flags);
     if (state.rounds < 1 || state.rounds > BENCH_MOST_ROUNDS) state.rounds = 5;
     cs_error error;
-    cs_sampler_find(NULL, &view->sampler, &error);
+    if (cs_sampler_find(state.sampler, &view->sampler, &error) != CLSHEAR_OK) {
+        fprintf(stderr, "bench_frame: %s\n", error.message);
+        return 2;
+    }
+    view->square = strcmp(state.aperture, "square") == 0;
     bench_view_open(view);
     open_scene(&state);
     reserve(&state);
-    printf("%s, %zu triangles, %d x %d pixels, %d samples, packets of %d, %d threads\n\n",
+    printf("%s, %zu triangles, %d x %d pixels, %d samples of %s, %s aperture, packets of %d, %d "
+           "threads\n\n",
            view->mesh, cs_scene_triangle_count(&view->scene), view->size, view->size, view->spp,
-           cs_device_packet(state.context->device), cs_device_threads(state.context->device));
+           cs_sampler_name(view->sampler), state.aperture, cs_device_packet(state.context->device),
+           cs_device_threads(state.context->device));
     measure(&state, &t);
     report(&state, &t);
     const double off = difference(&state);

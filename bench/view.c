@@ -36,6 +36,7 @@ static void place_camera(bench_view *view, cs_error *error)
     memcpy(view->camera.target, target, sizeof target);
     memcpy(view->light, light, sizeof light);
     view->camera.lens_radius = (float)view->lens_radius;
+    view->camera.aperture = view->square ? CLSHEAR_APERTURE_SQUARE : CLSHEAR_APERTURE_DISK;
     view->camera.focal_distance = 1.5f;
     view->camera.fov_deg = 45.0f;
     must(cs_camera_frame(&view->camera, view->size, view->size, &view->frame, error), error);

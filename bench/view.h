@@ -15,6 +15,7 @@ typedef struct bench_view {
     int threads;
     double lens_radius;
     u32 sampler;
+    int square; /* the aperture; else round */
     cs_scene scene;
     cs_accel *accel;
     cs_flat_bvh bvh;
@@ -27,7 +28,7 @@ typedef struct bench_view {
     ray_planes rays; /* pixel by pixel in tiles of 8 x 8; of those, as the kernel draws them */
 } bench_view;
 
-/* Fills in what is below `sampler`. Prints a line and exits with 1 where that fails. */
+/* Fills in what is below `square`. Prints a line and exits with 1 where that fails. */
 void bench_view_open(bench_view *view);
 void bench_view_close(bench_view *view);
 
