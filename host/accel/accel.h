@@ -24,8 +24,8 @@ clshear_status cs_accel_create(const cs_scene *scene, int threads, cs_accel **ac
                                cs_error *error);
 void cs_accel_free(cs_accel *accel);
 
-/* Builds the hierarchy by the surface area heuristic with spatial splits (rtcBuildBVH, high
- * quality). */
+/* Builds the hierarchy by the surface area heuristic (rtcBuildBVH), with spatial splits in small
+ * scenes. */
 clshear_status cs_accel_build_bvh(const cs_accel *accel, cs_flat_bvh *bvh, cs_error *error);
 
 /* What a pixel sees, as camera depths; infinite where that is nothing. */

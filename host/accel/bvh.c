@@ -6,7 +6,9 @@
 #include "accel/embree.h"
 
 enum {
-    LEAF_SIZE = 2, /* packets test two triangles as cheaply as a node */
+    LEAF_SIZE = 2,        /* packets test two triangles as cheaply as a node */
+    MOST_SPLIT = 1 << 14, /* triangles in scenes that get spatial splits: those help long triangles,
+                             and cost ten times as much as the rest of the build */
     MAX_DEPTH = CS_STACK - 2
 };
 
@@ -278,7 +280,9 @@ clshear_status cs_accel_build_bvh(const cs_accel *accel, cs_flat_bvh *bvh, cs_er
 {
     clshear_status status = CLSHEAR_OK;
     const cs_scene *scene = accel->scene;
-    const size_t count = scene->indices.count, capacity = 2 * count + 64;
+    const size_t count = scene->indices.count;
+    const int split = count <= MOST_SPLIT;
+    const size_t capacity = split ? 2 * count + 64 : count;
     RTCBVH builder = rtcNewBVH(accel->device);
     struct RTCBuildPrimitive *primitives = aligned_alloc(32, capacity * sizeof *primitives);
     CS_REQUIRE(builder != NULL && primitives != NULL, CLSHEAR_OUT_OF_MEMORY,
@@ -288,7 +292,7 @@ clshear_status cs_accel_build_bvh(const cs_accel *accel, cs_flat_bvh *bvh, cs_er
     describe_primitives(scene, primitives);
     struct RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.byteSize = sizeof arguments;
-    arguments.buildQuality = RTC_BUILD_QUALITY_HIGH;
+    arguments.buildQuality = split ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
     arguments.maxBranchingFactor = 2;
     arguments.maxDepth = MAX_DEPTH;
     arguments.sahBlockSize = 1;
