@@ -94,6 +94,12 @@ static inline vfloat cs_clamp(vfloat value, vfloat low, vfloat high)
 
 #ifdef CS_DEVICE
 
+#ifdef __has_builtin
+#if __has_builtin(__builtin_reduce_or)
+#define CS_REDUCE_OR(x) __builtin_reduce_or(x)
+#endif
+#endif
+
 typedef union cs_float_lanes {
     vfloat all;
     f32 lane[CS_PACKET];
@@ -109,12 +115,14 @@ typedef union cs_uint_lanes {
     u32 lane[CS_PACKET];
 } cs_uint_lanes;
 
-/* Whether any lane of a mask is true. The narrowing form becomes one move-mask instruction where
- * any() becomes a chain of extracts. */
+/* Whether any lane of a mask is true. Compilers with the reduction test a mask register, or move a
+ * mask, by one instruction; narrowing does for others what any() makes a chain of extracts of. */
 static inline int cs_any(vint mask)
 {
 #if CS_PACKET == 1
     return mask != 0;
+#elif defined(CS_REDUCE_OR)
+    return CS_REDUCE_OR(mask) != 0;
 #elif CS_PACKET == 4
     return as_uint(convert_char4(mask)) != 0u;
 #elif CS_PACKET == 8
