@@ -100,6 +100,17 @@ static inline vfloat cs_clamp(vfloat value, vfloat low, vfloat high)
 #endif
 #endif
 
+/* Asks for the cache line at a global address. Packets are for CPUs, where all addresses are alike.
+ */
+#if CS_PACKET > 1 && defined(__has_builtin)
+#if __has_builtin(__builtin_prefetch)
+#define CS_PREFETCH(address) __builtin_prefetch((const void *)(address))
+#endif
+#endif
+#ifndef CS_PREFETCH
+#define CS_PREFETCH(address) (void)(address)
+#endif
+
 typedef union cs_float_lanes {
     vfloat all;
     f32 lane[CS_PACKET];
