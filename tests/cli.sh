@@ -136,11 +136,11 @@ expect 1 "none.txt" -- spectrum --in none.txt
 expect 0 "predicted as isotropic," -- predict --integrand step --sampler nrooks --n 16 --sets 50 --measure 50
 case $output in *"measured,"*) ;; *) wrong "not measured: $output" ;; esac
 expect 2 "give an --integrand" -- predict --n 16
-expect 0 "measured unshifted," -- predict "$root/scenes/cornell.obj" --pixel 302,130 --quiet --n 16 --sets 4 \
+expect 0 "measured unshifted," -- predict "$cornell" --pixel 302,130 --quiet --n 16 --sets 4 \
     --resolution 31 --block 2 --measure 4
 expect 2 "--pixel is of a SCENE" -- predict --pixel 3,4
-expect 1 "pixel 512,4 is outside" -- predict "$root/scenes/cornell.obj" --pixel 512,4 --n 16 --sets 4 --quiet
-expect 2 "--block 16: must be" -- predict "$root/scenes/cornell.obj" --pixel 3,4 --block 16
+expect 2 "--pixel 512,4: is outside the 512 x 512 image" -- predict "$cornell" --pixel 512,4 --n 16 --sets 4 --quiet
+expect 2 "--block 16: must be" -- predict "$cornell" --pixel 3,4 --block 16
 expect 2 "--integrand blob: must be step, box" -- predict --integrand blob
 expect 0 "target,sampler,shear,n,replicates,variance,slope" -- converge --integrand box --sampler mj --nreps 20
 [ "$(echo "$output" | grep -c '^box,mj,none,')" -eq 4 ] || wrong "converge: $output"
@@ -158,13 +158,19 @@ expect 0 "" -- slice "$cornell" --quiet --pixel 302,130 --projection 4d --resolu
 expect 2 "give a SCENE and a --pixel" -- slice "$cornell"
 expect 2 ".npy is for --projection 4d" -- slice "$cornell" --pixel 1,1 --out q.npy
 expect 2 "--projection xx: must be two letters" -- slice "$cornell" --pixel 1,1 --projection xx
-expect 1 "crop 600,601" -- slice "$cornell" --quiet --pixel 600,1 --out q.png
+expect 2 "--pixel 600,1: is outside" -- slice "$cornell" --quiet --pixel 600,1 --out q.png
 for command in points spectrum predict converge slice; do
     expect 0 "usage: clshear $command" -- $command --help
     [ "$(echo "$output" | awk 'length > 80' | wc -l)" -eq 0 ] || wrong "$command --help wider than 80"
 done
 expect 0 "image,mj,none,4,8," -- converge "$cornell" --quiet --width 24 --height 20 --sampler mj --nsamps 4,16
 [ "$(echo "$output" | wc -l)" -eq 5 ] || wrong "converge of an image: $output"
+expect 0 "" -- "$cornell" --quiet --width 24 --height 20 --spp 64 --out ref.exr
+expect 0 "target,sampler,shear,n,replicates,mse,slope" -- converge "$cornell" --quiet --width 24 --height 20 \
+    --sampler mj --nsamps 4,16 --reference ref.exr
+expect 1 "ref.exr is 24 x 20 pixels: --reference needs 24 x 16" -- converge "$cornell" --quiet --width 24 \
+    --height 16 --reference ref.exr
+expect 2 "a picture is of a whole image" -- converge "$cornell" --quiet --reference 0.5
 expect 2 "give either an --integrand or a SCENE" -- converge --sampler mj
 expect 2 "give either an --integrand or a SCENE" -- converge "$cornell" --integrand box
 expect 0 "pixel 3:4,mj,none,16" -- converge "$cornell" --quiet --pixels 3,4 --sampler mj --nreps 4 \

@@ -288,5 +288,5 @@ int cli_predict_pixel(int argc, char **argv)
         fail("--pixel is of a SCENE; see clshear predict --help");
         return CLI_USAGE;
     }
-    return run(&job);
+    return cli_check_pixel(&job.render, job.pixel) == CLI_DONE ? run(&job) : CLI_USAGE;
 }

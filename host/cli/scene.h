@@ -21,6 +21,9 @@ void cli_close_scene(cli_job *job, clshear_context *context, clshear_scene *scen
 clshear_status cli_choose_camera(const cli_job *job, const clshear_scene *scene,
                                  clshear_camera *camera);
 
+/* Whether the image has that pixel: CLI_DONE, or CLI_USAGE with a line printed. */
+int cli_check_pixel(const cli_job *job, const int *pixel);
+
 /* The shear in pixels that the oracle has for a pixel of the image; the pilot's is that of the
  * centre's depth. */
 clshear_status cli_find_shear(const cli_job *job, clshear_scene *scene,
