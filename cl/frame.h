@@ -23,11 +23,12 @@ typedef struct cs_frame {
     u32 crop_height;
     u32 first_pixel; /* place in the order in which pixels are drawn */
     u32 pixel_count;
+    u32 page_first; /* the crop's pixel that is first in the buffer of pixels */
     u32 shear_mode; /* CS_SHEAR_ */
     u32 lights;
     u32 emitters;
 } cs_frame;
-CS_SHARED_WORDS(cs_frame, 66);
+CS_SHARED_WORDS(cs_frame, 67);
 
 /* Raster index (row by row) of the pixel that is number `order` in a walk through tiles of 8 x 8
  * pixels: neighbours in time are neighbours in both directions, and find their nodes in the cache.

@@ -39,7 +39,7 @@ static inline void cs_sample(const cs_frame *frame, const cs_world *world, cs_ro
 /* One work-item draws blocks [first_block, last_block) of one pixel's pattern.
  *
  * Global size: at least frame.pixel_count; any local size. pixels: one cs_pixel for each pixel of
- * the crop, zero at first. order:
+ * the crop from frame.page_first on, zero at first. order:
  * the crop's pixels (row by row) in the order in which they are drawn. shears: the oracle's answer
  * for each pixel of the crop, in pixels. rows: the pattern's table. table: the optics'. The others:
  * the scene, see cs_world. */
@@ -60,7 +60,7 @@ __kernel void cs_render(const cs_frame frame, __global cs_pixel *pixels, __globa
     place.y = frame.crop_y + number / frame.crop_width;
     place.key = cs_pattern_key(frame.seed, place.y * frame.image_width + place.x, frame.replicate);
     place.shear = shears[number];
-    __global cs_pixel *pixel = pixels + number;
+    __global cs_pixel *pixel = pixels + (number - frame.page_first);
 
     for (u32 block = frame.first_block; block < frame.last_block; block += CS_FLUSH_BLOCKS) {
         u32 end = min(block + (u32)CS_FLUSH_BLOCKS, frame.last_block) * (u32)CS_BLOCK;

@@ -3,6 +3,9 @@
 
 #include <math.h>
 
+#include "context/context.h"
+#include "shared.h"
+
 enum {
     SIZE = 48,
     PIXELS = SIZE * SIZE
@@ -93,6 +96,36 @@ static void one_seed_gives_one_image(void **state)
 
 /* Widths differ by rounding only: a sample may fall on the other side of an edge, and the rest
  * agree to a part in 10^4. */
+/* Large images keep their pixels in several buffers: here of 8 rows each, six of them. */
+static void pages_do_not_change_a_bit(void **state)
+{
+    fixture *made = *state;
+    const size_t before = made->context->page_bytes;
+    clshear_film *films[2][3], *parts[2];
+    for (int paged = 0; paged < 2; paged++) {
+        made->context->page_bytes = paged ? 8 * SIZE * sizeof(cs_pixel) : before;
+        clshear_options options = small(128, 2);
+        films[paged][0] = render(made, &options);
+        options.adaptive = 1;
+        films[paged][1] = render(made, &options);
+        options = small(64, 2);
+        options.sampler = "sz";
+        options.extendable = 1;
+        parts[paged] = render(made, &options);
+        options.spp = 128;
+        options.extend = parts[paged];
+        films[paged][2] = render(made, &options);
+    }
+    made->context->page_bytes = before;
+    for (int i = 0; i < 3; i++) {
+        assert_true(same_bits(films[0][i], films[1][i]));
+        clshear_film_free(films[0][i]);
+        clshear_film_free(films[1][i]);
+    }
+    clshear_film_free(parts[0]);
+    clshear_film_free(parts[1]);
+}
+
 static void packet_widths_agree(void **state)
 {
     (void)state;
@@ -346,6 +379,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_seed_gives_one_image),
+        cmocka_unit_test(pages_do_not_change_a_bit),
         cmocka_unit_test(packet_widths_agree),
         cmocka_unit_test(a_crop_is_part_of_the_whole),
         cmocka_unit_test(shears_agree),

@@ -28,6 +28,7 @@ clshear_status clshear_context_create(const clshear_context_options *options,
                "%d threads: must be 0 (all) or a positive number", options->threads);
     context->log = (cs_log){options->warn, options->warn_user};
     context->threads = options->threads;
+    context->page_bytes = (size_t)1 << 27;
     CS_TRY(cs_device_open(options->device, options->threads, options->packet, &context->device,
                           error));
     *result = context;

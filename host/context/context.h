@@ -29,6 +29,7 @@ struct clshear_context {
     cs_device *device;
     cs_tables tables;
     int threads;
+    size_t page_bytes; /* of one buffer of pixels at most; OpenCL devices have 128 MB at least */
 };
 
 #endif

@@ -132,11 +132,10 @@ static clshear_status for_pixels(cs_job *job, uint32_t replicate,
     CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     for (size_t first = 0; first < job->pixel_count; first += SLICE) {
         const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
-        const size_t offset = first * sizeof *slice, size = count * sizeof *slice;
-        CS_TRY(cs_buffer_read(job->pixels, offset, size, slice, error));
+        CS_TRY(cs_pixels_read(&job->pixels, first, count, slice, error));
         for (size_t i = 0; i < count; i++)
             change(job, replicate, first + i, &slice[i]);
-        if (write_back) CS_TRY(cs_buffer_write(job->pixels, offset, size, slice, error));
+        if (write_back) CS_TRY(cs_pixels_write(&job->pixels, first, count, slice, error));
     }
 done:
     free(slice);

@@ -29,7 +29,7 @@ typedef struct cs_job {
     double pilot_samples;
     cs_batch batches[CS_MOST_BATCHES];
     size_t batch_count;
-    cs_buffer *pixels; /* cs_pixel */
+    cs_pixels pixels;
     cs_buffer *shears;
     /* For extensions, else NULL: means of finished patterns, a plane for each replicate and colour;
      * and the sums they are taken from, three for each pixel. */

@@ -26,7 +26,7 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
     const u32 replicates = job->options.replicates;
     cs_sweep sweep = cs_job_sweep(job);
     sweep.shears = job->shears;
-    sweep.pixels = job->pixels;
+    sweep.pixels = &job->pixels;
     sweep.options = &job->options;
     for (size_t b = 0; b < job->batch_count; b++)
         sweep.total += (double)replicates * (double)job->batches[b].pixel_count *

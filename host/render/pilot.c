@@ -22,7 +22,7 @@ typedef struct outcome {
     f32 *intensity;
 } outcome;
 
-static clshear_status read_outcome(const cs_job *job, const cs_buffer *pixels,
+static clshear_status read_outcome(const cs_job *job, const cs_pixels *pixels,
                                    const outcome *result, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
@@ -30,7 +30,7 @@ static clshear_status read_outcome(const cs_job *job, const cs_buffer *pixels,
     CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     for (size_t first = 0; first < job->pixel_count; first += SLICE) {
         const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
-        CS_TRY(cs_buffer_read(pixels, first * sizeof *slice, count * sizeof *slice, slice, error));
+        CS_TRY(cs_pixels_read(pixels, first, count, slice, error));
         for (size_t i = 0; i < count; i++) {
             const cs_pixel *p = &slice[i];
             f32 m2 = 0.0f, sum = 0.0f;
@@ -54,31 +54,31 @@ static clshear_status run(cs_job *job, const f32 *shears, const u32 *list, size_
 {
     clshear_status status = CLSHEAR_OK;
     clshear_context *context = job->scene->context;
-    cs_buffer *shear_buffer = NULL, *pixels = NULL;
+    cs_buffer *shear_buffer = NULL;
+    cs_pixels pixels = {0};
     cs_batch batch = {0};
     const u32 sampler = job->pattern.sampler, width = (u32)(job->window[1] - job->window[0]);
     const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, samples));
     cs_sweep sweep = cs_job_sweep(job);
-    CS_TRY(cs_buffer_create(context->device, job->pixel_count * sizeof(cs_pixel), NULL, &pixels,
-                            error));
+    CS_TRY(cs_pixels_create(context, job->pixel_count, width, &pixels, error));
     if (count > 0) {
         CS_TRY(cs_buffer_create(context->device, job->pixel_count * sizeof *shears, shears,
                                 &shear_buffer, error));
         CS_TRY(cs_batch_create(context, &pattern, list, count, width, &batch, error));
         sweep.frame.seed = cs_key(job->options.seed, 0x70696c6fu); /* its own random numbers */
         sweep.shears = shear_buffer;
-        sweep.pixels = pixels;
+        sweep.pixels = &pixels;
         sweep.options = &job->options;
         for (u32 replicate = 0; replicate < replicates; replicate++)
             CS_TRY(cs_sweep_replicate(&sweep, &batch, 1, replicate, error));
         job->pilot_samples += sweep.done;
     }
-    CS_TRY(read_outcome(job, pixels, result, error));
+    CS_TRY(read_outcome(job, &pixels, result, error));
 done:
     job->kernel_s += sweep.kernel_s;
     cs_batch_free(&batch);
     cs_buffer_free(shear_buffer);
-    cs_buffer_free(pixels);
+    cs_pixels_free(&pixels);
     return status;
 }
 

@@ -20,8 +20,8 @@ static clshear_status reserve(cs_job *job, cs_error *error)
     job->rule = malloc(job->pixel_count);
     CS_REQUIRE(job->depth != NULL && job->shear_px != NULL && job->rule != NULL,
                CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", job->pixel_count);
-    CS_TRY(
-        cs_buffer_create(device, job->pixel_count * sizeof(cs_pixel), NULL, &job->pixels, error));
+    CS_TRY(cs_pixels_create(job->scene->context, job->pixel_count,
+                            (u32)(job->window[1] - job->window[0]), &job->pixels, error));
     const cs_array *table = &job->optics.table;
     CS_TRY(cs_buffer_create(device, table->count * table->item_size, table->items,
                             &job->optics_table, error));
@@ -133,7 +133,7 @@ void cs_job_free(cs_job *job)
     cs_extend_free(job);
     for (size_t b = 0; b < job->batch_count; b++)
         cs_batch_free(&job->batches[b]);
-    cs_buffer_free(job->pixels);
+    cs_pixels_free(&job->pixels);
     cs_buffer_free(job->optics_table);
     cs_optics_free(&job->optics);
     cs_buffer_free(job->shears);

@@ -98,8 +98,7 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
     CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
     for (size_t first = 0; first < job->pixel_count; first += SLICE) {
         size_t count = job->pixel_count - first < SLICE ? job->pixel_count - first : SLICE;
-        CS_TRY(cs_buffer_read(job->pixels, first * sizeof *slice, count * sizeof *slice, slice,
-                              error));
+        CS_TRY(cs_pixels_read(&job->pixels, first, count, slice, error));
         for (size_t i = 0; i < count; i++) {
             resolve_pixel(job, &slice[i], first + i, all);
             film->info.samples += slice[i].samples;

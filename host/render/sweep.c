@@ -11,6 +11,7 @@ clshear_status cs_batch_create(clshear_context *context, const cs_pattern *patte
 {
     clshear_status status = CLSHEAR_OK;
     cs_device *device = context->device;
+    const size_t page_pixels = cs_page_pixels(context, width);
     u32 *order = NULL;
     batch->pattern = *pattern;
     batch->pixel_count = count;
@@ -22,6 +23,10 @@ clshear_status cs_batch_create(clshear_context *context, const cs_pattern *patte
             order[i] = cs_tiled_pixel((u32)i, width, (u32)(count / width));
         pixels = order;
     }
+    batch->page_ends = calloc(pixels[count - 1] / page_pixels + 1, sizeof *batch->page_ends);
+    CS_REQUIRE(batch->page_ends != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    for (size_t i = 0; i < count; i++)
+        batch->page_ends[pixels[i] / page_pixels] = i + 1;
     CS_TRY(cs_buffer_create(device, count * sizeof *pixels, pixels, &batch->order, error));
 done:
     free(order);
@@ -31,6 +36,7 @@ done:
 void cs_batch_free(cs_batch *batch)
 {
     cs_buffer_free(batch->order);
+    free(batch->page_ends);
     *batch = (cs_batch){0};
 }
 
@@ -42,7 +48,7 @@ static clshear_status launch(const cs_sweep *sweep, const cs_batch *batch, const
     };
     cs_argument arguments[BEFORE_WORLD + CS_WORLD_BUFFERS] = {
         {.value = frame, .size = sizeof *frame},
-        {.buffer = sweep->pixels},
+        {.buffer = sweep->pixels->pages[frame->page_first / sweep->pixels->page_pixels]},
         {.buffer = batch->order},
         {.buffer = sweep->shears},
         {.buffer = batch->rows},
@@ -95,14 +101,18 @@ static clshear_status sweep_batch(cs_sweep *sweep, const cs_batch *batch, u32 fi
     frame.pattern = batch->pattern;
     frame.first_block = first;
     frame.last_block = last;
+    size_t page = 0;
     for (size_t pixel = 0; pixel < batch->pixel_count; pixel += frame.pixel_count) {
+        while (batch->page_ends[page] <= pixel) /* 0 for pages without pixels of the batch */
+            page++;
         const double samples_each = (double)(last - first) * CS_BLOCK;
         const double affordable = sweep->rate * launch_s / samples_each;
-        const size_t left = batch->pixel_count - pixel;
+        const size_t left = batch->page_ends[page] - pixel;
         size_t count = affordable >= (double)left   ? left
                        : affordable < (double)least ? least
                                                     : (size_t)affordable;
         if (count > left) count = left;
+        frame.page_first = (u32)(page * sweep->pixels->page_pixels);
         frame.first_pixel = (u32)pixel;
         frame.pixel_count = (u32)count;
         clshear_status status = timed_launch(sweep, batch, &frame, error);

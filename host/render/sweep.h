@@ -3,7 +3,7 @@
 #define CS_RENDER_SWEEP_H
 
 #include "frame.h"
-#include "render/handles.h"
+#include "render/pixels.h"
 
 /* Pixels that draw patterns of the same size. */
 typedef struct cs_batch {
@@ -11,15 +11,16 @@ typedef struct cs_batch {
     const cs_buffer *rows; /* the pattern's table; of the context */
     cs_buffer *order;      /* u32: the pixels, numbered in the window row by row; owned */
     size_t pixel_count;
+    size_t *page_ends; /* of each page of pixels: where in the order the next begins; owned */
 } cs_batch;
 
 /* What all launches of a render have in common, and how far it is. */
 typedef struct cs_sweep {
     clshear_scene *scene;
-    cs_frame frame;                 /* camera, seed, window, shear mode, lights */
-    const cs_buffer *optics;        /* their table */
-    const cs_buffer *shears;        /* of every pixel of the window */
-    cs_buffer *pixels;              /* cs_pixel */
+    cs_frame frame;          /* camera, seed, window, shear mode, lights */
+    const cs_buffer *optics; /* their table */
+    const cs_buffer *shears; /* of every pixel of the window */
+    const cs_pixels *pixels;
     const clshear_options *options; /* whose callback is told; NULL: nobody */
     double start_s;
     double rate;  /* samples per second of the last launches */
@@ -28,8 +29,8 @@ typedef struct cs_sweep {
     double kernel_s;
 } cs_sweep;
 
-/* A batch of the pixels listed in `pixels`; all `count` of a window of this width, in tiles, where
- * that is NULL. */
+/* A batch of the pixels listed in `pixels`, row by row or in a walk through tiles; all `count` of a
+ * window of this width where that is NULL. */
 clshear_status cs_batch_create(clshear_context *context, const cs_pattern *pattern,
                                const u32 *pixels, size_t count, u32 width, cs_batch *batch,
                                cs_error *error);

@@ -1,0 +1,31 @@
+/* What the pixels of a window have gathered, on the device: in pages, since a device's largest
+ * buffer may be smaller than a large image needs. */
+#ifndef CS_RENDER_PIXELS_H
+#define CS_RENDER_PIXELS_H
+
+#include "render/handles.h"
+
+/* Pages are whole bands of tiles, so that a walk through tiles (cs_tiled_pixel) does not come back
+ * to one. Start from zeros. */
+typedef struct cs_pixels {
+    cs_buffer **pages; /* cs_pixel */
+    size_t page_count;
+    size_t page_pixels; /* of all pages but the last */
+    size_t count;
+} cs_pixels;
+
+/* Pixels in a page of a window of this width. */
+size_t cs_page_pixels(const clshear_context *context, u32 width);
+
+/* `count` pixels of a window, all zero. */
+clshear_status cs_pixels_create(clshear_context *context, size_t count, u32 width,
+                                cs_pixels *pixels, cs_error *error);
+void cs_pixels_free(cs_pixels *pixels);
+
+/* Pixels `first` ... `first` + `count` - 1, row by row. */
+clshear_status cs_pixels_read(const cs_pixels *pixels, size_t first, size_t count, cs_pixel *values,
+                              cs_error *error);
+clshear_status cs_pixels_write(cs_pixels *pixels, size_t first, size_t count,
+                               const cs_pixel *values, cs_error *error);
+
+#endif
