@@ -178,18 +178,25 @@ typedef struct cs_radiance {
     vfloat shadow_rays; /* traced, a lane */
 } cs_radiance;
 
-/* Adds the light from the far ends of `shadow` (direction not normalised, end at distance `reach`)
- * with the unshadowed irradiance per unit of `colour` given by `weight`. */
-static inline void cs_add_light(const cs_world *world, const cs_surface *surface, cs_ray *shadow,
-                                f32 reach, vfloat weight, const vfloat *colour,
-                                cs_radiance *radiance)
+/* Adds the light of something that lies `towards` from the surface (not normalised, its end at
+ * distance `reach`) with the unshadowed irradiance per unit of `colour` in `weight`. The shadow ray
+ * begins at `origin`, off the surface, and ends in the same place: what the light gives does not
+ * shift. */
+static inline void cs_add_light(const cs_world *world, const cs_surface *surface,
+                                const vfloat *origin, const vfloat *towards, f32 reach,
+                                vfloat weight, const vfloat *colour, cs_radiance *radiance)
 {
-    vint facing =
-        surface->hit & (weight > 0.0f) & (cs_dot(surface->outward, shadow->direction) > 0.0f);
+    vint facing = surface->hit & (weight > 0.0f) & (cs_dot(surface->outward, towards) > 0.0f);
     if (!cs_any(facing)) return;
+    cs_ray shadow;
+    for (int axis = 0; axis < 3; axis++) {
+        shadow.origin[axis] = origin[axis];
+        shadow.direction[axis] = towards[axis];
+        if (reach < INFINITY) shadow.direction[axis] += surface->point[axis] - origin[axis];
+    }
     cs_hit blocked;
     blocked.distance = facing ? (vfloat)(reach) : (vfloat)(-1.0f);
-    cs_traverse(world->nodes, world->triangles, shadow, 1, &blocked);
+    cs_traverse(world->nodes, world->triangles, &shadow, 1, &blocked);
     weight = blocked.distance > 0.0f ? weight * CS_INVERSE_PI : (vfloat)(0.0f);
     for (int c = 0; c < 3; c++)
         radiance->channel[c] += weight * colour[c] * surface->albedo[c];
@@ -200,19 +207,18 @@ static inline void cs_add_delta_light(const cs_world *world, const cs_surface *s
                                       const vfloat *origin, CS_GLOBAL const cs_light *light,
                                       cs_radiance *radiance)
 {
-    cs_ray shadow;
-    vfloat colour[3];
+    vfloat towards[3], colour[3];
     int point = light->kind == CS_LIGHT_POINT;
     for (int axis = 0; axis < 3; axis++) {
-        shadow.origin[axis] = origin[axis];
-        shadow.direction[axis] =
-            point ? light->vector[axis] - origin[axis] : (vfloat)(light->vector[axis]);
+        towards[axis] =
+            point ? light->vector[axis] - surface->point[axis] : (vfloat)(light->vector[axis]);
         colour[axis] = (vfloat)(light->colour[axis]);
     }
-    vfloat cosine = cs_dot(surface->normal, shadow.direction);
-    vfloat square = cs_max(cs_dot(shadow.direction, shadow.direction), (vfloat)(1e-30f));
+    vfloat cosine = cs_dot(surface->normal, towards);
+    vfloat square = cs_max(cs_dot(towards, towards), (vfloat)(1e-30f));
     vfloat weight = point ? cosine / (square * sqrt(square)) : cosine;
-    cs_add_light(world, surface, &shadow, point ? 1.0f : INFINITY, weight, colour, radiance);
+    cs_add_light(world, surface, origin, towards, point ? 1.0f : INFINITY, weight, colour,
+                 radiance);
 }
 
 /* First emitter whose cumulative probability exceeds `target`. */
@@ -256,19 +262,16 @@ static inline void cs_add_emitters(const cs_world *world, u32 count, const cs_su
         }
         density.lane[lane] = emitter->probability / emitter->area;
     }
-    cs_ray shadow;
-    vfloat light_normal[3], light_colour[3];
+    vfloat towards[3], light_normal[3], light_colour[3];
     for (int axis = 0; axis < 3; axis++) {
-        shadow.origin[axis] = origin[axis];
-        shadow.direction[axis] = end[axis].all - origin[axis];
+        towards[axis] = end[axis].all - surface->point[axis];
         light_normal[axis] = normal[axis].all;
         light_colour[axis] = colour[axis].all;
     }
-    vfloat square = cs_max(cs_dot(shadow.direction, shadow.direction), (vfloat)(1e-30f));
-    vfloat cosines =
-        cs_dot(surface->normal, shadow.direction) * fabs(cs_dot(light_normal, shadow.direction));
+    vfloat square = cs_max(cs_dot(towards, towards), (vfloat)(1e-30f));
+    vfloat cosines = cs_dot(surface->normal, towards) * fabs(cs_dot(light_normal, towards));
     vfloat weight = cosines / (square * square * density.all);
-    cs_add_light(world, surface, &shadow, 0.9999f, weight, light_colour, radiance);
+    cs_add_light(world, surface, origin, towards, 0.9999f, weight, light_colour, radiance);
 }
 
 /* Radiance that arrives at the lens along each ray; `emitter_sample` is used if there are any. */
