@@ -33,26 +33,53 @@ static inline vfloat cs_dot(const vfloat *a, const vfloat *b)
     return fma(a[0], b[0], fma(a[1], b[1], a[2] * b[2]));
 }
 
-/* Bilinear, repeating. Texture coordinate (0, 0) is the lower left corner of the image. */
-static inline float3 cs_texel(const cs_world *world, u32 texture, f32 s, f32 t)
+/* Between which two of `size` texels the repeating coordinate `place` lies, and how far on. */
+typedef struct cs_texel_pair {
+    cs_int_lanes first;
+    cs_int_lanes second;
+    cs_float_lanes part;
+} cs_texel_pair;
+
+static inline cs_texel_pair cs_texels_at(vfloat place, u32 size)
+{
+    f32 last = (f32)size - 1.0f;
+    vfloat centre = (place - floor(place)) * (f32)size - 0.5f;
+    vfloat before = floor(centre);
+    /* Rounding may reach the far edge; the limits also hold what huge coordinates give. */
+    vfloat first = before < 0.0f ? (vfloat)(last) : cs_min(before, (vfloat)(last));
+    vfloat second = before + 1.0f > last ? (vfloat)(0.0f) : cs_max(before + 1.0f, (vfloat)(0.0f));
+    cs_texel_pair pair;
+    pair.first.all = CS_OVER_LANES(convert_int)(first);
+    pair.second.all = CS_OVER_LANES(convert_int)(cs_min(second, (vfloat)(last)));
+    pair.part.all = centre - before;
+    return pair;
+}
+
+/* Bilinear, repeating, at the texture coordinates (s, t) of the lanes that are `wanted`; (0, 0) is
+ * the lower left corner of the image. */
+static inline void cs_texels(const cs_world *world, u32 texture, vfloat s, vfloat t,
+                             cs_int_lanes wanted, cs_float_lanes *colour)
 {
     CS_GLOBAL const cs_texture *image = world->textures + texture;
-    f32 column = (s - floor(s)) * (f32)image->width - 0.5f;
-    f32 row = (1.0f - (t - floor(t))) * (f32)image->height - 0.5f;
-    f32 left = floor(column), top = floor(row);
-    f32 across = column - left, down = row - top;
-    /* Rounding may reach the far edge; the least of both also bounds what huge coordinates give. */
-    u32 x0 = left >= 0.0f ? min((u32)left, image->width - 1u) : image->width - 1u;
-    u32 y0 = top >= 0.0f ? min((u32)top, image->height - 1u) : image->height - 1u;
-    u32 x1 = x0 + 1u < image->width ? x0 + 1u : 0u;
-    u32 y1 = y0 + 1u < image->height ? y0 + 1u : 0u;
-    size_t above = (size_t)image->first + (size_t)y0 * image->width;
-    size_t below = (size_t)image->first + (size_t)y1 * image->width;
-    float4 upper =
-        mix(vload_half4(above + x0, world->texels), vload_half4(above + x1, world->texels), across);
-    float4 lower =
-        mix(vload_half4(below + x0, world->texels), vload_half4(below + x1, world->texels), across);
-    return mix(upper, lower, down).xyz;
+    cs_texel_pair x = cs_texels_at(s, image->width);
+    cs_texel_pair y = cs_texels_at(1.0f - (t - floor(t)), image->height);
+    y.first.all *= (i32)image->width;
+    y.second.all *= (i32)image->width;
+    CS_GLOBAL const half *texels = world->texels + 4u * (size_t)image->first;
+    for (int lane = 0; lane < CS_PACKET; lane++) {
+        if (!wanted.lane[lane]) continue;
+        size_t left = (size_t)x.first.lane[lane], right = (size_t)x.second.lane[lane];
+        size_t above = (size_t)y.first.lane[lane], below = (size_t)y.second.lane[lane];
+        f32 across = x.part.lane[lane];
+        float4 upper =
+            mix(vload_half4(above + left, texels), vload_half4(above + right, texels), across);
+        float4 lower =
+            mix(vload_half4(below + left, texels), vload_half4(below + right, texels), across);
+        float4 value = mix(upper, lower, y.part.lane[lane]);
+        colour[0].lane[lane] = value.x;
+        colour[1].lane[lane] = value.y;
+        colour[2].lane[lane] = value.z;
+    }
 }
 
 /* Multiplies the albedo of the lanes in `mine` by the texture at barycentrics (b1, b2). */
@@ -63,20 +90,16 @@ static inline void cs_apply_texture(const cs_world *world, CS_GLOBAL const cs_fa
     CS_GLOBAL const cs_vertex *v0 = world->vertices + face->vertex[0];
     CS_GLOBAL const cs_vertex *v1 = world->vertices + face->vertex[1];
     CS_GLOBAL const cs_vertex *v2 = world->vertices + face->vertex[2];
-    cs_float_lanes s, t, colour[3];
-    s.all = v0->texture[0] + b1 * (v1->texture[0] - v0->texture[0]) +
-            b2 * (v2->texture[0] - v0->texture[0]);
-    t.all = v0->texture[1] + b1 * (v1->texture[1] - v0->texture[1]) +
-            b2 * (v2->texture[1] - v0->texture[1]);
+    vfloat s = v0->texture[0] + b1 * (v1->texture[0] - v0->texture[0]) +
+               b2 * (v2->texture[0] - v0->texture[0]);
+    vfloat t = v0->texture[1] + b1 * (v1->texture[1] - v0->texture[1]) +
+               b2 * (v2->texture[1] - v0->texture[1]);
+    cs_float_lanes colour[3];
     cs_int_lanes wanted;
     wanted.all = mine;
-    for (int lane = 0; lane < CS_PACKET; lane++) {
-        float3 value = (float3)(0.0f);
-        if (wanted.lane[lane]) value = cs_texel(world, texture, s.lane[lane], t.lane[lane]);
-        colour[0].lane[lane] = value.x;
-        colour[1].lane[lane] = value.y;
-        colour[2].lane[lane] = value.z;
-    }
+    for (int c = 0; c < 3; c++)
+        colour[c].all = (vfloat)(0.0f);
+    cs_texels(world, texture, s, t, wanted, colour);
     for (int c = 0; c < 3; c++)
         surface->albedo[c] = mine ? surface->albedo[c] * colour[c].all : surface->albedo[c];
 }

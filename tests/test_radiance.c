@@ -118,6 +118,28 @@ static void point_light_over_a_plane(void **state)
         }
 }
 
+/* Seen from far, a light close to the surface: the shadow ray begins 0.03 above it, an offset that
+ * must not bring the light nearer. 1e-4 is far below the 6e-4 that it would, and above rounding. */
+static void light_stays_where_it_is(void **state)
+{
+    fixture *made = *state;
+    clshear_scene *floor = test_floor(made->context, 1000.0f, 0.5f);
+    const clshear_light light = {
+        .kind = CLSHEAR_LIGHT_POINT, .vector = {0, 100, 0}, .colour = {1e4f, 1e4f, 1e4f}};
+    const clshear_camera camera = {.eye = {0, 1000, 0},
+                                   .target = {0, 0, 0},
+                                   .up = {0, 0, -1},
+                                   .fov_deg = 0.01f,
+                                   .focal_distance = 1000.0f};
+    test_ok(made->context, clshear_scene_add_light(floor, &light));
+    clshear_film *film = render(made, floor, &camera, 2, CLSHEAR_SHEAR_EQUAL_AREA);
+    const double truth = 0.5 / pi;
+    for (int p = 0; p < 4; p++)
+        assert_true(fabs(clshear_film_channel(film, "R")[p] - truth) < 1e-4 * truth);
+    clshear_film_free(film);
+    clshear_scene_free(floor);
+}
+
 /* Directional light: the same everywhere, albedo / pi * E * cos. */
 static void directional_light(void **state)
 {
@@ -255,8 +277,11 @@ static void no_acne_far_from_the_origin(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(point_light_over_a_plane),    cmocka_unit_test(directional_light),
-        cmocka_unit_test(area_light_over_a_plane),     cmocka_unit_test(shadows_fall),
+        cmocka_unit_test(point_light_over_a_plane),
+        cmocka_unit_test(directional_light),
+        cmocka_unit_test(light_stays_where_it_is),
+        cmocka_unit_test(area_light_over_a_plane),
+        cmocka_unit_test(shadows_fall),
         cmocka_unit_test(no_acne_far_from_the_origin),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
