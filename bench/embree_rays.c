@@ -248,11 +248,11 @@ static void shade(const float *light, float intensity, embree_batch *batch, int 
         const float scale = (side > 0.0f ? -1.0f : 1.0f) / sqrtf(length);
         for (int axis = 0; axis < 3; axis++) {
             const float normal = scale * batch->normal[axis][i];
-            const float origin = point[axis] + 3e-5f * size * normal;
-            batch->origin[axis][i] = origin;
-            batch->direction[axis][i] = light[axis] - origin;
-            cosine += normal * batch->direction[axis][i];
-            square += batch->direction[axis][i] * batch->direction[axis][i];
+            const float towards = light[axis] - point[axis];
+            batch->origin[axis][i] = point[axis] + 3e-5f * size * normal;
+            batch->direction[axis][i] = light[axis] - batch->origin[axis][i];
+            cosine += normal * towards;
+            square += towards * towards;
         }
         const int lit = batch->face[i] >= 0 && cosine > 0.0f;
         weight[i] =

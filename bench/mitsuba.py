@@ -48,7 +48,7 @@ SPHERE_MATERIALS = {
     "sea": (0.2, 0.4, 0.6), "plum": (0.45, 0.2, 0.4), "chalk": (0.8, 0.8, 0.78),
 }
 SPHERE_FLAGS = """--eye 0,5,13
---target 0,-0.6,1
+--target 0,0.4,-0.5
 --fov 38
 --focal-distance 14
 --lens-radius 0.3
