@@ -352,17 +352,18 @@ def study(world, name):
           f"{rates['mitsuba'] / 1e6:.2f} | {rates['ratio_path']:.1f}, "
           f"{rates['ratio_direct']:.1f} |\n")
     theirs, ours = noise_of_mitsuba(world), noise_of_clshear(world)
-    print(f"| Mitsuba's sampler | MSE at {world.options.spp} | seconds | clshear gets there in | "
-          "times faster |\n|---|---|---|---|---|")
+    print("| Mitsuba's sampler | samples | MSE | seconds | clshear gets there in | "
+          "times faster |\n|---|---|---|---|---|---|")
     for sampler, reached in theirs.items():
         seconds, exact = seconds_to_reach(reached["mse"], ours)
         reached["clshear_seconds"], reached["exact"] = seconds, exact
         if seconds is None:
-            print(f"| {sampler} | {reached['mse']:.2e} | {reached['seconds']:.2f} | - | - |")
+            print(f"| {sampler} | {reached['spp']} | {reached['mse']:.2e} | "
+                  f"{reached['seconds']:.2f} | - | - |")
             continue
         reached["times"] = reached["seconds"] / seconds
         sign = ("", "") if exact else ("less than ", "more than ")
-        print(f"| {sampler} | {reached['mse']:.2e} | {reached['seconds']:.2f} | "
+        print(f"| {sampler} | {reached['spp']} | {reached['mse']:.2e} | {reached['seconds']:.2f} | "
               f"{sign[0]}{seconds:.4f} | {sign[1]}{reached['times']:.0f} |")
     print("\n| clshear, samples | MSE | seconds |\n|---|---|---|")
     for spp, reached in ours.items():

@@ -1,21 +1,23 @@
 #!/bin/bash
-# clshear against Mitsuba 3 (llvm_ad_rgb) with the same scenes, cameras, lenses and lights: whether the
-# pictures agree, samples per second, and the time to the same noise. Installs Mitsuba into
-# build/mitsuba and LLVM 19 from Debian, which Mitsuba loads. Takes a quarter of an hour.
+# clshear against Mitsuba 3 (llvm_ad_rgb) with the same scenes, cameras, lenses and lights: whether
+# the pictures agree, samples per second, and the time to the same noise. Installs Mitsuba into
+# build/mitsuba and LLVM 19 from Debian, which Mitsuba loads. Takes a quarter of an hour, in which
+# build/ must stay as it is.
 # bench/mitsuba.sh [FLAGS of bench/mitsuba.py]
 set -eu
 cd "$(dirname "$0")/.."
 environment=build/mitsuba
 [ -x build/clshear ] || scripts/build
-if ! ldconfig -p | grep -q 'libLLVM.*19'; then
+PATH=$PATH:/usr/sbin:/sbin # for ldconfig
+if ! ldconfig -p | grep -q 'libLLVM.*19' || ! python3 -c 'import ensurepip' 2>/dev/null; then
     if [ "$(id -u)" -ne 0 ]; then
-        echo "mitsuba.sh: install libllvm19 (apt-get install libllvm19), or run this as root" >&2
+        echo "mitsuba.sh: apt-get install libllvm19 python3-venv, or run this as root" >&2
         exit 1
     fi
     apt-get update -qq
     apt-get install -y -qq libllvm19 python3-venv
 fi
-if [ ! -x $environment/bin/python ]; then
+if ! $environment/bin/python -c 'import mitsuba' 2>/dev/null; then
     python3 -m venv $environment
     $environment/bin/pip install -q mitsuba numpy
 fi

@@ -94,7 +94,11 @@ static inline vfloat cs_clamp(vfloat value, vfloat low, vfloat high)
 
 #ifdef CS_DEVICE
 
-#ifdef __has_builtin
+/* Compiled for the processor itself: translators of SPIR know no reductions. */
+#if defined(__x86_64__) || defined(__aarch64__)
+#define CS_NATIVE
+#endif
+#if defined(__has_builtin) && defined(CS_NATIVE)
 #if __has_builtin(__builtin_reduce_or)
 #define CS_REDUCE_OR(x) __builtin_reduce_or(x)
 #endif
@@ -102,7 +106,7 @@ static inline vfloat cs_clamp(vfloat value, vfloat low, vfloat high)
 
 /* Asks for the cache line at a global address. Packets are for CPUs, where all addresses are alike.
  */
-#if CS_PACKET > 1 && defined(__has_builtin)
+#if CS_PACKET > 1 && defined(__has_builtin) && defined(CS_NATIVE)
 #if __has_builtin(__builtin_prefetch)
 #define CS_PREFETCH(address) __builtin_prefetch((const void *)(address))
 #endif
