@@ -170,6 +170,9 @@ expect 0 "target,sampler,shear,n,replicates,mse,slope" -- converge "$cornell" --
     --sampler mj --nsamps 4,16 --reference ref.exr
 expect 1 "ref.exr is 24 x 20 pixels: --reference needs 24 x 16" -- converge "$cornell" --quiet --width 24 \
     --height 16 --reference ref.exr
+oiiotool --create 24x20 1 --chnames Y -o grey.exr
+expect 1 "grey.exr has no channel R: --reference needs" -- converge "$cornell" --quiet --width 24 --height 20 \
+    --reference grey.exr
 expect 2 "a picture is of a whole image" -- converge "$cornell" --quiet --reference 0.5
 expect 2 "give either an --integrand or a SCENE" -- converge --sampler mj
 expect 2 "give either an --integrand or a SCENE" -- converge "$cornell" --integrand box

@@ -7,8 +7,7 @@
 
 enum {
     CLI_MOST_NAMES = 16,
-    CLI_MOST_PIXELS = 16,
-    CLI_MOST_FLAGS = 128
+    CLI_MOST_PIXELS = 16
 };
 
 /* Begins with a cli_job: the flags of rendering write there. */

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "cli/converge.h"
-#include "cli/render.h"
+#include "cli/scene.h"
 
 /* Cuts a list at its separators. The words lie in one copy, words[0], which is the caller's;
  * free(). Returns how many, or 0 if there are more than `most` or empty ones. */
@@ -151,16 +151,9 @@ enum {
     OWN_FLAGS = sizeof own_flags / sizeof *own_flags
 };
 
-/* Our flags first, which hide those of rendering that have the same name. */
 cli_command cli_converge_command(cli_flag *flags)
 {
-    const cli_command *render = &cli_render_command;
-    memcpy(flags, own_flags, sizeof own_flags);
-    memcpy(flags + OWN_FLAGS, render->flags, render->flag_count * sizeof *flags);
-    return (cli_command){.name = "converge",
-                         .flags = flags,
-                         .flag_count = OWN_FLAGS + render->flag_count,
-                         .most_operands = 1};
+    return cli_scene_command("converge", own_flags, OWN_FLAGS, flags);
 }
 
 const cli_command cli_converge_help = {

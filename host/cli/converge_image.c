@@ -7,6 +7,8 @@ enum {
     TILE = 8 /* pixels along the side of a part */
 };
 
+static const char *const colours[] = {"R", "G", "B"};
+
 static int fail(const char *message)
 {
     fprintf(stderr, "clshear: %s\n", message);
@@ -33,7 +35,6 @@ static double add_tiles(const clshear_film *film, const clshear_film *reference,
                         uint32_t replicates, size_t columns, double *tiles)
 {
     static const char *const planes[] = {"Variance.R", "Variance.G", "Variance.B"};
-    static const char *const colours[] = {"R", "G", "B"};
     const clshear_film_info info = clshear_film_describe(film);
     const size_t width = (size_t)info.width, pixels = width * (size_t)info.height;
     double mean = 0.0;
@@ -84,6 +85,12 @@ static int read_reference(const cli_converge_job *job, const cli_view *view, siz
     if (clshear_film_read(view->context, job->reference_image, reference) != CLSHEAR_OK)
         return fail(clshear_message(view->context));
     const clshear_film_info info = clshear_film_describe(*reference);
+    for (int c = 0; c < 3; c++)
+        if (clshear_film_channel(*reference, colours[c]) == NULL) {
+            fprintf(stderr, "clshear: %s has no channel %s: --reference needs R, G and B\n",
+                    job->reference_image, colours[c]);
+            return CLI_FAILED;
+        }
     if ((size_t)info.width == width && (size_t)info.height == height) return CLI_DONE;
     fprintf(stderr, "clshear: %s is %d x %d pixels: --reference needs %zu x %zu, the image's\n",
             job->reference_image, info.width, info.height, width, height);

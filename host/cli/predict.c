@@ -107,18 +107,25 @@ static int fail(const char *message)
     return CLI_FAILED;
 }
 
-/* Variance of the shifted sets' means, and its standard error from their fourth moment. */
-typedef struct measurement {
-    double variance;
-    double error;
-} measurement;
+cli_measurement cli_measurement_of(const double *values, size_t count)
+{
+    const double n = (double)count;
+    double mean = 0.0, second = 0.0, fourth = 0.0;
+    for (size_t i = 0; i < count; i++)
+        mean += values[i] / n;
+    for (size_t i = 0; i < count; i++) {
+        const double square = (values[i] - mean) * (values[i] - mean);
+        second += square / (n - 1.0);
+        fourth += square * square / n;
+    }
+    return (cli_measurement){second, sqrt(fmax(fourth - second * second, 0.0) / n)};
+}
 
-static int measure(const predict_job *job, measurement *result)
+static int measure(const predict_job *job, cli_measurement *result)
 {
     cli_source source = job->source;
     clshear_points points = {0};
-    double *means = calloc(job->measured_sets, sizeof *means), mean = 0.0, second = 0.0,
-           fourth = 0.0;
+    double *means = calloc(job->measured_sets, sizeof *means);
     int code = CLI_FAILED;
     source.sets = job->measured_sets;
     source.seed = job->source.seed + 1;
@@ -127,17 +134,8 @@ static int measure(const predict_job *job, measurement *result)
     } else if (cli_source_make(&source, job->source.projection, &points) != CLSHEAR_OK) {
         fail(clshear_message(NULL));
     } else {
-        const double sets = (double)points.sets;
         clshear_points_integrate(&points, &job->integrand, 1, source.seed, means);
-        for (size_t i = 0; i < points.sets; i++)
-            mean += means[i] / sets;
-        for (size_t i = 0; i < points.sets; i++) {
-            const double square = (means[i] - mean) * (means[i] - mean);
-            second += square / (sets - 1.0);
-            fourth += square * square / sets;
-        }
-        result->variance = second;
-        result->error = sqrt(fmax(fourth - second * second, 0.0) / sets);
+        *result = cli_measurement_of(means, points.sets);
         code = CLI_DONE;
     }
     clshear_points_free(&points);
@@ -147,7 +145,7 @@ static int measure(const predict_job *job, measurement *result)
 
 typedef struct result {
     clshear_prediction prediction;
-    measurement measured;
+    cli_measurement measured;
     int is_measured;
 } result;
 

@@ -1,16 +1,15 @@
 #include "cli/predict_pixel.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/output.h"
+#include "cli/predict.h"
 #include "cli/render.h"
 #include "cli/scene.h"
 
 enum {
-    MOST_FLAGS = 128,
     CHUNK = 1 << 16 /* samples whose radiance is on its way at once */
 };
 
@@ -89,18 +88,6 @@ enum {
     OWN_FLAGS = sizeof own_flags / sizeof *own_flags
 };
 
-/* Our flags first, which hide those of rendering that have the same name. */
-static cli_command command_of(cli_flag *flags)
-{
-    const cli_command *render = &cli_render_command;
-    memcpy(flags, own_flags, sizeof own_flags);
-    memcpy(flags + OWN_FLAGS, render->flags, render->flag_count * sizeof *flags);
-    return (cli_command){.name = "predict",
-                         .flags = flags,
-                         .flag_count = OWN_FLAGS + render->flag_count,
-                         .most_operands = 1};
-}
-
 static const cli_command help = {
     .name = "predict",
     .summary = "usage: clshear predict SCENE --pixel X,Y [flags]\n"
@@ -147,33 +134,14 @@ static clshear_status evaluate(void *user, const float *points, size_t count, fl
     return CLSHEAR_OK;
 }
 
-/* A variance, and its standard error from the fourth moment. */
-typedef struct measurement {
-    double variance;
-    double error;
-} measurement;
-
 typedef struct result {
     clshear_prediction_4d prediction;
     float shear_px;
     size_t count;
     int is_measured;
-    measurement shifted;  /* as predicted */
-    measurement rendered; /* as samples come */
+    cli_measurement shifted;  /* as predicted */
+    cli_measurement rendered; /* as samples come */
 } result;
-
-static measurement measurement_of(const double *means, size_t sets)
-{
-    double mean = 0.0, second = 0.0, fourth = 0.0;
-    for (size_t i = 0; i < sets; i++)
-        mean += means[i] / (double)sets;
-    for (size_t i = 0; i < sets; i++) {
-        const double square = (means[i] - mean) * (means[i] - mean);
-        second += square / ((double)sets - 1.0);
-        fourth += square * square / (double)sets;
-    }
-    return (measurement){second, sqrt(fmax(fourth - second * second, 0.0) / (double)sets)};
-}
 
 static clshear_status draw(const pixel_job *job, uint32_t sets, uint32_t seed,
                            clshear_points *points)
@@ -198,16 +166,16 @@ static int measure(pixel_view *v, result *r)
             CLSHEAR_OK)
             code = fail(clshear_message(v->context));
         else if (homogenise)
-            r->shifted = measurement_of(means, points.sets);
+            r->shifted = cli_measurement_of(means, points.sets);
         else
-            r->rendered = measurement_of(means, points.sets);
+            r->rendered = cli_measurement_of(means, points.sets);
     }
     clshear_points_free(&points);
     free(means);
     return code;
 }
 
-static void write_measurement(FILE *stream, const char *name, measurement m)
+static void write_measurement(FILE *stream, const char *name, cli_measurement m)
 {
     fprintf(stream, "%s,%.5g,\n%s 95%% low,%.5g,\n%s 95%% high,%.5g,\n", name, m.variance, name,
             m.variance - 1.96 * m.error, name, m.variance + 1.96 * m.error);
@@ -269,8 +237,8 @@ static int run(pixel_job *job)
 
 int cli_predict_pixel(int argc, char **argv)
 {
-    cli_flag flags[MOST_FLAGS];
-    const cli_command command = command_of(flags);
+    cli_flag flags[CLI_MOST_FLAGS];
+    const cli_command command = cli_scene_command("predict", own_flags, OWN_FLAGS, flags);
     const pixel_job defaults = {.render = cli_job_defaults(),
                                 .count = 1024,
                                 .sets = 500,

@@ -1,5 +1,7 @@
 #include "cli/scene.h"
 
+#include "cli/render.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,6 +85,15 @@ static int read_over_settings(const cli_command *command, const char *settings, 
     if (line->light_count > 0) job->light_count = 0;
     if (line->output_count > 0) job->output_count = 0;
     return cli_parse_words(command, job, argc, argv, &job->scene);
+}
+
+cli_command cli_scene_command(const char *name, const cli_flag *own, size_t count, cli_flag *flags)
+{
+    const cli_command *render = &cli_render_command;
+    memcpy(flags, own, count * sizeof *flags);
+    memcpy(flags + count, render->flags, render->flag_count * sizeof *flags);
+    return (cli_command){
+        .name = name, .flags = flags, .flag_count = count + render->flag_count, .most_operands = 1};
 }
 
 int cli_parse_scene(const cli_command *command, const void *defaults, size_t size, int argc,

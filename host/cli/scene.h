@@ -5,6 +5,14 @@
 #include "cli/flags.h"
 #include "cli/job.h"
 
+enum {
+    CLI_MOST_FLAGS = 128
+};
+
+/* A command on one scene that takes the flags of rendering and `count` of its own, which come first
+ * and hide those of the same name. `flags`: room for CLI_MOST_FLAGS, kept by the caller. */
+cli_command cli_scene_command(const char *name, const cli_flag *own, size_t count, cli_flag *flags);
+
 /* Reads the words into `job`, over the settings file of the scene if there is one. `job` and
  * `defaults` are `size` bytes and begin with a cli_job; without a scene, job.scene is NULL. Returns
  * CLI_DONE, CLI_FAILED or CLI_USAGE. */

@@ -8,10 +8,6 @@
 #include "cli/render.h"
 #include "cli/scene.h"
 
-enum {
-    MOST_FLAGS = 128
-};
-
 static const char letters[] = "xyuv";
 
 static const char *store_pixel(void *target, const char *value)
@@ -87,18 +83,6 @@ static const cli_flag own_flags[] = {
 enum {
     OWN_FLAGS = sizeof own_flags / sizeof *own_flags
 };
-
-/* Our flags first, which hide those of rendering that have the same name. */
-static cli_command command_of(cli_flag *flags)
-{
-    const cli_command *render = &cli_render_command;
-    memcpy(flags, own_flags, sizeof own_flags);
-    memcpy(flags + OWN_FLAGS, render->flags, render->flag_count * sizeof *flags);
-    return (cli_command){.name = "slice",
-                         .flags = flags,
-                         .flag_count = OWN_FLAGS + render->flag_count,
-                         .most_operands = 1};
-}
 
 static const cli_command help = {
     .name = "slice",
@@ -217,8 +201,8 @@ static int run(cli_slice_job *job)
 
 int cli_slice_run(int argc, char **argv)
 {
-    cli_flag flags[MOST_FLAGS];
-    const cli_command command = command_of(flags);
+    cli_flag flags[CLI_MOST_FLAGS];
+    const cli_command command = cli_scene_command("slice", own_flags, OWN_FLAGS, flags);
     const cli_slice_job defaults = {
         .render = cli_job_defaults(), .projection = "xu", .resolution = {0, 0}, .at = 0.5f};
     cli_slice_job job;

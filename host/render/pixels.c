@@ -53,32 +53,32 @@ static size_t part_in_page(const cs_pixels *pixels, size_t first, size_t count, 
     return count < left ? count : left;
 }
 
-clshear_status cs_pixels_read(const cs_pixels *pixels, size_t first, size_t count, cs_pixel *values,
-                              cs_error *error)
+/* Reads into `values`, or writes from `given` where that is not NULL, page by page. */
+static clshear_status transfer(const cs_pixels *pixels, size_t first, size_t count,
+                               cs_pixel *values, const cs_pixel *given, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    for (size_t done_count = 0, page, offset; done_count < count;) {
-        const size_t part =
-            part_in_page(pixels, first + done_count, count - done_count, &page, &offset);
-        CS_TRY(cs_buffer_read(pixels->pages[page], offset, part * sizeof *values,
-                              values + done_count, error));
-        done_count += part;
+    for (size_t at = 0, part, page, offset; at < count; at += part) {
+        part = part_in_page(pixels, first + at, count - at, &page, &offset);
+        cs_buffer *buffer = pixels->pages[page];
+        const size_t size = part * sizeof(cs_pixel);
+        if (given != NULL)
+            CS_TRY(cs_buffer_write(buffer, offset, size, given + at, error));
+        else
+            CS_TRY(cs_buffer_read(buffer, offset, size, values + at, error));
     }
 done:
     return status;
 }
 
+clshear_status cs_pixels_read(const cs_pixels *pixels, size_t first, size_t count, cs_pixel *values,
+                              cs_error *error)
+{
+    return transfer(pixels, first, count, values, NULL, error);
+}
+
 clshear_status cs_pixels_write(cs_pixels *pixels, size_t first, size_t count,
                                const cs_pixel *values, cs_error *error)
 {
-    clshear_status status = CLSHEAR_OK;
-    for (size_t done_count = 0, page, offset; done_count < count;) {
-        const size_t part =
-            part_in_page(pixels, first + done_count, count - done_count, &page, &offset);
-        CS_TRY(cs_buffer_write(pixels->pages[page], offset, part * sizeof *values,
-                               values + done_count, error));
-        done_count += part;
-    }
-done:
-    return status;
+    return transfer(pixels, first, count, NULL, values, error);
 }
