@@ -9,15 +9,21 @@
 #include "packet.h"
 
 #define CS_DISK_RADIUS 0.564189584f
+#define CS_ROOT_TOLERANCE 2e-5f
 
-/* Area between an arc of the circle and its chord, from sine and 1 - cosine of half the angle it
- * spans (at most half the circle): (angle - sine cosine) / pi, error 2e-8, relative error 2e-6 for
- * short arcs. */
-static inline vfloat cs_disk_segment(vfloat sine, vfloat versine)
+/* Area between an arc of at most half the circle and its chord, from sine and 1 - cosine of the
+ * angle it spans: (angle - sine) / (2 pi), error 6e-8, relative error 7e-7. Both come from the
+ * chord's ends without any root. Arcs beyond a right angle are taken from their supplement. */
+CS_INLINED vfloat cs_disk_segment(vfloat sine, vfloat versine)
 {
-    vfloat above = (0.0459059872f * versine - 0.287248532f) * versine + 0.424413944f;
-    vfloat below = (0.142940408f * versine - 0.776797601f) * versine + 1.0f;
-    return sine * versine * above / below;
+    vfloat near = cs_min(versine, 2.0f - versine);
+    vfloat square = near * near;
+    vfloat first =
+        (0.0212246407f * near + 0.0530516161f) + (0.00466286363f * near + 0.00901334397f) * square;
+    vfloat rest = (0.00521626568f * near - 0.000439479898f) +
+                  (0.00204494766f * near - 0.00392919503f) * square;
+    vfloat segment = sine * near * (first + square * square * rest);
+    return versine > 1.0f ? (0.5f - CS_INVERSE_PI * sine) - segment : segment;
 }
 
 typedef struct cs_half_circle {
@@ -26,36 +32,37 @@ typedef struct cs_half_circle {
     vfloat tail;     /* P(U > |u|) */
 } cs_half_circle;
 
-static inline cs_half_circle cs_half_circle_at(vfloat u)
+CS_INLINED cs_half_circle cs_half_circle_at(vfloat u)
 {
     cs_half_circle at;
     at.distance = cs_min(cs_abs(u) * (1.0f / CS_DISK_RADIUS), (vfloat)(1.0f));
     at.height = cs_sqrt((1.0f - at.distance) * (1.0f + at.distance));
-    at.tail = cs_disk_segment(at.height, 1.0f - at.distance);
+    vfloat twice = 2.0f * at.height;
+    at.tail = cs_disk_segment(twice * at.distance, twice * at.height);
     return at;
 }
 
-static inline vfloat cs_half_circle_cdf(cs_half_circle at, vfloat u)
+CS_INLINED vfloat cs_half_circle_cdf(cs_half_circle at, vfloat u)
 {
     return u < 0.0f ? at.tail : 1.0f - at.tail;
 }
 
 /* P(U < u). */
-static inline vfloat cs_disk_cdf(vfloat u)
+CS_INLINED vfloat cs_disk_cdf(vfloat u)
 {
     return cs_half_circle_cdf(cs_half_circle_at(u), u);
 }
 
 /* E[max(u - U, 0)] - max(u, 0): the antiderivative of the distribution less its asymptotes. Even,
  * and zero outside the disk, so differences of it lose no digits when the disk is small. */
-static inline vfloat cs_half_circle_excess(cs_half_circle at)
+CS_INLINED vfloat cs_half_circle_excess(cs_half_circle at)
 {
     vfloat cube = at.height * at.height * at.height;
     return CS_DISK_RADIUS * ((2.0f / 3.0f * CS_INVERSE_PI) * cube - at.distance * at.tail);
 }
 
 /* x^(1/3) for x in [0, 1], relative error 1e-7: an exponent-halving guess and two Halley steps. */
-static inline vfloat cs_cube_root(vfloat x)
+CS_INLINED vfloat cs_cube_root(vfloat x)
 {
     vfloat y = cs_as_vfloat(cs_mul_hi(cs_as_vuint(x), 0x55555556u) + 0x2a512ce3u);
     vfloat cube = y * y * y;
@@ -66,7 +73,7 @@ static inline vfloat cs_cube_root(vfloat x)
 
 /* The u with P(U < u) = mass, error 2.5e-7. With psi - sin psi = 2 pi mass (psi the angle of the
  * segment left of u), cos(psi / 2) is analytic in mass^(2/3): a fit replaces the iteration. */
-static inline vfloat cs_disk_quantile(vfloat mass)
+CS_INLINED vfloat cs_disk_quantile(vfloat mass)
 {
     vfloat tail = cs_max(cs_min(mass, 1.0f - mass), (vfloat)(1e-20f)); /* 0 has no such root */
     vfloat root = cs_cube_root(tail);
@@ -86,7 +93,7 @@ static inline vfloat cs_disk_quantile(vfloat mass)
 
 /* For mass in [0, 1/2], the t <= 0 with P(X + side * Y < t) = mass, X and Y uniform in [-1/2, 1/2]:
  * a first guess for the fibres of round lenses. */
-static inline vfloat cs_trapezoid_fibre(vfloat mass, vfloat side)
+CS_INLINED vfloat cs_trapezoid_fibre(vfloat mass, vfloat side)
 {
     vfloat narrow = cs_min(side, (vfloat)(1.0f));
     vfloat wide = cs_max(side, (vfloat)(1.0f));
@@ -95,51 +102,75 @@ static inline vfloat cs_trapezoid_fibre(vfloat mass, vfloat side)
     return (2.0f * mass * wide < narrow ? rising : flat) - 0.5f * (1.0f + side);
 }
 
-/* Halley's step from t towards F(t) = mass, given value = F(t), density = F'(t), slope = F''(t); to
- * be subtracted from t. It solves sqrt(F) = sqrt(mass), which is nearly linear in the tails too. */
-static inline vfloat cs_root_step(vfloat mass_root, vfloat value, vfloat density, vfloat slope)
+typedef struct cs_root_step {
+    vfloat back; /* to be subtracted from t */
+    vint rough;  /* lanes that want another step */
+} cs_root_step;
+
+/* Halley's step from t towards F(t) = mass, given value = F(t), density = F'(t), slope = F''(t). It
+ * solves sqrt(F) = sqrt(mass), which is nearly linear in the tails too.
+ *
+ * What it leaves of an error e of F is up to 0.06 e^3 / mass^2 for the distributions here (in a few
+ * corners up to 1), so lanes whose e is larger than their guesses mostly have want another. */
+CS_INLINED cs_root_step cs_root_step_of(vfloat mass_root, vfloat value, vfloat density,
+                                        vfloat slope)
 {
+    cs_root_step step;
     value = cs_max(value, (vfloat)(1e-12f));
     density = cs_max(density, (vfloat)(1e-6f));
     vfloat root = cs_sqrt(value);
     vfloat excess = root - mass_root;
     vfloat square = density * density;
     vfloat divisor = square * (2.0f * root + excess) - 2.0f * value * excess * slope;
-    return 4.0f * value * excess * density / cs_max(divisor, root * square);
+    vfloat mass = mass_root * mass_root;
+    vfloat error = cs_abs(value - mass);
+    step.back = 4.0f * value * excess * density / cs_max(divisor, root * square);
+    step.rough = error * error * error > CS_ROOT_TOLERANCE * (mass * mass);
+    return step;
 }
 
-/* The t with P(X + blur * U < t) = across, X uniform in [-1/2, 1/2] and U the disk's marginal.
+/* Below: the t <= 0 with P(X + blur * U < t) = mass, for mass in (0, 1/2], X uniform in [-1/2, 1/2]
+ * and U the disk's marginal.
  *
- * F(t) = clamp(t + 1/2, 0, 1) + blur * (E((t + 1/2) / blur) - E((t - 1/2) / blur)), E the excess
- * above. The guess is a square aperture with the disk's variance, or for wide blurs, where the
- * pixel matters little, the disk itself. Two steps leave an error of F below 3e-7, and
- * below 6e-8 * blur for wide blurs. */
-static inline vfloat cs_disk_fibre(vfloat across, f32 blur)
+ * F(t) = max(t + 1/2, 0) + blur * (E((t + 1/2) / blur) - E((t - 1/2) / blur)), E the excess above.
+ * The guess is a square aperture with the disk's variance, or for wide blurs, where the pixel
+ * matters little, a disk with the variance of both. One step leaves an error of F below 1e-6 where
+ * it does not ask for a second, two leave 3e-7, or 6e-8 * blur for wide blurs. */
+
+/* The mass from which to solve for the fibre that is `across` of all; its t has the other sign
+ * where across > 1/2. */
+CS_INLINED vfloat cs_disk_fibre_mass(vfloat across)
 {
-    vfloat mass = cs_max(cs_min(across, 1.0f - across), (vfloat)(1e-9f));
-    vfloat root = cs_sqrt(mass);
-    vfloat t = blur > 6.0f ? blur * cs_disk_quantile(mass)
-                           : cs_trapezoid_fibre(mass, (vfloat)(0.9772f * blur));
+    return cs_max(cs_min(across, 1.0f - across), (vfloat)(1e-9f));
+}
+
+CS_INLINED vfloat cs_disk_fibre_guess(vfloat mass, f32 blur)
+{
+    f32 variance = blur * blur + CS_PI / 3.0f; /* in terms of the disk's, 1 / (4 pi) */
+    return blur > 3.0f ? cs_sqrt(variance) * cs_disk_quantile(mass)
+                       : cs_trapezoid_fibre(mass, (vfloat)(0.9772f * blur));
+}
+
+CS_INLINED vfloat cs_disk_fibre_step(vfloat t, vfloat mass_root, f32 blur, vint *rough)
+{
     f32 inverse = 1.0f / blur;
     f32 least = -0.5f - blur * CS_DISK_RADIUS;
-    for (int step = 0; step < 2; step++) {
-        vfloat right = (t + 0.5f) * inverse;
-        vfloat left = (t - 0.5f) * inverse;
-        cs_half_circle at_right = cs_half_circle_at(right);
-        cs_half_circle at_left = cs_half_circle_at(left);
-        vfloat excess = cs_half_circle_excess(at_right) - cs_half_circle_excess(at_left);
-        vfloat value = cs_max(t + 0.5f, (vfloat)(0.0f)) + blur * excess;
-        vfloat density = cs_half_circle_cdf(at_right, right) - at_left.tail;
-        vfloat slope = (2.0f * CS_DISK_RADIUS) * inverse * (at_right.height - at_left.height);
-        t -= cs_root_step(root, value, density, slope);
-        t = cs_clamp(t, (vfloat)(least), (vfloat)(0.0f));
-    }
-    return across > 0.5f ? -t : t;
+    vfloat right = (t + 0.5f) * inverse;
+    vfloat left = (t - 0.5f) * inverse;
+    cs_half_circle at_right = cs_half_circle_at(right);
+    cs_half_circle at_left = cs_half_circle_at(left);
+    vfloat excess = cs_half_circle_excess(at_right) - cs_half_circle_excess(at_left);
+    vfloat value = cs_max(t + 0.5f, (vfloat)(0.0f)) + blur * excess;
+    vfloat density = cs_half_circle_cdf(at_right, right) - at_left.tail;
+    vfloat slope = (2.0f * CS_DISK_RADIUS) * inverse * (at_right.height - at_left.height);
+    cs_root_step step = cs_root_step_of(mass_root, value, density, slope);
+    *rough = step.rough;
+    return cs_clamp(t - step.back, (vfloat)(least), (vfloat)(0.0f));
 }
 
 /* From the unit square, centred, to the disk of area 1: the concentric map (Shirley & Chiu 1997),
  * which keeps areas. sin and cos on [-pi/4, pi/4] are Taylor polynomials, error 2e-7. */
-static inline void cs_disk_from_square(vfloat *u, vfloat *v)
+CS_INLINED void cs_disk_from_square(vfloat *u, vfloat *v)
 {
     vint wide = cs_abs(*u) > cs_abs(*v);
     vfloat radius = wide ? *u : *v;

@@ -13,25 +13,18 @@ typedef struct cs_place {
     f32 shear; /* of its tuples, pixels */
 } cs_place;
 
-/* Packets are drawn some ahead of their tracing. Their draws do not depend on each other and
- * overlap in the processor; one by one they wait on their own latency. One lane keeps to registers.
- */
-#if CS_PACKET == 1
-#define CS_AHEAD 1
-#else
-#define CS_AHEAD (CS_FLUSH_BLOCKS * CS_BLOCK / CS_PACKET)
-#endif
-
-/* A packet ready to be traced. */
+/* Packets that are drawn before any of them is traced. Their draws do not depend on each other and
+ * overlap in the processor; one by one they wait on their own latency. */
 typedef struct cs_drawn {
-    vint active; /* lanes that are samples of the pattern */
-    cs_film_lens point;
-    cs_pair emitter;
+    int count;                /* packets, at most CS_TOGETHER */
+    vint active[CS_TOGETHER]; /* lanes that are samples of the pattern */
+    cs_film_lens point[CS_TOGETHER];
+    cs_pair emitter[CS_TOGETHER];
 } cs_drawn;
 
-/* Draws the packet that begins at place `start` of the pixel's order, up to place `end`. */
-static inline void cs_draw_packet(const cs_frame *frame, cs_rows rows, cs_optics_table table,
-                                  const cs_place *place, u32 start, u32 end, cs_drawn *drawn)
+/* The tuples of one packet, which begins at place `start` of the pixel's order, up to `end`. */
+static inline void cs_draw_packet(const cs_frame *frame, cs_rows rows, const cs_place *place,
+                                  u32 start, u32 end, int k, cs_drawn *drawn)
 {
     vfloat tuple[CS_DIMENSIONS];
     vuint position = start + CS_LANE_INDEX;
@@ -42,11 +35,24 @@ static inline void cs_draw_packet(const cs_frame *frame, cs_rows rows, cs_optics
     tuple[4] = (vfloat)(0.0f);
     tuple[5] = (vfloat)(0.0f);
     cs_draw(&frame->pattern, rows, place->key, index, frame->emitters > 0u ? 3u : 2u, tuple);
-    drawn->active = active;
-    drawn->point = cs_shear(tuple[0], tuple[1], tuple[2], tuple[3], frame->shear_mode,
-                            &frame->camera.optics, table, place->shear);
-    drawn->emitter.x = tuple[4];
-    drawn->emitter.y = tuple[5];
+    drawn->active[k] = active;
+    drawn->point[k].x = tuple[0];
+    drawn->point[k].y = tuple[1];
+    drawn->point[k].u = tuple[2];
+    drawn->point[k].v = tuple[3];
+    drawn->emitter[k].x = tuple[4];
+    drawn->emitter[k].y = tuple[5];
+}
+
+/* Draws packets from place `start` of the pixel's order on, up to `end`. */
+static inline void cs_draw_packets(const cs_frame *frame, cs_rows rows, cs_optics_table table,
+                                   const cs_place *place, u32 start, u32 end, cs_drawn *drawn)
+{
+    drawn->count = 0;
+    for (u32 at = start; drawn->count < CS_TOGETHER && at < end; at += (u32)CS_PACKET)
+        cs_draw_packet(frame, rows, place, at, end, drawn->count++, drawn);
+    cs_shear_all(drawn->point, drawn->count, frame->shear_mode, &frame->camera.optics, table,
+                 place->shear);
 }
 
 #endif

@@ -101,8 +101,9 @@ CS_INLINED vfloat cs_fibre_quantile_of_hump(const cs_fibre_axis *axis, vfloat ma
     vfloat t = guess.t;
     for (int step = 0; step < 2 && (step == 0 || cs_any(tail)); step++) {
         cs_fibre_mass at = cs_fibre_at(axis, t);
-        vfloat move = cs_root_step(root, right ? 1.0f - at.below : at.below, at.density,
-                                   right ? -at.slope : at.slope);
+        vfloat move = cs_root_step_of(root, right ? 1.0f - at.below : at.below, at.density,
+                                      right ? -at.slope : at.slope)
+                          .back;
         vfloat next = cs_clamp(right ? t + move : t - move, guess.low, guess.high);
         if (step == 0)
             t = next;

@@ -82,6 +82,13 @@ static inline int cs_any(i32 mask)
 
 #endif
 
+/* Packets that are drawn together. One lane keeps to registers. */
+#if CS_PACKET == 1
+#define CS_TOGETHER 1
+#else
+#define CS_TOGETHER (64 / CS_PACKET)
+#endif
+
 /* Not fmin and fmax: those must order NaN, which costs two more instructions. A NaN in the first
  * argument gives the second. */
 #define cs_min(a, b) ((a) < (b) ? (a) : (b))

@@ -42,14 +42,12 @@ __kernel void cs_draw_sum(const cs_frame frame, const float shear, __global cons
     place.shear = shear;
     vfloat sum = (vfloat)(0.0f);
     u32 end = frame.pattern.blocks * (u32)CS_BLOCK;
-    for (u32 start = 0u; start < end; start += (u32)(CS_AHEAD * CS_PACKET)) {
-        cs_drawn drawn[CS_AHEAD];
-        u32 packets = 0u;
-        for (u32 at = start; packets < (u32)CS_AHEAD && at < end; at += (u32)CS_PACKET)
-            cs_draw_packet(&frame, rows, table, &place, at, end, &drawn[packets++]);
-        for (u32 packet = 0u; packet < packets; packet++) {
-            cs_film_lens point = drawn[packet].point;
-            sum += drawn[packet].active ? point.x + point.y + point.u + point.v : (vfloat)(0.0f);
+    for (u32 start = 0u; start < end; start += (u32)(CS_TOGETHER * CS_PACKET)) {
+        cs_drawn drawn;
+        cs_draw_packets(&frame, rows, table, &place, start, end, &drawn);
+        for (int packet = 0; packet < drawn.count; packet++) {
+            cs_film_lens point = drawn.point[packet];
+            sum += drawn.active[packet] ? point.x + point.y + point.u + point.v : (vfloat)(0.0f);
         }
     }
     sums[get_global_id(0)] = cs_reduce_add(sum);

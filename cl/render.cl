@@ -5,14 +5,14 @@
 #include "shade.h"
 
 static inline void cs_trace_packet(const cs_frame *frame, const cs_world *world,
-                                   const cs_place *place, const cs_drawn *drawn,
+                                   const cs_place *place, const cs_drawn *drawn, int packet,
                                    cs_radiance *radiance)
 {
-    cs_film_lens point = drawn->point;
+    cs_film_lens point = drawn->point[packet];
     cs_ray ray = cs_lens_ray(frame->camera, point.x + (f32)place->x, point.y + (f32)place->y,
                              point.u, point.v);
-    *radiance = cs_radiance_along(world, frame->lights, frame->emitters, &ray, drawn->emitter,
-                                  drawn->active);
+    *radiance = cs_radiance_along(world, frame->lights, frame->emitters, &ray,
+                                  drawn->emitter[packet], drawn->active[packet]);
 }
 
 /* Samples at places `start` to `end` of the pixel's order, gathered. */
@@ -20,16 +20,14 @@ static inline void cs_sample(const cs_frame *frame, const cs_world *world, cs_ro
                              cs_optics_table table, const cs_place *place, u32 start, u32 end,
                              cs_gather *gather)
 {
-    cs_drawn drawn[CS_AHEAD];
+    cs_drawn drawn;
     int first = 1;
-    for (; start < end; start += (u32)(CS_AHEAD * CS_PACKET)) {
-        u32 packets = 0u;
-        for (u32 at = start; packets < (u32)CS_AHEAD && at < end; at += (u32)CS_PACKET)
-            cs_draw_packet(frame, rows, table, place, at, end, &drawn[packets++]);
-        for (u32 packet = 0u; packet < packets; packet++) {
+    for (; start < end; start += (u32)(CS_TOGETHER * CS_PACKET)) {
+        cs_draw_packets(frame, rows, table, place, start, end, &drawn);
+        for (int packet = 0; packet < drawn.count; packet++) {
             cs_radiance radiance;
-            cs_trace_packet(frame, world, place, &drawn[packet], &radiance);
-            cs_gather_add(gather, radiance.channel, radiance.shadow_rays, drawn[packet].active,
+            cs_trace_packet(frame, world, place, &drawn, packet, &radiance);
+            cs_gather_add(gather, radiance.channel, radiance.shadow_rays, drawn.active[packet],
                           first);
             first = 0;
         }

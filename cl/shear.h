@@ -13,17 +13,11 @@
 #ifndef CS_SHEAR_H
 #define CS_SHEAR_H
 
-#include "disk_fibre.h"
+#include "disk_map.h"
 #include "fibre.h"
+#include "film_lens.h"
 #include "packet.h"
 #include "shared.h"
-
-typedef struct cs_film_lens {
-    vfloat x;
-    vfloat y;
-    vfloat u;
-    vfloat v;
-} cs_film_lens;
 
 /* One axis of the equal-area map for a pixel of width 1 and a blur of width `blur` > 0: `across` in
  * [0, 1) picks the fibre, `along` in [0, 1) the place on it; returns x in [0, 1] through `x` and
@@ -56,72 +50,12 @@ static inline vfloat cs_trapezoid(vfloat across, vfloat along, f32 blur, vfloat 
     return (t - *x) * inverse;
 }
 
-/* Blurs below this are in focus: the pixel's own width hides them, and the maps divide by them. */
-#define CS_LEAST_BLUR 1e-5f
-
-/* Widths of the blur along both axes, pixels per unit of the lens coordinates, above 0. */
-typedef struct cs_blur {
-    f32 x;
-    f32 y;
-    f32 sign; /* of the shear */
-} cs_blur;
-
-static inline cs_blur cs_blur_of(f32 shear, f32 squeeze)
-{
-    cs_blur blur;
-    blur.sign = shear < 0.0f ? -1.0f : 1.0f;
-    blur.y = blur.sign * shear;
-    blur.x = cs_max(blur.y * squeeze, CS_LEAST_BLUR);
-    blur.y = cs_max(blur.y, CS_LEAST_BLUR);
-    return blur;
-}
-
 static inline cs_film_lens cs_equal_area_square(vfloat a, vfloat b, vfloat c, vfloat d,
                                                 cs_blur blur)
 {
     cs_film_lens point;
     point.u = blur.sign * (cs_trapezoid(a, c, blur.x, &point.x) - 0.5f);
     point.v = blur.sign * (cs_trapezoid(b, d, blur.y, &point.y) - 0.5f);
-    return point;
-}
-
-/* The disk is not separable: Rosenblatt's transform in the order t_x, t_y | t_x, u | t, v | t, u.
- * t_y and u are solved for in mirror images with b <= 1/2 and c <= 1/2. */
-static inline cs_film_lens cs_equal_area_disk(vfloat a, vfloat b, vfloat c, vfloat d, cs_blur blur)
-{
-    f32 inverse_x = 1.0f / blur.x;
-    f32 inverse_y = 1.0f / blur.y;
-    vint mirror_y = b > 0.5f;
-    vint mirror_x = c > 0.5f;
-
-    vfloat t_x = cs_disk_fibre(a, blur.x); /* centred: x - 1/2 + blur * u */
-    vfloat low = cs_max((t_x - 0.5f) * inverse_x, (vfloat)(-CS_DISK_RADIUS));
-    vfloat high = cs_min((t_x + 0.5f) * inverse_x, (vfloat)(CS_DISK_RADIUS));
-    cs_disk_window window;
-    window.blur = blur.y;
-    window.slab = cs_disk_slab_of(low, high);
-    vfloat half_slab = cs_max(cs_disk_half_slab(window.slab), (vfloat)(1e-12f));
-    vfloat below = cs_max(mirror_y ? 1.0f - b : b, (vfloat)(1e-9f));
-    vfloat t_y = cs_disk_slab_fibre(below, window.slab, half_slab, blur.y);
-    window.bottom = (t_y - 0.5f) * inverse_y;
-    window.top = (t_y + 0.5f) * inverse_y;
-    vfloat area = cs_disk_window_area(window, half_slab);
-
-    vfloat reach = cs_disk_chord(cs_min(window.top, (vfloat)(0.0f)));
-    window.slab = cs_disk_slab_of(cs_max(mirror_x ? -high : low, -reach),
-                                  cs_min(mirror_x ? -low : high, reach));
-    vfloat u = cs_disk_window_place(mirror_x ? 1.0f - c : c, window, area);
-    vfloat chord = cs_disk_chord(u);
-    u = mirror_x ? -u : u;
-    vfloat least = cs_max(-chord, window.bottom);
-    vfloat v = least + cs_disk_window_height(window, chord) * (mirror_y ? 1.0f - d : d);
-    vfloat y = t_y - blur.y * v;
-
-    cs_film_lens point;
-    point.x = t_x - blur.x * u + 0.5f;
-    point.y = (mirror_y ? -y : y) + 0.5f;
-    point.u = blur.sign * u;
-    point.v = blur.sign * (mirror_y ? -v : v);
     return point;
 }
 
@@ -211,27 +145,45 @@ static inline cs_film_lens cs_toroidal(vfloat a, vfloat b, vfloat c, vfloat d,
     return point;
 }
 
-/* `mode` is a CS_SHEAR_ constant, `shear` the signed circle of confusion in pixels per unit of v;
- * `table` belongs to the optics and is not read where they are closed. */
+/* One point, but for the disk's own map. */
+static inline cs_film_lens cs_shear_point(cs_film_lens p, u32 mode, const cs_optics *optics,
+                                          cs_optics_table table, f32 shear)
+{
+    cs_blur blur = cs_blur_of(shear, optics->squeeze);
+    if (mode == CS_SHEAR_NONE) return cs_unsheared(p.x, p.y, p.u, p.v, optics, table);
+    if (mode == CS_SHEAR_TOROIDAL) return cs_toroidal(p.x, p.y, p.u, p.v, optics, table, shear);
+    if (!optics->closed) return cs_equal_area_any(p.x, p.y, p.u, p.v, optics, table, blur);
+    return cs_equal_area_square(p.x, p.y, p.u, p.v, blur);
+}
+
+/* Maps `count` tuples in place, at most CS_TOGETHER. `mode` is a CS_SHEAR_ constant, `shear` the
+ * signed circle of confusion in pixels per unit of v; `table` belongs to the optics and is not read
+ * where they are closed. */
+static inline void cs_shear_all(cs_film_lens *points, int count, u32 mode, const cs_optics *optics,
+                                cs_optics_table table, f32 shear)
+{
+    if (mode == CS_SHEAR_EQUAL_AREA && optics->closed && optics->aperture == CS_APERTURE_DISK)
+        cs_disk_map(points, count, cs_blur_of(shear, optics->squeeze));
+    else
+        for (int k = 0; k < count; k++)
+            points[k] = cs_shear_point(points[k], mode, optics, table, shear);
+    vfloat first = (vfloat)(0.5f - 0.5f * optics->filter_width);
+    vfloat last = (vfloat)(0.5f * optics->filter_width + 0.49999994f);
+    for (int k = 0; k < count; k++) {
+        points[k].x = cs_clamp(points[k].x, first, last);
+        points[k].y = cs_clamp(points[k].y, first, last);
+    }
+}
+
 static inline cs_film_lens cs_shear(vfloat a, vfloat b, vfloat c, vfloat d, u32 mode,
                                     const cs_optics *optics, cs_optics_table table, f32 shear)
 {
     cs_film_lens point;
-    cs_blur blur = cs_blur_of(shear, optics->squeeze);
-    if (mode == CS_SHEAR_NONE)
-        point = cs_unsheared(a, b, c, d, optics, table);
-    else if (mode == CS_SHEAR_TOROIDAL)
-        point = cs_toroidal(a, b, c, d, optics, table, shear);
-    else if (!optics->closed)
-        point = cs_equal_area_any(a, b, c, d, optics, table, blur);
-    else if (optics->aperture == CS_APERTURE_SQUARE)
-        point = cs_equal_area_square(a, b, c, d, blur);
-    else
-        point = cs_equal_area_disk(a, b, c, d, blur);
-    vfloat first = (vfloat)(0.5f - 0.5f * optics->filter_width);
-    vfloat last = (vfloat)(0.5f * optics->filter_width + 0.49999994f);
-    point.x = cs_clamp(point.x, first, last);
-    point.y = cs_clamp(point.y, first, last);
+    point.x = a;
+    point.y = b;
+    point.u = c;
+    point.v = d;
+    cs_shear_all(&point, 1, mode, optics, table, shear);
     return point;
 }
 

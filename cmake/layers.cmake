@@ -19,7 +19,7 @@ set(floor_host/cli 9)
 
 # Inside cl/, file by file.
 set(kernel_floors
-    dialect.h 0 shared.h 1 packet.h 1 frequencies.h 1 stats.h 2 hash.h 2 disk.h 2 disk_fibre.h 3 profile.h 3 fibre.h 4
+    dialect.h 0 shared.h 1 packet.h 1 frequencies.h 1 stats.h 2 hash.h 2 disk.h 2 disk_fibre.h 3 film_lens.h 2 disk_map.h 4 profile.h 3 fibre.h 4
     sampler/list.h 2 sampler/grid.h 3 sampler/pattern.h 4 sampler/jitter.h 5 sampler/multijitter.h 5
     sampler/net.h 5 sampler/halton.h 6 sampler/shifted.h 5 sampler/sampler.h 7 shear.h 5 lens.h 4 frame.h 8 draw.h 9 traverse.h 5 shade.h 6 gather.h 3
     render.cl 10 trace.cl 10 points.cl 10 spectrum.cl 10 radiance.cl 10)
