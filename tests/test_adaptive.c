@@ -62,7 +62,7 @@ static void samples_are_counted(void **state)
     }
     assert_true(total == (double)clshear_film_describe(film).samples);
     assert_true(total <= (double)SPP * PIXELS && total > 0.5 * SPP * PIXELS);
-    assert_true(least >= SPP / 2.0 && most <= 16.0 * SPP && most >= 4.0 * least);
+    assert_true(least >= SPP / 16.0 && most <= 16.0 * SPP && most >= 4.0 * least);
     clshear_film_free(film);
 }
 

@@ -21,12 +21,23 @@ typedef struct cs_evidence {
 clshear_status cs_pilot_choose(const cs_evidence *evidence, cs_rule prior, int width, int height,
                                int radius, uint8_t *rules, cs_error *error);
 
-/* Numbers of samples for a mean of `mean` a pixel, powers of two between a floor and 16 times the
- * mean: in proportion to (V (1/A + W/5B))^0.4, which is best where variance falls as N^-1.5. V is
- * the pixel's variance with equal samples, smoothed over 3 x 3 pixels; W = 1/(I^2 + e^2) weights it
- * for the relative error, with e a hundredth of the mean of the intensity I; A and B are the sums
- * of V and V W: absolute error first, and relative error not forgotten. */
-clshear_status cs_share_samples(const f32 *variance, const f32 *intensity, int width, int height,
-                                u32 mean, u32 *samples, cs_error *error);
+/* What a pilot saw of each pixel: `replicates` patterns of `pattern` samples. */
+typedef struct cs_pilot_picture {
+    const f32 *variance; /* of a pattern's mean */
+    const f32 *intensity;
+    int width;
+    int height;
+    u32 pattern;
+    u32 replicates;
+} cs_pilot_picture;
+
+/* Numbers of samples for a mean of `mean` a pixel, powers of two between a 16th and 16 times the
+ * mean: in proportion to (V (1/A + W/10B))^0.4, which is best where variance falls as N^-1.5. V is
+ * the pixel's variance with equal samples, smoothed over 3 x 3 pixels, and a part of its squared
+ * contrast with them: what differs there may reach into the pixel where the pilot did not look. W =
+ * 1/(I^2 + e^2) weights it for the relative error, with e a hundredth of the mean of the intensity
+ * I; A and B are the sums of V and V W: absolute error first, and relative error not forgotten. */
+clshear_status cs_share_samples(const cs_pilot_picture *pilot, u32 mean, u32 *samples,
+                                cs_error *error);
 
 #endif

@@ -4,38 +4,53 @@
 
 #include "oracle/pilot.h"
 
-/* Mean of 3 x 3 values around a pixel with binomial weights, at the border of fewer. */
-static double smoothed(const f32 *values, int width, int height, int x, int y)
+/* What is known of a pixel from its 3 x 3 neighbours, itself among them. */
+typedef struct surroundings {
+    double variance;  /* mean with binomial weights */
+    double intensity; /* of the pixel */
+    double contrast;  /* largest difference of intensity from it */
+} surroundings;
+
+static surroundings surroundings_of(const cs_pilot_picture *pilot, size_t pixel)
 {
-    double sum = 0.0, weights = 0.0;
+    const int width = pilot->width, height = pilot->height;
+    const int x = (int)(pixel % (size_t)width), y = (int)(pixel / (size_t)width);
+    const double here = (double)pilot->intensity[pixel];
+    surroundings found = {.intensity = here};
+    double weights = 0.0;
     for (int j = y > 0 ? y - 1 : 0; j <= y + 1 && j < height; j++)
         for (int i = x > 0 ? x - 1 : 0; i <= x + 1 && i < width; i++) {
+            const size_t there = (size_t)j * (size_t)width + (size_t)i;
             const double weight = (i == x ? 2.0 : 1.0) * (j == y ? 2.0 : 1.0);
-            sum += weight * (double)values[(size_t)j * (size_t)width + (size_t)i];
+            found.variance += weight * (double)pilot->variance[there];
+            found.contrast = fmax(found.contrast, fabs((double)pilot->intensity[there] - here));
             weights += weight;
         }
-    return sum / weights;
+    found.variance /= weights;
+    return found;
 }
 
-/* The desire for samples, up to a factor: (V (1/A + W/5B))^0.4. A fifth of the weight is enough for
- * the relative error to fall as much as the absolute one. */
-static void desires(const f32 *variance, const f32 *intensity, int width, int height,
-                    double *desire)
+/* The desire for samples, up to a factor: (V (1/A + W/10B))^0.4. A tenth of the weight is enough
+ * for the relative error to fall too. */
+static void desires(const cs_pilot_picture *pilot, double *desire)
 {
-    const size_t pixels = (size_t)width * (size_t)height;
+    const size_t pixels = (size_t)pilot->width * (size_t)pilot->height;
+    /* n samples that saw none of a feature leave an area of some 1/n for it, which in patterns of
+     * s would have the variance contrast^2 / (n s) where it is. */
+    const double overlooked = 0.2 / ((double)pilot->pattern * pilot->pattern * pilot->replicates);
     double mean = 0.0, absolute = 0.0, relative = 0.0;
     for (size_t i = 0; i < pixels; i++)
-        mean += fabs((double)intensity[i]) / (double)pixels;
+        mean += fabs((double)pilot->intensity[i]) / (double)pixels;
     const double least = 1e-4 * mean * mean + 1e-30;
     for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < pixels; i++) {
-            const double v = smoothed(variance, width, height, (int)(i % (size_t)width),
-                                      (int)(i / (size_t)width));
-            const double w = 1.0 / ((double)intensity[i] * (double)intensity[i] + least);
+            const surroundings at = surroundings_of(pilot, i);
+            const double v = at.variance + overlooked * at.contrast * at.contrast;
+            const double w = 1.0 / (at.intensity * at.intensity + least);
             if (pass == 0)
                 absolute += v, relative += v * w;
             else
-                desire[i] = pow(v * (1.0 / absolute + 0.2 * w / relative), 0.4);
+                desire[i] = pow(v * (1.0 / absolute + 0.1 * w / relative), 0.4);
         }
 }
 
@@ -57,16 +72,15 @@ static u32 power_of_two(u32 count)
     return power;
 }
 
-clshear_status cs_share_samples(const f32 *variance, const f32 *intensity, int width, int height,
-                                u32 mean, u32 *samples, cs_error *error)
+clshear_status cs_share_samples(const cs_pilot_picture *pilot, u32 mean, u32 *samples,
+                                cs_error *error)
 {
-    const size_t pixels = (size_t)width * (size_t)height;
-    /* A high floor: small patterns say little about large ones where variance falls as N^-2. */
-    const u32 least = power_of_two(mean / 2 > 4 ? mean / 2 : 4), most = power_of_two(16 * mean);
+    const size_t pixels = (size_t)pilot->width * (size_t)pilot->height;
+    const u32 least = power_of_two(mean / 16 > 4 ? mean / 16 : 4), most = power_of_two(16 * mean);
     double *desire = malloc(pixels * sizeof *desire);
     if (desire == NULL)
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", pixels);
-    desires(variance, intensity, width, height, desire);
+    desires(pilot, desire);
     /* The largest scale at which the total is not above what was asked for, by bisection. */
     double low = -60.0, high = 60.0;
     for (int step = 0; step < 60; step++) {

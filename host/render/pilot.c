@@ -211,8 +211,13 @@ clshear_status cs_pilot_samples(cs_job *job, u32 *samples, cs_error *error)
     const u32 size = budget >= 64 ? 16 : budget >= 16 ? 8 : 4;
     const u32 replicates = budget / size < 4 ? budget / size : 4;
     CS_TRY(run(job, job->shear_px, NULL, job->pixel_count, size, replicates, &result, error));
-    CS_TRY(cs_share_samples(result.variance, result.intensity, width, height,
-                            job->pattern.grid.count, samples, error));
+    const cs_pilot_picture picture = {.variance = result.variance,
+                                      .intensity = result.intensity,
+                                      .width = width,
+                                      .height = height,
+                                      .pattern = size,
+                                      .replicates = replicates};
+    CS_TRY(cs_share_samples(&picture, job->pattern.grid.count, samples, error));
 done:
     free(result.variance);
     free(result.intensity);
