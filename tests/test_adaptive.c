@@ -68,7 +68,7 @@ static void samples_are_counted(void **state)
 
 /* The same picture as with even samples, and less noise. 16 seeds each: the image means differ by
  * less than 5 standard errors (false alarms 6e-7). The variance is lower by a factor of 1.3 at
- * least; it is 1.5 here, and its relative standard error over seeds and pixels below 3 %. */
+ * least; it is 1.6 here, and its relative standard error over seeds and pixels below 3 %. */
 static void sharing_is_unbiased_and_pays(void **state)
 {
     enum {
