@@ -241,7 +241,7 @@ clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
         const cs_argument *argument = &arguments[i];
         const void *value =
             argument->buffer != NULL ? (const void *)&argument->buffer->memory : argument->value;
-        size_t size = argument->buffer != NULL ? sizeof(cl_mem) : argument->size;
+        size_t size = value == NULL || argument->buffer != NULL ? sizeof(cl_mem) : argument->size;
         CS_OPENCL(clSetKernelArg(device->kernels[kernel], i, size, value),
                   "kernel %s: argument %u is not accepted", name, i);
     }

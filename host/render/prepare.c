@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "render/handles.h"
+#include "render/sweep.h"
 #include "scene/import.h"
 
 /* From triangles to something that can be rendered. Uses up clock time since `start_s`. */
@@ -14,7 +15,7 @@ static clshear_status prepare(clshear_scene *scene, double start_s, cs_error *er
     clshear_scene_info *info = &scene->info;
     cs_flat_bvh bvh = {0};
     const double loaded_s = cs_now_s();
-    CS_TRY(cs_device_prepare(context->device, CS_PROGRAM_RENDER, error));
+    CS_TRY(cs_sweep_wake(context->device, error));
     const double compiled_s = cs_now_s();
     CS_TRY(cs_accel_create(&scene->scene, context->threads, &scene->accel, error));
     CS_TRY(cs_accel_build_bvh(scene->accel, &bvh, error));

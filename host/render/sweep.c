@@ -40,12 +40,22 @@ void cs_batch_free(cs_batch *batch)
     *batch = (cs_batch){0};
 }
 
+enum {
+    BEFORE_WORLD = 6 /* arguments of the kernel that are not the scene's */
+};
+
+clshear_status cs_sweep_wake(cs_device *device, cs_error *error)
+{
+    const cs_frame frame = {.pixel_count = 0};
+    const cs_argument arguments[BEFORE_WORLD + CS_WORLD_BUFFERS] = {
+        {.value = &frame, .size = sizeof frame}}; /* and no buffers */
+    return cs_device_run(device, CS_KERNEL_RENDER, 1, arguments, BEFORE_WORLD + CS_WORLD_BUFFERS,
+                         error);
+}
+
 static clshear_status launch(const cs_sweep *sweep, const cs_batch *batch, const cs_frame *frame,
                              cs_error *error)
 {
-    enum {
-        BEFORE_WORLD = 6
-    };
     cs_argument arguments[BEFORE_WORLD + CS_WORLD_BUFFERS] = {
         {.value = frame, .size = sizeof *frame},
         {.buffer = sweep->pixels->pages[frame->page_first / sweep->pixels->page_pixels]},

@@ -41,4 +41,8 @@ void cs_batch_free(cs_batch *batch);
 clshear_status cs_sweep_replicate(cs_sweep *sweep, const cs_batch *batches, size_t batch_count,
                                   u32 replicate, cs_error *error);
 
+/* Drivers finish compiling a kernel when it is first launched. Launches it without pixels, so that
+ * those whose time is taken do not wait for that. */
+clshear_status cs_sweep_wake(cs_device *device, cs_error *error);
+
 #endif
