@@ -22,9 +22,9 @@ typedef struct cs_drawn {
     cs_pair emitter[CS_TOGETHER];
 } cs_drawn;
 
-/* The tuples of one packet, which begins at place `start` of the pixel's order, up to `end`. */
-static inline void cs_draw_packet(const cs_frame *frame, cs_rows rows, const cs_place *place,
-                                  u32 start, u32 end, int k, cs_drawn *drawn)
+/* One packet of them, which begins at place `start` of the pixel's order, up to `end`. */
+static inline void cs_draw_packet(const cs_frame *frame, cs_rows rows, cs_optics_table table,
+                                  const cs_place *place, u32 start, u32 end, int k, cs_drawn *drawn)
 {
     vfloat tuple[CS_DIMENSIONS];
     vuint position = start + CS_LANE_INDEX;
@@ -35,11 +35,10 @@ static inline void cs_draw_packet(const cs_frame *frame, cs_rows rows, const cs_
     tuple[4] = (vfloat)(0.0f);
     tuple[5] = (vfloat)(0.0f);
     cs_draw(&frame->pattern, rows, place->key, index, frame->emitters > 0u ? 3u : 2u, tuple);
+    cs_film_lens point = {tuple[0], tuple[1], tuple[2], tuple[3]};
     drawn->active[k] = active;
-    drawn->point[k].x = tuple[0];
-    drawn->point[k].y = tuple[1];
-    drawn->point[k].u = tuple[2];
-    drawn->point[k].v = tuple[3];
+    drawn->point[k] =
+        cs_shear_alone(point, frame->shear_mode, &frame->camera.optics, table, place->shear);
     drawn->emitter[k].x = tuple[4];
     drawn->emitter[k].y = tuple[5];
 }
@@ -50,9 +49,9 @@ static inline void cs_draw_packets(const cs_frame *frame, cs_rows rows, cs_optic
 {
     drawn->count = 0;
     for (u32 at = start; drawn->count < CS_TOGETHER && at < end; at += (u32)CS_PACKET)
-        cs_draw_packet(frame, rows, place, at, end, drawn->count++, drawn);
-    cs_shear_all(drawn->point, drawn->count, frame->shear_mode, &frame->camera.optics, table,
-                 place->shear);
+        cs_draw_packet(frame, rows, table, place, at, end, drawn->count++, drawn);
+    cs_shear_together(drawn->point, drawn->count, frame->shear_mode, &frame->camera.optics,
+                      place->shear);
 }
 
 #endif

@@ -145,36 +145,52 @@ static inline cs_film_lens cs_toroidal(vfloat a, vfloat b, vfloat c, vfloat d,
     return point;
 }
 
-/* One point, but for the disk's own map. */
-static inline cs_film_lens cs_shear_point(cs_film_lens p, u32 mode, const cs_optics *optics,
+/* Whether the map is the disk's own, which takes packets together. */
+static inline int cs_shears_together(u32 mode, const cs_optics *optics)
+{
+    return mode == CS_SHEAR_EQUAL_AREA && optics->closed && optics->aperture == CS_APERTURE_DISK;
+}
+
+/* Rounding may leave what the filter reaches. */
+static inline void cs_clamp_to_filter(const cs_optics *optics, cs_film_lens *point)
+{
+    vfloat first = (vfloat)(0.5f - 0.5f * optics->filter_width);
+    vfloat last = (vfloat)(0.5f * optics->filter_width + 0.49999994f);
+    point->x = cs_clamp(point->x, first, last);
+    point->y = cs_clamp(point->y, first, last);
+}
+
+/* Maps a tuple, unless that is done together. `mode` is a CS_SHEAR_ constant, `shear` the signed
+ * circle of confusion in pixels per unit of v; `table` belongs to the optics and is not read where
+ * they are closed. */
+static inline cs_film_lens cs_shear_alone(cs_film_lens p, u32 mode, const cs_optics *optics,
                                           cs_optics_table table, f32 shear)
 {
     cs_blur blur = cs_blur_of(shear, optics->squeeze);
-    if (mode == CS_SHEAR_NONE) return cs_unsheared(p.x, p.y, p.u, p.v, optics, table);
-    if (mode == CS_SHEAR_TOROIDAL) return cs_toroidal(p.x, p.y, p.u, p.v, optics, table, shear);
-    if (!optics->closed) return cs_equal_area_any(p.x, p.y, p.u, p.v, optics, table, blur);
-    return cs_equal_area_square(p.x, p.y, p.u, p.v, blur);
-}
-
-/* Maps `count` tuples in place, at most CS_TOGETHER. `mode` is a CS_SHEAR_ constant, `shear` the
- * signed circle of confusion in pixels per unit of v; `table` belongs to the optics and is not read
- * where they are closed. */
-static inline void cs_shear_all(cs_film_lens *points, int count, u32 mode, const cs_optics *optics,
-                                cs_optics_table table, f32 shear)
-{
-    if (mode == CS_SHEAR_EQUAL_AREA && optics->closed && optics->aperture == CS_APERTURE_DISK)
-        cs_disk_map(points, count, cs_blur_of(shear, optics->squeeze));
+    if (cs_shears_together(mode, optics)) return p;
+    if (mode == CS_SHEAR_NONE)
+        p = cs_unsheared(p.x, p.y, p.u, p.v, optics, table);
+    else if (mode == CS_SHEAR_TOROIDAL)
+        p = cs_toroidal(p.x, p.y, p.u, p.v, optics, table, shear);
+    else if (!optics->closed)
+        p = cs_equal_area_any(p.x, p.y, p.u, p.v, optics, table, blur);
     else
-        for (int k = 0; k < count; k++)
-            points[k] = cs_shear_point(points[k], mode, optics, table, shear);
-    vfloat first = (vfloat)(0.5f - 0.5f * optics->filter_width);
-    vfloat last = (vfloat)(0.5f * optics->filter_width + 0.49999994f);
-    for (int k = 0; k < count; k++) {
-        points[k].x = cs_clamp(points[k].x, first, last);
-        points[k].y = cs_clamp(points[k].y, first, last);
-    }
+        p = cs_equal_area_square(p.x, p.y, p.u, p.v, blur);
+    cs_clamp_to_filter(optics, &p);
+    return p;
 }
 
+/* Maps `count` tuples in place, at most CS_TOGETHER, if that is done together. */
+static inline void cs_shear_together(cs_film_lens *points, int count, u32 mode,
+                                     const cs_optics *optics, f32 shear)
+{
+    if (!cs_shears_together(mode, optics)) return;
+    cs_disk_map(points, count, cs_blur_of(shear, optics->squeeze));
+    for (int k = 0; k < count; k++)
+        cs_clamp_to_filter(optics, points + k);
+}
+
+/* Maps one tuple, whatever the shear. */
 static inline cs_film_lens cs_shear(vfloat a, vfloat b, vfloat c, vfloat d, u32 mode,
                                     const cs_optics *optics, cs_optics_table table, f32 shear)
 {
@@ -183,7 +199,8 @@ static inline cs_film_lens cs_shear(vfloat a, vfloat b, vfloat c, vfloat d, u32 
     point.y = b;
     point.u = c;
     point.v = d;
-    cs_shear_all(&point, 1, mode, optics, table, shear);
+    point = cs_shear_alone(point, mode, optics, table, shear);
+    cs_shear_together(&point, 1, mode, optics, shear);
     return point;
 }
 
