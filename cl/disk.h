@@ -9,6 +9,8 @@
 #include "packet.h"
 
 #define CS_DISK_RADIUS 0.564189584f
+
+/* Of error^3 / mass^2 before a step (cs_root_step_of): what the step leaves is below 2e-6. */
 #define CS_ROOT_TOLERANCE 2e-5f
 
 /* Area between an arc of at most half the circle and its chord, from sine and 1 - cosine of the
@@ -110,8 +112,8 @@ typedef struct cs_root_step {
 /* Halley's step from t towards F(t) = mass, given value = F(t), density = F'(t), slope = F''(t). It
  * solves sqrt(F) = sqrt(mass), which is nearly linear in the tails too.
  *
- * What it leaves of an error e of F is up to 0.06 e^3 / mass^2 for the distributions here (in a few
- * corners up to 1), so lanes whose e is larger than their guesses mostly have want another. */
+ * An error e of F before the step leaves up to 0.06 e^3 / mass^2 after it for the distributions
+ * here, in a few corners up to e^3 / mass^2: where that is too much, lanes are rough. */
 CS_INLINED cs_root_step cs_root_step_of(vfloat mass_root, vfloat value, vfloat density,
                                         vfloat slope)
 {

@@ -82,7 +82,8 @@ static inline int cs_any(i32 mask)
 
 #endif
 
-/* Packets that are drawn together. One lane keeps to registers. */
+/* Packets that are drawn together: 64 samples, as many as lie between two updates of a pixel
+ * (CS_FLUSH_BLOCKS). One lane keeps to registers. */
 #if CS_PACKET == 1
 #define CS_TOGETHER 1
 #else
