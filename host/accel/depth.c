@@ -10,66 +10,68 @@
 #include "shear.h"
 
 enum {
-    WIDTH = 16 /* rays that Embree traces at once */
+    WIDTH = 16, /* rays that Embree traces at once */
+    SETS = 64   /* of rays all over pixel and lens, among which pixels choose at random */
 };
 
 typedef struct prepass {
     const cs_accel *accel;
     const cs_camera *camera;
-    const f32 *optics;
     const int *window;
-    cs_pattern pattern; /* of the lens rays */
-    const u32 *rows;
+    const cs_film_lens *sets; /* SETS * lens_rays */
     u32 lens_rays;
     cs_depth *depth;
 } prepass;
 
-static void set_ray(struct RTCRayHit16 *query, int lane, const cs_ray *ray)
+/* Rays from the left upper corner (x, y) of a pixel. What tracing does not change is set before. */
+static void aim(const cs_camera *camera, f32 x, f32 y, const cs_film_lens *point, int lane,
+                struct RTCRayHit16 *query)
 {
-    query->ray.org_x[lane] = ray->origin[0];
-    query->ray.org_y[lane] = ray->origin[1];
-    query->ray.org_z[lane] = ray->origin[2];
-    query->ray.dir_x[lane] = ray->direction[0];
-    query->ray.dir_y[lane] = ray->direction[1];
-    query->ray.dir_z[lane] = ray->direction[2];
-    query->ray.tnear[lane] = 0.0f;
-    query->ray.tfar[lane] = INFINITY;
-    query->ray.time[lane] = 0.0f;
-    query->ray.mask[lane] = ~0u;
-    query->ray.flags[lane] = 0;
-    query->hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-    query->hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+    const cs_ray ray = cs_lens_ray(*camera, x + point->x, y + point->y, point->u, point->v);
+    query->ray.org_x[lane] = ray.origin[0];
+    query->ray.org_y[lane] = ray.origin[1];
+    query->ray.org_z[lane] = ray.origin[2];
+    query->ray.dir_x[lane] = ray.direction[0];
+    query->ray.dir_y[lane] = ray.direction[1];
+    query->ray.dir_z[lane] = ray.direction[2];
 }
 
-/* Depths along up to WIDTH rays: directions have a forward component of 1. */
-static void trace(const cs_accel *accel, const cs_ray *rays, int count, f32 *depth)
+/* Depths along the first `count` rays: directions have a forward component of 1. */
+static void trace(const cs_accel *accel, struct RTCRayHit16 *query, int count, f32 *depth)
 {
     struct RTCIntersectContext context;
-    struct RTCRayHit16 query;
     int valid[WIDTH] __attribute__((aligned(64)));
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     for (int lane = 0; lane < WIDTH; lane++) {
         valid[lane] = lane < count ? -1 : 0;
-        set_ray(&query, lane, &rays[lane < count ? lane : 0]);
+        query->ray.tfar[lane] = INFINITY;
+        query->hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+        query->hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect16(valid, accel->traced, &context, &query);
+    rtcIntersect16(valid, accel->traced, &context, query);
     for (int lane = 0; lane < count; lane++)
         depth[lane] =
-            query.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID ? INFINITY : query.ray.tfar[lane];
+            query->hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID ? INFINITY : query->ray.tfar[lane];
 }
 
-static int by_value(const void *a, const void *b)
+/* By insertion: mostly there are 16, and many alike. */
+static void sort(f32 *values, u32 count)
 {
-    const f32 x = *(const f32 *)a, y = *(const f32 *)b;
-    return x < y ? -1 : x > y;
+    for (u32 i = 1; i < count; i++) {
+        const f32 value = values[i];
+        u32 place = i;
+        for (; place > 0 && values[place - 1] > value; place--)
+            values[place] = values[place - 1];
+        values[place] = value;
+    }
 }
 
 /* Statistics of `count` depths, which are sorted. */
 static void summarise(f32 *all, u32 count, cs_depth *depth)
 {
     u32 hits = 0;
-    qsort(all, count, sizeof *all, by_value);
+    sort(all, count);
     while (hits < count && isfinite(all[hits]))
         hits++;
     depth->misses = (f32)(count - hits) / (f32)count;
@@ -78,21 +80,17 @@ static void summarise(f32 *all, u32 count, cs_depth *depth)
     depth->far = hits > 0 ? all[hits - 1] : INFINITY;
 }
 
-static void depths_of_pixel(const prepass *work, u32 x, u32 y, cs_depth *depth)
+static void depths_of_pixel(const prepass *work, u32 x, u32 y, struct RTCRayHit16 *query,
+                            cs_depth *depth)
 {
-    cs_ray rays[WIDTH];
-    f32 all[CS_MOST_LENS_RAYS] = {0};
-    const u32 key = cs_pattern_key(0, y << 16 ^ x, 0);
+    f32 all[CS_MOST_LENS_RAYS];
+    const u32 set = cs_pattern_key(0, y << 16 ^ x, 0) % SETS;
+    const cs_film_lens *points = work->sets + (size_t)set * work->lens_rays;
     for (u32 first = 0; first < work->lens_rays; first += WIDTH) {
-        u32 count = 0;
-        for (; count < WIDTH && first + count < work->lens_rays; count++) {
-            f32 t[CS_DIMENSIONS] = {0};
-            cs_draw(&work->pattern, work->rows, key, first + count, 2, t);
-            const cs_film_lens p =
-                cs_unsheared(t[0], t[1], t[2], t[3], &work->camera->optics, work->optics);
-            rays[count] = cs_lens_ray(*work->camera, (f32)x + p.x, (f32)y + p.y, p.u, p.v);
-        }
-        trace(work->accel, rays, (int)count, all + first);
+        const u32 left = work->lens_rays - first, count = left < WIDTH ? left : WIDTH;
+        for (u32 lane = 0; lane < count; lane++)
+            aim(work->camera, (f32)x, (f32)y, &points[first + lane], (int)lane, query);
+        trace(work->accel, query, (int)count, all + first);
     }
     if (work->lens_rays > 0) {
         summarise(all, work->lens_rays, depth);
@@ -106,48 +104,67 @@ static void depths_of_pixel(const prepass *work, u32 x, u32 y, cs_depth *depth)
 static void depths_of_range(void *user, size_t begin, size_t end)
 {
     const prepass *work = user;
+    const cs_film_lens middle = {.x = 0.5f, .y = 0.5f};
     const size_t width = (size_t)(work->window[1] - work->window[0]);
+    struct RTCRayHit16 query = {0};
+    for (int lane = 0; lane < WIDTH; lane++)
+        query.ray.mask[lane] = ~0u;
     for (size_t first = begin; first < end; first += WIDTH) {
         const int count = end - first < WIDTH ? (int)(end - first) : WIDTH;
-        cs_ray rays[WIDTH];
         f32 centre[WIDTH];
         u32 x[WIDTH], y[WIDTH];
         for (int i = 0; i < count; i++) {
             x[i] = (u32)work->window[0] + (u32)((first + (size_t)i) % width);
             y[i] = (u32)work->window[2] + (u32)((first + (size_t)i) / width);
-            rays[i] = cs_lens_ray(*work->camera, (f32)x[i] + 0.5f, (f32)y[i] + 0.5f, 0.0f, 0.0f);
+            aim(work->camera, (f32)x[i], (f32)y[i], &middle, i, &query);
         }
-        trace(work->accel, rays, count, centre);
+        trace(work->accel, &query, count, centre);
         for (int i = 0; i < count; i++) {
             cs_depth *depth = &work->depth[first + (size_t)i];
             depth->centre = centre[i];
-            depths_of_pixel(work, x[i], y[i], depth);
+            depths_of_pixel(work, x[i], y[i], &query, depth);
         }
     }
+}
+
+/* Sets of points all over pixel and lens: patterns of `lens_rays` tuples. */
+static clshear_status make_sets(const cs_camera *camera, const f32 *optics, u32 lens_rays,
+                                cs_film_lens **sets, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_array rows = {0};
+    const cs_pattern pattern = cs_pattern_of(CS_SAMPLER_SZ, 0, lens_rays);
+    CS_TRY(cs_rows_make(&pattern, CS_ORDER_SEQUENCE, &rows, error));
+    *sets = malloc(SETS * lens_rays * sizeof **sets);
+    CS_REQUIRE(*sets != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    for (u32 i = 0; i < SETS * lens_rays; i++) {
+        f32 t[CS_DIMENSIONS] = {0};
+        cs_draw(&pattern, rows.items, cs_pattern_key(0, i / lens_rays, 0), i % lens_rays, 2, t);
+        (*sets)[i] = cs_unsheared(t[0], t[1], t[2], t[3], &camera->optics, optics);
+    }
+done:
+    cs_array_free(&rows);
+    return status;
 }
 
 clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const f32 *optics,
                               const int *window, int lens_rays, cs_depth *depth, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_array rows = {0};
+    cs_film_lens *sets = NULL;
     const size_t count = (size_t)(window[1] - window[0]) * (size_t)(window[3] - window[2]);
-    prepass work = {.accel = accel,
-                    .camera = camera,
-                    .optics = optics,
-                    .window = window,
-                    .lens_rays = (u32)lens_rays,
-                    .depth = depth};
     CS_REQUIRE(lens_rays >= 0 && lens_rays <= CS_MOST_LENS_RAYS, CLSHEAR_BAD_ARGUMENT,
                "%d lens rays for the depth of a pixel: must be 0 to %d", lens_rays,
                CS_MOST_LENS_RAYS);
-    if (lens_rays > 0) {
-        work.pattern = cs_pattern_of(CS_SAMPLER_SZ, 0, (u32)lens_rays);
-        CS_TRY(cs_rows_make(&work.pattern, CS_ORDER_SEQUENCE, &rows, error));
-        work.rows = rows.items;
-    }
+    if (lens_rays > 0) CS_TRY(make_sets(camera, optics, (u32)lens_rays, &sets, error));
+    prepass work = {.accel = accel,
+                    .camera = camera,
+                    .window = window,
+                    .sets = sets,
+                    .lens_rays = (u32)lens_rays,
+                    .depth = depth};
     cs_parallel(accel->threads, count, depths_of_range, &work);
 done:
-    cs_array_free(&rows);
+    free(sets);
     return status;
 }
