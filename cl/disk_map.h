@@ -16,6 +16,7 @@ enum {
 
 /* One packet on its way. t_y and u are solved for in mirror images with b <= 1/2 and c <= 1/2. */
 typedef struct cs_disk_way {
+    cs_blur blur;
     cs_disk_window window;
     vfloat mass; /* below the unknown that is solved for */
     vfloat root; /* of it */
@@ -35,23 +36,23 @@ CS_INLINED void cs_disk_set_mass(cs_disk_way *way, vfloat mass)
     way->rough = mass >= 0.0f;
 }
 
-CS_INLINED void cs_disk_guess_t_x(const cs_film_lens *tuple, cs_blur blur, cs_disk_way *way)
+CS_INLINED void cs_disk_guess_t_x(const cs_film_lens *tuple, cs_disk_way *way)
 {
     cs_disk_set_mass(way, cs_disk_fibre_mass(tuple->x));
-    way->t_x = cs_disk_fibre_guess(way->mass, blur.x);
+    way->t_x = cs_disk_fibre_guess(way->mass, way->blur.x);
 }
 
-CS_INLINED void cs_disk_step_t_x(cs_blur blur, cs_disk_way *way)
+CS_INLINED void cs_disk_step_t_x(cs_disk_way *way)
 {
     vint again;
-    vfloat t = cs_disk_fibre_step(way->t_x, way->root, blur.x, &again);
+    vfloat t = cs_disk_fibre_step(way->t_x, way->root, way->blur.x, &again);
     way->t_x = way->rough ? t : way->t_x;
     way->rough = again;
 }
 
-CS_INLINED void cs_disk_find_slab(const cs_film_lens *tuple, cs_blur blur, cs_disk_way *way)
+CS_INLINED void cs_disk_find_slab(const cs_film_lens *tuple, cs_disk_way *way)
 {
-    f32 inverse = 1.0f / blur.x;
+    f32 inverse = 1.0f / way->blur.x;
     way->t_x = tuple->x > 0.5f ? -way->t_x : way->t_x;
     way->low = cs_max((way->t_x - 0.5f) * inverse, (vfloat)(-CS_DISK_RADIUS));
     way->high = cs_min((way->t_x + 0.5f) * inverse, (vfloat)(CS_DISK_RADIUS));
@@ -59,25 +60,26 @@ CS_INLINED void cs_disk_find_slab(const cs_film_lens *tuple, cs_blur blur, cs_di
     way->area = cs_max(cs_disk_half_slab(way->window.slab), (vfloat)(1e-12f));
 }
 
-CS_INLINED void cs_disk_guess_t_y(const cs_film_lens *tuple, cs_blur blur, cs_disk_way *way)
+CS_INLINED void cs_disk_guess_t_y(const cs_film_lens *tuple, cs_disk_way *way)
 {
     vfloat mass = tuple->y > 0.5f ? 1.0f - tuple->y : tuple->y;
     cs_disk_set_mass(way, cs_max(mass, (vfloat)(1e-9f)));
-    way->t_y = cs_disk_slab_guess(way->mass, way->window.slab, blur.y);
+    way->t_y = cs_disk_slab_guess(way->mass, way->window.slab, way->blur.y);
 }
 
-CS_INLINED void cs_disk_step_t_y(cs_blur blur, cs_disk_way *way)
+CS_INLINED void cs_disk_step_t_y(cs_disk_way *way)
 {
     vint again;
-    vfloat t = cs_disk_slab_step(way->t_y, way->root, way->window.slab, way->area, blur.y, &again);
+    vfloat t =
+        cs_disk_slab_step(way->t_y, way->root, way->window.slab, way->area, way->blur.y, &again);
     way->t_y = way->rough ? t : way->t_y;
     way->rough = again;
 }
 
-CS_INLINED void cs_disk_find_window(cs_blur blur, cs_disk_way *way)
+CS_INLINED void cs_disk_find_window(cs_disk_way *way)
 {
-    f32 inverse = 1.0f / blur.y;
-    way->window.blur = blur.y;
+    f32 inverse = 1.0f / way->blur.y;
+    way->window.blur = way->blur.y;
     way->window.bottom = (way->t_y - 0.5f) * inverse;
     way->window.top = (way->t_y + 0.5f) * inverse;
     way->area = cs_max(cs_disk_window_area(way->window, way->area), (vfloat)(1e-12f));
@@ -101,7 +103,7 @@ CS_INLINED void cs_disk_step_u(cs_disk_way *way)
     way->rough = again;
 }
 
-CS_INLINED cs_film_lens cs_disk_end(const cs_film_lens *tuple, cs_blur blur, const cs_disk_way *way)
+CS_INLINED cs_film_lens cs_disk_end(const cs_film_lens *tuple, const cs_disk_way *way)
 {
     vint mirror_x = tuple->u > 0.5f;
     vint mirror_y = tuple->y > 0.5f;
@@ -110,40 +112,44 @@ CS_INLINED cs_film_lens cs_disk_end(const cs_film_lens *tuple, cs_blur blur, con
     vfloat along = mirror_y ? 1.0f - tuple->v : tuple->v;
     vfloat least = cs_max(-chord, way->window.bottom);
     vfloat v = least + cs_disk_window_height(way->window, chord) * along;
-    vfloat y = way->t_y - blur.y * v;
+    vfloat y = way->t_y - way->blur.y * v;
     cs_film_lens point;
-    point.x = way->t_x - blur.x * u + 0.5f;
+    point.x = way->t_x - way->blur.x * u + 0.5f;
     point.y = (mirror_y ? -y : y) + 0.5f;
-    point.u = blur.sign * u;
-    point.v = blur.sign * (mirror_y ? -v : v);
+    point.u = way->blur.sign * u;
+    point.v = way->blur.sign * (mirror_y ? -v : v);
     return point;
 }
 
-/* Maps `count` tuples, at most CS_TOGETHER, in place. */
-static inline void cs_disk_map(cs_film_lens *points, int count, cs_blur blur)
+/* Maps `count` packets of tuples, at most CS_TOGETHER, in place, each with the blur of its own
+ * shear.
+ */
+static inline void cs_disk_map(cs_film_lens *points, const f32 *shears, int count, f32 squeeze)
 {
     cs_disk_way way[CS_TOGETHER];
     for (int k = 0; k < count; k++)
-        cs_disk_guess_t_x(points + k, blur, way + k);
+        way[k].blur = cs_blur_of(shears[k], squeeze);
+    for (int k = 0; k < count; k++)
+        cs_disk_guess_t_x(points + k, way + k);
     for (int step = 0; step < CS_DISK_STEPS; step++)
         for (int k = 0; k < count; k++)
-            if (cs_any(way[k].rough)) cs_disk_step_t_x(blur, way + k);
+            if (cs_any(way[k].rough)) cs_disk_step_t_x(way + k);
     for (int k = 0; k < count; k++)
-        cs_disk_find_slab(points + k, blur, way + k);
+        cs_disk_find_slab(points + k, way + k);
     for (int k = 0; k < count; k++)
-        cs_disk_guess_t_y(points + k, blur, way + k);
+        cs_disk_guess_t_y(points + k, way + k);
     for (int step = 0; step < CS_DISK_STEPS; step++)
         for (int k = 0; k < count; k++)
-            if (cs_any(way[k].rough)) cs_disk_step_t_y(blur, way + k);
+            if (cs_any(way[k].rough)) cs_disk_step_t_y(way + k);
     for (int k = 0; k < count; k++)
-        cs_disk_find_window(blur, way + k);
+        cs_disk_find_window(way + k);
     for (int k = 0; k < count; k++)
         cs_disk_guess_u(points + k, way + k);
     for (int step = 0; step < CS_DISK_STEPS; step++)
         for (int k = 0; k < count; k++)
             if (cs_any(way[k].rough)) cs_disk_step_u(way + k);
     for (int k = 0; k < count; k++)
-        points[k] = cs_disk_end(points + k, blur, way + k);
+        points[k] = cs_disk_end(points + k, way + k);
 }
 
 #endif

@@ -23,12 +23,22 @@ typedef struct cs_frame {
     u32 crop_height;
     u32 first_pixel; /* place in the order in which pixels are drawn */
     u32 pixel_count;
-    u32 page_first; /* the crop's pixel that is first in the buffer of pixels */
-    u32 shear_mode; /* CS_SHEAR_ */
+    u32 pixels_each; /* that a work-item draws together, see cs_pixels_together */
+    u32 page_first;  /* the crop's pixel that is first in the buffer of pixels */
+    u32 shear_mode;  /* CS_SHEAR_ */
     u32 lights;
     u32 emitters;
 } cs_frame;
-CS_SHARED_WORDS(cs_frame, 67);
+CS_SHARED_WORDS(cs_frame, 68);
+
+/* How many pixels a work-item draws, so that their packets make as many as are drawn together.
+ * blocks: of a pixel's pattern in the launch. packet: lanes. */
+static inline u32 cs_pixels_together(u32 blocks, u32 packet)
+{
+    u32 together = packet > 1u ? 64u / packet : 1u;
+    u32 packets = (blocks * (u32)CS_BLOCK + packet - 1u) / packet;
+    return packets < together ? together / packets : 1u;
+}
 
 /* Raster index (row by row) of the pixel that is number `order` in a walk through tiles of 8 x 8
  * pixels: neighbours in time are neighbours in both directions, and find their nodes in the cache.

@@ -44,7 +44,7 @@ __kernel void cs_draw_sum(const cs_frame frame, const float shear, __global cons
     u32 end = frame.pattern.blocks * (u32)CS_BLOCK;
     for (u32 start = 0u; start < end; start += (u32)(CS_TOGETHER * CS_PACKET)) {
         cs_drawn drawn;
-        cs_draw_packets(&frame, rows, table, &place, start, end, &drawn);
+        cs_draw_packets(&frame, rows, table, &place, 1, start, end, &drawn);
         for (int packet = 0; packet < drawn.count; packet++) {
             cs_film_lens point = drawn.point[packet];
             sum += drawn.active[packet] ? point.x + point.y + point.u + point.v : (vfloat)(0.0f);

@@ -180,12 +180,13 @@ static inline cs_film_lens cs_shear_alone(cs_film_lens p, u32 mode, const cs_opt
     return p;
 }
 
-/* Maps `count` tuples in place, at most CS_TOGETHER, if that is done together. */
-static inline void cs_shear_together(cs_film_lens *points, int count, u32 mode,
-                                     const cs_optics *optics, f32 shear)
+/* Maps `count` packets of tuples in place, at most CS_TOGETHER, if that is done together; each has
+ * its own shear. */
+static inline void cs_shear_together(cs_film_lens *points, const f32 *shears, int count, u32 mode,
+                                     const cs_optics *optics)
 {
     if (!cs_shears_together(mode, optics)) return;
-    cs_disk_map(points, count, cs_blur_of(shear, optics->squeeze));
+    cs_disk_map(points, shears, count, optics->squeeze);
     for (int k = 0; k < count; k++)
         cs_clamp_to_filter(optics, points + k);
 }
@@ -200,7 +201,7 @@ static inline cs_film_lens cs_shear(vfloat a, vfloat b, vfloat c, vfloat d, u32 
     point.u = c;
     point.v = d;
     point = cs_shear_alone(point, mode, optics, table, shear);
-    cs_shear_together(&point, 1, mode, optics, shear);
+    cs_shear_together(&point, &shear, 1, mode, optics);
     return point;
 }
 

@@ -192,7 +192,7 @@ static void disk_fibre_is_a_quantile(void **state)
             const f32 s = blurs[k];
             f32 a = 0.01f + 0.98f * uniform(i, 0), b = uniform(i, 1);
             cs_film_lens p = {a, b, uniform(i, 2), uniform(i, 3)};
-            cs_disk_map(&p, 1, cs_blur_of(s, 1.0f));
+            cs_disk_map(&p, &s, 1, 1.0f);
             double t_x = (double)p.x - 0.5 + (double)s * p.u;
             double t_y = (double)p.y - 0.5 + (double)s * p.v;
             assert_true(fabs(fibre_share(t_x, t_y, s) - b) < 2e-5);

@@ -65,7 +65,8 @@ static clshear_status launch(const cs_sweep *sweep, const cs_batch *batch, const
         {.buffer = sweep->optics}};
     for (int i = 0; i < CS_WORLD_BUFFERS; i++)
         arguments[BEFORE_WORLD + i].buffer = sweep->scene->world.buffers[i];
-    return cs_device_run(sweep->scene->context->device, CS_KERNEL_RENDER, frame->pixel_count,
+    return cs_device_run(sweep->scene->context->device, CS_KERNEL_RENDER,
+                         (frame->pixel_count + frame->pixels_each - 1) / frame->pixels_each,
                          arguments, BEFORE_WORLD + CS_WORLD_BUFFERS, error);
 }
 
@@ -111,6 +112,8 @@ static clshear_status sweep_batch(cs_sweep *sweep, const cs_batch *batch, u32 fi
     frame.pattern = batch->pattern;
     frame.first_block = first;
     frame.last_block = last;
+    frame.pixels_each =
+        cs_pixels_together(last - first, (u32)cs_device_packet(sweep->scene->context->device));
     size_t page = 0;
     for (size_t pixel = 0; pixel < batch->pixel_count; pixel += frame.pixel_count) {
         while (batch->page_ends[page] <= pixel) /* 0 for pages without pixels of the batch */
