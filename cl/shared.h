@@ -8,8 +8,9 @@
 #include "dialect.h"
 
 enum {
-    CS_BLOCK = 8,        /* samples whose order within a pattern is kept together */
-    CS_FLUSH_BLOCKS = 8, /* blocks between two updates of a pixel's state */
+    CS_BOX = 8,          /* samples that are neighbours in the first pair: half of */
+    CS_BLOCK = 16,       /* samples whose order within a pattern is kept together */
+    CS_FLUSH_BLOCKS = 4, /* blocks between two updates of a pixel's state */
     CS_STACK = 64,       /* traversal stack, so the deepest hierarchy a device can walk */
     CS_MAX_PATTERN =
         1 << 20,        /* samples in one pattern: strata must stay wider than a float's ulp */

@@ -273,8 +273,8 @@ static int stop_at_half(void *user, const clshear_progress *progress)
 
 /* An interrupted render keeps what it has, says how much that is, and is unbiased: compared pixel
  * by pixel with a finished one, whose sample variance is the better known. It drew whole blocks of
- * CS_BLOCK = 8 neighbouring strata, so its variance is at most 8 times that of as many independent
- * samples; 6 such standard errors, false alarms 2e-9 a pixel. */
+ * CS_BLOCK = 16 neighbouring strata, so its variance is at most 16 times that of as many
+ * independent samples; 6 such standard errors, false alarms 2e-9 a pixel. */
 static void interrupted_renders_are_usable(void **state)
 {
     fixture *made = *state;
@@ -291,7 +291,7 @@ static void interrupted_renders_are_usable(void **state)
     const float *counts = clshear_film_channel(part, "Samples");
     for (int p = 0; p < PIXELS; p++) {
         samples += (double)counts[p];
-        double v = 8.0 * (double)clshear_film_channel(whole, "SampleVariance.R")[p] / counts[p];
+        double v = 16.0 * (double)clshear_film_channel(whole, "SampleVariance.R")[p] / counts[p];
         double d = (double)clshear_film_channel(part, "R")[p] -
                    (double)clshear_film_channel(whole, "R")[p];
         assert_true(fabs(d) < 6.0 * sqrt(v) + 1e-4);

@@ -107,7 +107,7 @@ static inline cs_cell cs_cell_of(const cs_grid *grid, vuint index)
     return cell;
 }
 
-/* Cell number `index` in an order that keeps CS_BLOCK consecutive indices in a block of 4 x 2 cells
+/* Cell number `index` in an order that keeps CS_BOX consecutive indices in a block of 4 x 2 cells
  * wherever the grid allows: neighbours on the film and on the lens, so that a packet of them traces
  * coherently. Pairs of rows are cut into blocks; what is left of a pair is a narrower block, what
  * is left of the rows is in row-major order. */

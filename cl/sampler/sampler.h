@@ -28,9 +28,10 @@ static inline vuint cs_index_at(const cs_pattern *pattern, u32 key, vuint positi
 }
 
 /* The first `pairs` (2 or 3) pairs of coordinates, in [0, 1), of sample `index` < grid.count of the
- * pattern named by `key`. Samples are numbered so that those of a block of CS_BLOCK are neighbours
- * in the first pair wherever the sampler allows. In a packet of several lanes, lanes 0 to 7 and 8
- * to 15 must have consecutive indices each; those that are no sample may have index 0. */
+ * pattern named by `key`. Samples are numbered so that those of a box of CS_BOX are neighbours in
+ * the first pair wherever the sampler allows, and so are the boxes of a block. In a packet of
+ * several lanes, lanes 0 to 7 and 8 to 15 must have consecutive indices each; those that are no
+ * sample may have index 0. */
 static inline void cs_draw(const cs_pattern *pattern, cs_rows rows, u32 key, vuint index, u32 pairs,
                            vfloat *tuple)
 {

@@ -10,10 +10,10 @@ int cs_rows_none(cs_table *table)
     return 1;
 }
 
-/* Boxes of about CS_BLOCK points of any planar set. */
+/* Boxes of about CS_BOX points of any planar set. */
 static void cut_evenly(cs_table *table)
 {
-    const u32 boxes = table->pattern->grid.count / CS_BLOCK;
+    const u32 boxes = table->pattern->grid.count / CS_BOX;
     table->boxes[0] = (u32)lround(sqrt((double)boxes));
     if (table->boxes[0] == 0) table->boxes[0] = 1;
     table->boxes[1] = boxes / table->boxes[0] > 0 ? boxes / table->boxes[0] : 1;

@@ -24,11 +24,11 @@ static u32 product(const generator *matrix, u32 element)
     return digits;
 }
 
-/* Boxes of CS_BLOCK samples, or what comes near: elementary intervals of base 2. */
+/* Boxes of CS_BOX samples, or what comes near: elementary intervals of base 2. */
 static void cut_binary(cs_table *table)
 {
     u32 boxes = 1, columns = 1;
-    while (2 * boxes * CS_BLOCK <= table->pattern->grid.count)
+    while (2 * boxes * CS_BOX <= table->pattern->grid.count)
         boxes *= 2;
     while (2 * columns * columns <= boxes) /* a box is square or twice as wide as high */
         columns *= 2;
@@ -151,12 +151,12 @@ int cs_rows_halton(cs_table *table)
         table->place[1][row] = (u32)(thirds * 0x1p32);
     }
     table->words = 4;
-    /* Elementary boxes of about CS_BLOCK samples: 2^a x 3^b, as square as they come. */
+    /* Elementary boxes of about CS_BOX samples: 2^a x 3^b, as square as they come. */
     u32 columns = 1, bands = 1;
-    while (columns * bands * 2 * CS_BLOCK <= count)
+    while (columns * bands * 2 * CS_BOX <= count)
         if (columns <= bands)
             columns *= 2;
-        else if (columns * bands * 3 * CS_BLOCK <= count)
+        else if (columns * bands * 3 * CS_BOX <= count)
             bands *= 3;
         else
             break;
