@@ -9,18 +9,18 @@
 typedef struct cs_place {
     u32 x; /* raster coordinates in the whole image */
     u32 y;
-    u32 number; /* in the crop, row by row */
-    u32 key;    /* of the pixel's current pattern */
-    f32 shear;  /* of its tuples, pixels */
+    u32 state; /* index in the buffer of pixels */
+    u32 key;   /* of the pixel's current pattern */
+    f32 shear; /* of its tuples, pixels */
 } cs_place;
 
-/* Pixel `number` of the crop, row by row. */
-static inline cs_place cs_place_of(const cs_frame *frame, u32 number, f32 shear)
+/* Pixel `number` of the crop, row by row, which is the launch's pixel `index`. */
+static inline cs_place cs_place_of(const cs_frame *frame, u32 index, u32 number, f32 shear)
 {
     cs_place place;
     place.x = frame->crop_x + number % frame->crop_width;
     place.y = frame->crop_y + number / frame->crop_width;
-    place.number = number;
+    place.state = (frame->compact ? frame->first_pixel + index : number) - frame->page_first;
     place.key =
         cs_pattern_key(frame->seed, place.y * frame->image_width + place.x, frame->replicate);
     place.shear = shear;

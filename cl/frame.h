@@ -24,12 +24,13 @@ typedef struct cs_frame {
     u32 first_pixel; /* place in the order in which pixels are drawn */
     u32 pixel_count;
     u32 pixels_each; /* that a work-item draws together, see cs_pixels_together */
-    u32 page_first;  /* the crop's pixel that is first in the buffer of pixels */
+    u32 page_first;  /* the crop's pixel that is first in the buffer of pixels, or where they */
+    u32 compact;     /* lie there as they are drawn, the place of the first in the order */
     u32 shear_mode;  /* CS_SHEAR_ */
     u32 lights;
     u32 emitters;
 } cs_frame;
-CS_SHARED_WORDS(cs_frame, 68);
+CS_SHARED_WORDS(cs_frame, 69);
 
 /* How many pixels a work-item draws, so that their packets make as many as are drawn together.
  * blocks: of a pixel's pattern in the launch. packet: lanes. */

@@ -35,7 +35,7 @@ static inline void cs_sample(const cs_frame *frame, const cs_world *world, cs_ro
                           first);
             first =
                 packet + 1 < drawn.count ? drawn.place[packet + 1] != drawn.place[packet] : !more;
-            if (first) cs_merge_gather(pixels + (place->number - frame->page_first), &gather);
+            if (first) cs_merge_gather(pixels + place->state, &gather);
         }
     }
 }
@@ -43,10 +43,10 @@ static inline void cs_sample(const cs_frame *frame, const cs_world *world, cs_ro
 /* One work-item draws blocks [first_block, last_block) of the patterns of frame.pixels_each pixels.
  *
  * Global size: at least frame.pixel_count / frame.pixels_each, rounded up; any local size. pixels:
- * one cs_pixel for each pixel of the crop from frame.page_first on, zero at first. order: the
- * crop's pixels (row by row) in the order in which they are drawn. shears: the oracle's answer for
- * each pixel of the crop, in pixels. rows: the pattern's table. table: the optics'. The others: the
- * scene, see cs_world. */
+ * one cs_pixel for each pixel of the crop from frame.page_first on, or each that is drawn, zero at
+ * first. order: the crop's pixels (row by row) in the order in which they are drawn. shears: the
+ * oracle's answer for each pixel of the crop, in pixels. rows: the pattern's table. table: the
+ * optics'. The others: the scene, see cs_world. */
 __kernel void cs_render(const cs_frame frame, __global cs_pixel *pixels, __global const uint *order,
                         __global const float *shears, __global const uint *rows,
                         __global const float *table, __global const cs_node *nodes,
@@ -63,7 +63,7 @@ __kernel void cs_render(const cs_frame frame, __global cs_pixel *pixels, __globa
     int count = (int)min(frame.pixels_each, frame.pixel_count - begin);
     for (int i = 0; i < count; i++) {
         u32 number = order[frame.first_pixel + begin + (u32)i];
-        places[i] = cs_place_of(&frame, number, shears[number]);
+        places[i] = cs_place_of(&frame, begin + (u32)i, number, shears[number]);
     }
     for (u32 block = frame.first_block; block < frame.last_block; block += CS_FLUSH_BLOCKS) {
         u32 end = min(block + (u32)CS_FLUSH_BLOCKS, frame.last_block) * (u32)CS_BLOCK;
@@ -71,5 +71,5 @@ __kernel void cs_render(const cs_frame frame, __global cs_pixel *pixels, __globa
     }
     if (frame.last_block != frame.pattern.blocks) return;
     for (int i = 0; i < count; i++)
-        cs_finish_pattern(pixels + (places[i].number - frame.page_first));
+        cs_finish_pattern(pixels + places[i].state);
 }

@@ -22,24 +22,27 @@ typedef struct outcome {
     f32 *intensity;
 } outcome;
 
-static clshear_status read_outcome(const cs_job *job, const cs_pixels *pixels,
+/* Of the pixels in `list`; NULL: of all. */
+static clshear_status read_outcome(const cs_job *job, const cs_pixels *pixels, const u32 *list,
                                    const outcome *result, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_pixel *slice = malloc(SLICE * sizeof *slice);
     CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    for (size_t first = 0; first < job->pixel_count; first += SLICE) {
-        const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
+    for (size_t i = 0; i < job->pixel_count && list != NULL; i++)
+        result->variance[i] = -1.0f;
+    for (size_t first = 0; first < pixels->count; first += SLICE) {
+        const size_t left = pixels->count - first, count = left < SLICE ? left : SLICE;
         CS_TRY(cs_pixels_read(pixels, first, count, slice, error));
         for (size_t i = 0; i < count; i++) {
             const cs_pixel *p = &slice[i];
+            const size_t number = list != NULL ? list[first + i] : first + i;
             f32 m2 = 0.0f, sum = 0.0f;
             for (int c = 0; c < 3; c++)
                 m2 += p->pattern_m2[c], sum += p->pattern_sum[c];
-            const int looked = p->patterns > 1;
-            result->variance[first + i] = looked ? m2 / (3.0f * (f32)(p->patterns - 1)) : -1.0f;
+            result->variance[number] = m2 / (3.0f * (f32)(p->patterns - 1));
             if (result->intensity != NULL)
-                result->intensity[first + i] = looked ? sum / (3.0f * (f32)p->patterns) : 0.0f;
+                result->intensity[number] = sum / (3.0f * (f32)p->patterns);
         }
     }
 done:
@@ -60,11 +63,11 @@ static clshear_status run(cs_job *job, const f32 *shears, const u32 *list, size_
     const u32 sampler = job->pattern.sampler, width = (u32)(job->window[1] - job->window[0]);
     const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, samples));
     cs_sweep sweep = cs_job_sweep(job);
-    CS_TRY(cs_pixels_create(context, job->pixel_count, width, &pixels, error));
     if (count > 0) {
+        CS_TRY(cs_pixels_create(context, count, width, &pixels, error));
         CS_TRY(cs_buffer_create(context->device, job->pixel_count * sizeof *shears, shears,
                                 &shear_buffer, error));
-        CS_TRY(cs_batch_create(context, &pattern, list, count, width, &batch, error));
+        CS_TRY(cs_batch_create(context, &pattern, list, count, width, list != NULL, &batch, error));
         sweep.frame.seed = cs_key(job->options.seed, 0x70696c6fu); /* its own random numbers */
         sweep.shears = shear_buffer;
         sweep.pixels = &pixels;
@@ -73,7 +76,7 @@ static clshear_status run(cs_job *job, const f32 *shears, const u32 *list, size_
             CS_TRY(cs_sweep_replicate(&sweep, &batch, 1, replicate, error));
         job->pilot_samples += sweep.done;
     }
-    CS_TRY(read_outcome(job, &pixels, result, error));
+    CS_TRY(read_outcome(job, &pixels, list, result, error));
 done:
     job->kernel_s += sweep.kernel_s;
     cs_batch_free(&batch);

@@ -68,7 +68,7 @@ static clshear_status batch_by_samples(cs_job *job, cs_error *error)
         }
         if (count == 0) continue;
         const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, wanted));
-        CS_TRY(cs_batch_create(job->scene->context, &pattern, list, count, width,
+        CS_TRY(cs_batch_create(job->scene->context, &pattern, list, count, width, 0,
                                &job->batches[job->batch_count], error));
         job->batch_count++;
     }
@@ -89,7 +89,7 @@ static clshear_status plan_batches(cs_job *job, cs_error *error)
                 job->options.spp, CS_LEAST_SPP_TO_SHARE);
     if (!shared) {
         job->batch_count = 1;
-        return cs_batch_create(job->scene->context, &job->pattern, NULL, job->pixel_count, width,
+        return cs_batch_create(job->scene->context, &job->pattern, NULL, job->pixel_count, width, 0,
                                &job->batches[0], error);
     }
     job->samples = calloc(job->pixel_count, sizeof *job->samples);

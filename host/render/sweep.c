@@ -6,8 +6,8 @@
 static const double launch_s = 0.15; /* aim for one launch */
 
 clshear_status cs_batch_create(clshear_context *context, const cs_pattern *pattern,
-                               const u32 *pixels, size_t count, u32 width, cs_batch *batch,
-                               cs_error *error)
+                               const u32 *pixels, size_t count, u32 width, int compact,
+                               cs_batch *batch, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_device *device = context->device;
@@ -15,6 +15,7 @@ clshear_status cs_batch_create(clshear_context *context, const cs_pattern *patte
     u32 *order = NULL;
     batch->pattern = *pattern;
     batch->pixel_count = count;
+    batch->compact = compact;
     CS_TRY(cs_tables_find(&context->tables, device, pattern, &batch->rows, error));
     if (pixels == NULL) {
         order = malloc(count * sizeof *order);
@@ -23,10 +24,11 @@ clshear_status cs_batch_create(clshear_context *context, const cs_pattern *patte
             order[i] = cs_tiled_pixel((u32)i, width, (u32)(count / width));
         pixels = order;
     }
-    batch->page_ends = calloc(pixels[count - 1] / page_pixels + 1, sizeof *batch->page_ends);
+    batch->page_ends = calloc((compact ? count - 1 : pixels[count - 1]) / page_pixels + 1,
+                              sizeof *batch->page_ends);
     CS_REQUIRE(batch->page_ends != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     for (size_t i = 0; i < count; i++)
-        batch->page_ends[pixels[i] / page_pixels] = i + 1;
+        batch->page_ends[(compact ? i : pixels[i]) / page_pixels] = i + 1;
     CS_TRY(cs_buffer_create(device, count * sizeof *pixels, pixels, &batch->order, error));
 done:
     free(order);
@@ -112,6 +114,7 @@ static clshear_status sweep_batch(cs_sweep *sweep, const cs_batch *batch, u32 fi
     frame.pattern = batch->pattern;
     frame.first_block = first;
     frame.last_block = last;
+    frame.compact = (u32)batch->compact;
     frame.pixels_each =
         cs_pixels_together(last - first, (u32)cs_device_packet(sweep->scene->context->device));
     size_t page = 0;

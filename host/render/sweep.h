@@ -11,6 +11,7 @@ typedef struct cs_batch {
     const cs_buffer *rows; /* the pattern's table; of the context */
     cs_buffer *order;      /* u32: the pixels, numbered in the window row by row; owned */
     size_t pixel_count;
+    int compact;       /* whether states lie in this order, not in that of the window */
     size_t *page_ends; /* of each page of pixels: where in the order the next begins; owned */
 } cs_batch;
 
@@ -30,10 +31,10 @@ typedef struct cs_sweep {
 } cs_sweep;
 
 /* A batch of the pixels listed in `pixels`, row by row or in a walk through tiles; all `count` of a
- * window of this width where that is NULL. */
+ * window of this width where that is NULL. compact: their states are in the order of the list. */
 clshear_status cs_batch_create(clshear_context *context, const cs_pattern *pattern,
-                               const u32 *pixels, size_t count, u32 width, cs_batch *batch,
-                               cs_error *error);
+                               const u32 *pixels, size_t count, u32 width, int compact,
+                               cs_batch *batch, cs_error *error);
 void cs_batch_free(cs_batch *batch);
 
 /* Draws one replicate of every batch's patterns: of all of them a part, then the next part, so that
