@@ -31,6 +31,7 @@ mi.set_log_level(mi.LogLevel.Error)
 
 SAMPLERS = ["independent", "stratified", "multijitter", "orthogonal", "ldsampler"]
 CLSHEAR_SPP = [16, 32, 64, 128, 256, 512, 1024]
+CLSHEAR_SETTINGS = {"default": [], "--adaptive": ["--adaptive"]}
 
 # "path" with two vertices also traces the ray of a BSDF sample, which never meets a point light;
 # "direct" without BSDF samples traces what clshear does: a camera ray and a shadow ray.
@@ -224,8 +225,8 @@ class World:
         return np.array(image)[:, :, :3], seconds, sensor.sampler().sample_count()
 
     def clshear(self, spp, seed, *flags):
-        """The pixels, the variance of their values, seconds of the render (depths and pilot
-        included, loading and compiling not), and samples per second of the kernels."""
+        """The pixels, the variance of their values if there is one, seconds of the render (depths
+        and pilot included, loading and compiling not), and samples per second of the kernels."""
         with tempfile.NamedTemporaryFile(suffix=".exr") as file:
             command = [self.options.program, self.path, "--aperture", "disk", "--width",
                        self.options.size, "--height", self.options.size, "--spp", spp, "--seed",
@@ -237,7 +238,8 @@ class World:
         place = {field.name: i for i, field in enumerate(bitmap.struct_())}
         planes = np.array(bitmap)
         pixels = planes[:, :, [place[c] for c in "RGB"]]
-        variance = planes[:, :, [place["Variance." + c] for c in "RGB"]]
+        variance = (planes[:, :, [place["Variance." + c] for c in "RGB"]]
+                    if "Variance.R" in place else None)
         rate = float(re.search(r"^samples .* ([\d.]+) M/s", stats, re.M)[1]) * 1e6
         # The seconds that --stats prints, with more digits.
         return pixels, variance, float(bitmap.metadata()["renderTimeSeconds"]), rate
@@ -294,30 +296,33 @@ def speed(world):
     return result
 
 
-def noise_of_mitsuba(world):
-    """By sampler: MSE and seconds of a render; samplers that refuse are told of and left out."""
-    result = {}
+def noise(world):
+    """MSE and seconds of whole renders, in turn: of Mitsuba by sampler, of clshear by its settings
+    and samples per pixel. Samplers that refuse are told of and left out.
+
+    clshear spends its samples on one pattern, as Mitsuba does: neither gives an error estimate."""
+    theirs, ours = {}, {}
     for sampler in SAMPLERS:
         try:
             world.mitsuba(sampler, 0)
-            renders = [world.mitsuba(sampler, seed) for seed in range(world.options.seeds)]
+            theirs[sampler] = []
         except RuntimeError as error:
             print(f"{sampler}: {str(error).splitlines()[0]}", file=sys.stderr)
-            continue
-        result[sampler] = {"mse": float(moments([r[0] for r in renders])[1].mean()),
-                           "seconds": statistics.median(r[1] for r in renders),
-                           "spp": renders[0][2]}
-    return result
+    for seed in range(world.options.seeds):
+        for sampler, renders in theirs.items():
+            renders.append(world.mitsuba(sampler, seed))
+        for setting, flags in CLSHEAR_SETTINGS.items():
+            for spp in CLSHEAR_SPP:
+                image, _, seconds, _ = world.clshear(spp, seed, "--replicates", 1, *flags)
+                ours.setdefault((setting, spp), []).append((image, seconds, spp))
 
+    def summary(renders):
+        return {"mse": float(moments([r[0] for r in renders])[1].mean()),
+                "seconds": statistics.median(r[1] for r in renders), "spp": renders[0][2]}
 
-def noise_of_clshear(world):
-    """MSE and seconds of whole renders, as users run them, by samples per pixel."""
-    result = {}
-    for spp in CLSHEAR_SPP:
-        renders = [world.clshear(spp, seed) for seed in range(world.options.seeds)]
-        result[spp] = {"mse": float(moments([r[0] for r in renders])[1].mean()),
-                       "seconds": statistics.median(r[2] for r in renders)}
-    return result
+    by_setting = {setting: {spp: summary(ours[setting, spp]) for spp in CLSHEAR_SPP}
+                  for setting in CLSHEAR_SETTINGS}
+    return {sampler: summary(renders) for sampler, renders in theirs.items()}, by_setting
 
 
 def seconds_to_reach(mse, renders):
@@ -351,23 +356,30 @@ def study(world, name):
     print(f"| clshear | {rates['clshear'] / 1e6:.1f} | |\n| Mitsuba, {world.options.integrator} | "
           f"{rates['mitsuba'] / 1e6:.2f} | {rates['ratio_path']:.1f}, "
           f"{rates['ratio_direct']:.1f} |\n")
-    theirs, ours = noise_of_mitsuba(world), noise_of_clshear(world)
-    print("| Mitsuba's sampler | samples | MSE | seconds | clshear gets there in | "
-          "times faster |\n|---|---|---|---|---|---|")
+    theirs, ours = noise(world)
+    settings = list(CLSHEAR_SETTINGS)
+    print("| Mitsuba's sampler | samples | MSE | seconds | clshear gets there in | times faster | "
+          + " | ".join(f"{setting} | times faster" for setting in settings[1:]) + " |\n"
+          + "|---" * (4 + 2 * len(settings)) + "|")
     for sampler, reached in theirs.items():
-        seconds, exact = seconds_to_reach(reached["mse"], ours)
-        reached["clshear_seconds"], reached["exact"] = seconds, exact
-        if seconds is None:
-            print(f"| {sampler} | {reached['spp']} | {reached['mse']:.2e} | "
-                  f"{reached['seconds']:.2f} | - | - |")
-            continue
-        reached["times"] = reached["seconds"] / seconds
-        sign = ("", "") if exact else ("less than ", "more than ")
-        print(f"| {sampler} | {reached['spp']} | {reached['mse']:.2e} | {reached['seconds']:.2f} | "
-              f"{sign[0]}{seconds:.4f} | {sign[1]}{reached['times']:.0f} |")
-    print("\n| clshear, samples | MSE | seconds |\n|---|---|---|")
-    for spp, reached in ours.items():
-        print(f"| {spp} | {reached['mse']:.2e} | {reached['seconds']:.4f} |")
+        line = (f"| {sampler} | {reached['spp']} | {reached['mse']:.2e} | "
+                f"{reached['seconds']:.2f} |")
+        for setting in settings:
+            seconds, exact = seconds_to_reach(reached["mse"], ours[setting])
+            reached[setting] = {"seconds": seconds, "exact": exact}
+            if seconds is None:
+                line += " - | - |"
+                continue
+            reached[setting]["times"] = times = reached["seconds"] / seconds
+            sign = ("", "") if exact else ("less than ", "more than ")
+            line += f" {sign[0]}{seconds:.4f} | {sign[1]}{times:.0f} |"
+        print(line)
+    print("\n| clshear, samples |" + "".join(f" {setting}: MSE | seconds |" for setting in settings)
+          + "\n|---" + "|---" * (2 * len(settings)) + "|")
+    for spp in CLSHEAR_SPP:
+        print(f"| {spp} |" + "".join(f" {ours[setting][spp]['mse']:.2e} | "
+                                     f"{ours[setting][spp]['seconds']:.4f} |"
+                                     for setting in settings))
     return {"scene": name, "triangles": world.triangles, "agreement": same, "speed": rates,
             "mitsuba": theirs, "clshear": ours}
 
