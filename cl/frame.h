@@ -38,7 +38,7 @@ static inline u32 cs_pixels_together(u32 blocks, u32 packet)
 {
     u32 together = packet > 1u ? 64u / packet : 1u;
     u32 packets = (blocks * (u32)CS_BLOCK + packet - 1u) / packet;
-    return packets < together ? together / packets : 1u;
+    return packets > 0u && packets < together ? together / packets : 1u;
 }
 
 /* Raster index (row by row) of the pixel that is number `order` in a walk through tiles of 8 x 8
