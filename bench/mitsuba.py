@@ -40,9 +40,7 @@ INTEGRATORS = {
     "direct": {"type": "direct", "emitter_samples": 1, "bsdf_samples": 0},
 }
 
-# ---------------------------------------------------------------------------------------------
-# A scene of many triangles
-# ---------------------------------------------------------------------------------------------
+# --- A scene of many triangles ---
 
 SPHERE_MATERIALS = {
     "brick": (0.65, 0.25, 0.18), "sand": (0.75, 0.65, 0.45), "moss": (0.3, 0.5, 0.22),
@@ -99,9 +97,7 @@ def write_spheres(folder, columns=16, rows=15):
     return folder / "spheres.obj"
 
 
-# ---------------------------------------------------------------------------------------------
-# The scene in Mitsuba's terms
-# ---------------------------------------------------------------------------------------------
+# --- The scene in Mitsuba's terms ---
 
 
 def read_flags(path):
@@ -245,10 +241,7 @@ class World:
         return pixels, variance, float(bitmap.metadata()["renderTimeSeconds"]), rate
 
 
-
-# ---------------------------------------------------------------------------------------------
-# What is measured
-# ---------------------------------------------------------------------------------------------
+# --- What is measured ---
 
 
 def moments(images):
@@ -338,25 +331,11 @@ def seconds_to_reach(mse, renders):
     return None, False
 
 
-# ---------------------------------------------------------------------------------------------
-# Tables
-# ---------------------------------------------------------------------------------------------
+# --- Tables ---
 
 
-def study(world, name):
-    """Everything about one scene, printed as it comes."""
-    print(f"\n### {name}, {world.triangles} triangles, {world.options.size} x "
-          f"{world.options.size} pixels\n")
-    same = agreement(world)
-    print("Pictures {}: z of {pixels} pixels has mean {mean_z:.4f}, deviation {deviation_z:.3f}; "
-          "{:.2%} beyond 3\n".format("agree" if same["agree"] else "DIFFER", same["beyond_3"],
-                                     **same))
-    rates = speed(world)
-    print("| | M samples/s | clshear is faster than path, than direct |\n|---|---|---|")
-    print(f"| clshear | {rates['clshear'] / 1e6:.1f} | |\n| Mitsuba, {world.options.integrator} | "
-          f"{rates['mitsuba'] / 1e6:.2f} | {rates['ratio_path']:.1f}, "
-          f"{rates['ratio_direct']:.1f} |\n")
-    theirs, ours = noise(world)
+def print_noise(theirs, ours):
+    """Times to the same noise, which are added to what is known of Mitsuba, and what they are of."""
     settings = list(CLSHEAR_SETTINGS)
     print("| Mitsuba's sampler | samples | MSE | seconds | clshear gets there in | times faster | "
           + " | ".join(f"{setting} | times faster" for setting in settings[1:]) + " |\n"
@@ -380,6 +359,23 @@ def study(world, name):
         print(f"| {spp} |" + "".join(f" {ours[setting][spp]['mse']:.2e} | "
                                      f"{ours[setting][spp]['seconds']:.4f} |"
                                      for setting in settings))
+
+
+def study(world, name):
+    """Everything about one scene, printed as it comes."""
+    print(f"\n### {name}, {world.triangles} triangles, {world.options.size} x "
+          f"{world.options.size} pixels\n")
+    same = agreement(world)
+    print("Pictures {}: z of {pixels} pixels has mean {mean_z:.4f}, deviation {deviation_z:.3f}; "
+          "{:.2%} beyond 3\n".format("agree" if same["agree"] else "DIFFER", same["beyond_3"],
+                                     **same))
+    rates = speed(world)
+    print("| | M samples/s | clshear is faster than path, than direct |\n|---|---|---|")
+    print(f"| clshear | {rates['clshear'] / 1e6:.1f} | |\n| Mitsuba, {world.options.integrator} | "
+          f"{rates['mitsuba'] / 1e6:.2f} | {rates['ratio_path']:.1f}, "
+          f"{rates['ratio_direct']:.1f} |\n")
+    theirs, ours = noise(world)
+    print_noise(theirs, ours)
     return {"scene": name, "triangles": world.triangles, "agreement": same, "speed": rates,
             "mitsuba": theirs, "clshear": ours}
 
