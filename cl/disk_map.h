@@ -121,9 +121,7 @@ CS_INLINED cs_film_lens cs_disk_end(const cs_film_lens *tuple, const cs_disk_way
     return point;
 }
 
-/* Maps `count` packets of tuples, at most CS_TOGETHER, in place, each with the blur of its own
- * shear.
- */
+/* Maps `count` packets of tuples, at most CS_TOGETHER, in place; each has its own shear. */
 static inline void cs_disk_map(cs_film_lens *points, const f32 *shears, int count, f32 squeeze)
 {
     cs_disk_way way[CS_TOGETHER];

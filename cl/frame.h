@@ -24,19 +24,19 @@ typedef struct cs_frame {
     u32 first_pixel; /* place in the order in which pixels are drawn */
     u32 pixel_count;
     u32 pixels_each; /* that a work-item draws together, see cs_pixels_together */
-    u32 page_first;  /* the crop's pixel that is first in the buffer of pixels, or where they */
-    u32 compact;     /* lie there as they are drawn, the place of the first in the order */
+    u32 compact;     /* whether the buffer of pixels has them in that order, not row by row */
+    u32 page_first;  /* number, in the buffer's order, of the pixel that it begins with */
     u32 shear_mode;  /* CS_SHEAR_ */
     u32 lights;
     u32 emitters;
 } cs_frame;
 CS_SHARED_WORDS(cs_frame, 69);
 
-/* How many pixels a work-item draws, so that their packets make as many as are drawn together.
+/* How many pixels a work-item draws, so that their packets make CS_TOGETHER.
  * blocks: of a pixel's pattern in the launch. packet: lanes. */
 static inline u32 cs_pixels_together(u32 blocks, u32 packet)
 {
-    u32 together = packet > 1u ? 64u / packet : 1u;
+    u32 together = packet > 1u ? (u32)(CS_FLUSH_BLOCKS * CS_BLOCK) / packet : 1u;
     u32 packets = (blocks * (u32)CS_BLOCK + packet - 1u) / packet;
     return packets > 0u && packets < together ? together / packets : 1u;
 }

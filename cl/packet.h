@@ -5,7 +5,7 @@
 #ifndef CS_PACKET_H
 #define CS_PACKET_H
 
-#include "dialect.h"
+#include "shared.h"
 
 #ifdef CS_DEVICE
 
@@ -82,12 +82,12 @@ static inline int cs_any(i32 mask)
 
 #endif
 
-/* Packets that are drawn together: 64 samples, as many as lie between two updates of a pixel
- * (CS_FLUSH_BLOCKS). One lane keeps to registers. */
+/* Packets that are drawn together: as many as lie between two updates of a pixel. One lane keeps to
+ * registers. */
 #if CS_PACKET == 1
 #define CS_TOGETHER 1
 #else
-#define CS_TOGETHER (64 / CS_PACKET)
+#define CS_TOGETHER (CS_FLUSH_BLOCKS * CS_BLOCK / CS_PACKET)
 #endif
 
 /* Not fmin and fmax: those must order NaN, which costs two more instructions. A NaN in the first
