@@ -19,10 +19,11 @@ set(floor_host/cli 9)
 
 # Inside cl/, file by file.
 set(kernel_floors
-    dialect.h 0 shared.h 1 packet.h 1 frequencies.h 1 stats.h 2 hash.h 2 disk.h 2 disk_fibre.h 3 film_lens.h 2 disk_map.h 4 profile.h 3 fibre.h 4
-    sampler/list.h 2 sampler/grid.h 3 sampler/pattern.h 4 sampler/jitter.h 5 sampler/multijitter.h 5
-    sampler/net.h 5 sampler/halton.h 6 sampler/shifted.h 5 sampler/sampler.h 7 shear.h 5 lens.h 4 frame.h 8 draw.h 9 traverse.h 5 shade.h 6 gather.h 3
-    render.cl 10 trace.cl 10 points.cl 10 spectrum.cl 10 radiance.cl 10)
+    dialect.h 0 shared.h 1 frequencies.h 1 packet.h 2 stats.h 2 hash.h 3 disk.h 3 disk_fibre.h 4 film_lens.h 3
+    disk_map.h 5 profile.h 4 fibre.h 5 sampler/list.h 3 sampler/grid.h 4 sampler/pattern.h 5 sampler/jitter.h 6
+    sampler/multijitter.h 6 sampler/net.h 6 sampler/halton.h 7 sampler/shifted.h 6 sampler/sampler.h 8 shear.h 6
+    lens.h 5 frame.h 9 draw.h 10 traverse.h 6 shade.h 7 gather.h 4
+    render.cl 11 trace.cl 11 points.cl 11 spectrum.cl 11 radiance.cl 11)
 while(kernel_floors)
     list(POP_FRONT kernel_floors name number)
     set("kernel_${name}" ${number})
