@@ -111,15 +111,44 @@ static void samples_follow_variance(void **state)
         intensity[i] = 1.0f;
     }
     const cs_pilot_picture pilot = {variance, intensity, SIDE, SIDE, 16, 4};
-    assert_int_equal(cs_share_samples(&pilot, 1000, samples, &error), CLSHEAR_OK);
+    assert_int_equal(cs_share_samples(&pilot, 1000, 1 << 20, samples, &error), CLSHEAR_OK);
     for (u32 i = 0; i < PIXELS; i++) {
         total += samples[i];
         assert_int_equal(samples[i] & (samples[i] - 1), 0);
-        assert_true(samples[i] >= 64 && samples[i] <= 16384);
+        assert_true(samples[i] >= 64 && samples[i] <= 16000);
     }
     assert_true(total <= 1000.0 * PIXELS && total > 500.0 * PIXELS);
     const u32 inside = samples[26 * SIDE + 26], outside = samples[5 * SIDE + 5];
     assert_true(inside == 16 * outside);
+}
+
+/* One pixel that wants everything: the sampler's largest pattern is the limit, and the mean is not
+ * exceeded however small it is. */
+static void sharing_keeps_to_limits(void **state)
+{
+    static const struct {
+        u32 mean, limit, least, most;
+    } cases[] = {{1, 1 << 20, 1, 1},           {2, 1 << 20, 2, 2},
+                 {3, 1 << 20, 2, 32},          {100, 1 << 20, 8, 1024},
+                 {100000, 65536, 8192, 65536}, {1 << 20, 1 << 20, 1 << 16, 1 << 20}};
+    static f32 variance[PIXELS], intensity[PIXELS];
+    static u32 samples[PIXELS];
+    cs_error error;
+    (void)state;
+    variance[PIXELS / 2] = 1.0f;
+    const cs_pilot_picture pilot = {variance, intensity, SIDE, SIDE, 16, 4};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        double total = 0.0;
+        assert_int_equal(cs_share_samples(&pilot, cases[c].mean, cases[c].limit, samples, &error),
+                         CLSHEAR_OK);
+        for (u32 i = 0; i < PIXELS; i++) {
+            total += samples[i];
+            assert_true(samples[i] >= cases[c].least && samples[i] <= cases[c].most);
+        }
+        assert_true(total <= (double)cases[c].mean * PIXELS);
+        assert_int_equal(samples[0], cases[c].least);
+        assert_int_equal(samples[PIXELS / 2], cases[c].most);
+    }
 }
 
 /* A pilot that saw an edge between two columns, but no variance in either, does not trust that. */
@@ -134,7 +163,7 @@ static void contrast_gets_samples(void **state)
         intensity[i] = i % SIDE < SIDE / 2 ? 0.2f : 1.0f;
     }
     const cs_pilot_picture pilot = {variance, intensity, SIDE, SIDE, 16, 4};
-    assert_int_equal(cs_share_samples(&pilot, 1000, samples, &error), CLSHEAR_OK);
+    assert_int_equal(cs_share_samples(&pilot, 1000, 1 << 20, samples, &error), CLSHEAR_OK);
     for (u32 y = 0; y < SIDE; y++) {
         const u32 *row = samples + y * SIDE;
         assert_true(row[SIDE / 2 - 1] >= 8 * row[SIDE / 2 - 2]);
@@ -148,6 +177,7 @@ int main(void)
                                        cmocka_unit_test(rules_take_their_depths),
                                        cmocka_unit_test(clear_evidence_decides),
                                        cmocka_unit_test(without_evidence_the_prior_stays),
+                                       cmocka_unit_test(sharing_keeps_to_limits),
                                        cmocka_unit_test(samples_follow_variance),
                                        cmocka_unit_test(contrast_gets_samples)};
     return cmocka_run_group_tests(tests, NULL, NULL);

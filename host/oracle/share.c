@@ -63,20 +63,23 @@ static u32 rounded(double wanted, u32 least, u32 most)
     return count;
 }
 
-/* The least power of two that is not below `count`. */
+/* The largest power of two that is not above `count` (at least 1). */
 static u32 power_of_two(u32 count)
 {
     u32 power = 1;
-    while (power < count)
+    while (power <= count / 2)
         power *= 2;
     return power;
 }
 
-clshear_status cs_share_samples(const cs_pilot_picture *pilot, u32 mean, u32 *samples,
+clshear_status cs_share_samples(const cs_pilot_picture *pilot, u32 mean, u32 limit, u32 *samples,
                                 cs_error *error)
 {
     const size_t pixels = (size_t)pilot->width * (size_t)pilot->height;
-    const u32 least = power_of_two(mean / 16 > 4 ? mean / 16 : 4), most = power_of_two(16 * mean);
+    const u32 least = power_of_two(mean < 4     ? mean
+                                   : mean <= 64 ? 4
+                                                : 2 * ((mean - 1) / 16) + 1); /* upwards */
+    const u32 most = power_of_two(limit / 16 < mean ? limit : 16 * mean);
     double *desire = malloc(pixels * sizeof *desire);
     if (desire == NULL)
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", pixels);

@@ -209,10 +209,12 @@ clshear_status cs_pilot_samples(cs_job *job, u32 *samples, cs_error *error)
                       .intensity = malloc(job->pixel_count * sizeof(f32))};
     CS_REQUIRE(result.variance != NULL && result.intensity != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory for the pilot of %zu pixels", job->pixel_count);
-    /* A sixteenth of the samples at most, as patterns of which there are two to four. */
-    const u32 budget = job->options.spp / 16;
-    const u32 size = budget >= 64 ? 16 : budget >= 16 ? 8 : 4;
-    const u32 replicates = budget / size < 4 ? budget / size : 4;
+    /* A sixteenth of the samples, but two patterns at least that say something: smaller ones rank
+     * pixels worse, and where packets have 16 lanes they cost as much. */
+    const u32 sampler = job->pattern.sampler;
+    const u32 size = cs_sampler_count(sampler, job->options.spp < 256 ? 8 : 16);
+    const u32 patterns = job->options.spp / 16 / size;
+    const u32 replicates = patterns < 2 ? 2 : patterns > 4 ? 4 : patterns;
     CS_TRY(run(job, job->shear_px, NULL, job->pixel_count, size, replicates, &result, error));
     const cs_pilot_picture picture = {.variance = result.variance,
                                       .intensity = result.intensity,
@@ -220,7 +222,10 @@ clshear_status cs_pilot_samples(cs_job *job, u32 *samples, cs_error *error)
                                       .height = height,
                                       .pattern = size,
                                       .replicates = replicates};
-    CS_TRY(cs_share_samples(&picture, job->pattern.grid.count, samples, error));
+    u32 limit = CS_MAX_PATTERN; /* a power of two for which the sampler has a pattern */
+    while (cs_sampler_count(sampler, limit) == 0)
+        limit /= 2;
+    CS_TRY(cs_share_samples(&picture, job->pattern.grid.count, limit, samples, error));
 done:
     free(result.variance);
     free(result.intensity);

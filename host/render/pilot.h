@@ -9,8 +9,8 @@
 clshear_status cs_pilot_shears(cs_job *job, cs_error *error);
 
 /* Shares the replicate's samples out among the pixels: `samples`, one for each, powers of two whose
- * mean is at most that of the job's pattern. Costs a sixteenth of the render's, of which there must
- * be CS_LEAST_SPP_TO_SHARE a pixel. */
+ * mean is at most that of the job's pattern. Costs a sixteenth of the render's (an eighth of less
+ * than 512), of which there must be CS_LEAST_SPP_TO_SHARE a pixel. */
 enum {
     CS_LEAST_SPP_TO_SHARE = 128
 };
