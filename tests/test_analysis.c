@@ -2,6 +2,7 @@
 #include "support.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 
 #include "hash.h"
@@ -226,6 +227,49 @@ static void slopes_are_fitted(void **state)
     assert_true(fabs(errors[1] - pow(64.0, -1.5) * 100.5) < 1e-9);
 }
 
+/* Spectra of one wave a side, whose power is all in two frequencies. Returns NULL if they are. */
+static void *transform_waves(void *argument)
+{
+    const size_t first = *(const size_t *)argument;
+    float values[40 * 40];
+    for (size_t side = first; side < 40; side++) {
+        clshear_spectrum spectrum = {0};
+        for (size_t i = 0; i < side * side; i++)
+            values[i] = (float)cos(2.0 * pi * (double)(i % side) / (double)side);
+        if (clshear_spectrum_of_grid(values, side, side, &spectrum) != CLSHEAR_OK) return argument;
+        const size_t middle = side / 2 * side + side / 2;
+        const double expected = 0.5 * (double)(side * side - 1);
+        const int good = fabs((double)spectrum.power[middle - 1] / expected - 1.0) < 1e-4 &&
+                         fabs((double)spectrum.power[middle + 1] / expected - 1.0) < 1e-4;
+        clshear_spectrum_free(&spectrum);
+        if (!good) return argument;
+    }
+    return NULL;
+}
+
+/* FFTW's planner is one for all threads of a process. */
+static void threads_share_the_planner(void **state)
+{
+    enum {
+        THREADS = 8,
+        ROUNDS = 20
+    };
+    pthread_t threads[THREADS];
+    size_t first[THREADS];
+    (void)state;
+    for (int round = 0; round < ROUNDS; round++) {
+        for (size_t t = 0; t < THREADS; t++) {
+            first[t] = 4 + t;
+            assert_int_equal(pthread_create(&threads[t], NULL, transform_waves, &first[t]), 0);
+        }
+        for (size_t t = 0; t < THREADS; t++) {
+            void *wrong;
+            assert_int_equal(pthread_join(threads[t], &wrong), 0);
+            assert_null(wrong);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -234,6 +278,7 @@ int main(void)
         cmocka_unit_test(rings_and_directions_are_read_off),
         cmocka_unit_test(prediction_equals_measurement),
         cmocka_unit_test(slopes_are_fitted),
+        cmocka_unit_test(threads_share_the_planner),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "analysis/fourier.h"
 #include "hash.h"
 
 static const double pi = 3.14159265358979323846;
@@ -115,6 +116,7 @@ static clshear_status reserve(accumulation *a, cs_energy *energy, cs_error *erro
     CS_REQUIRE(a->grid != NULL && a->transform != NULL && a->sum != NULL && a->points != NULL &&
                    a->values != NULL && energy->values != NULL,
                CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu values of an integrand", a->cells);
+    cs_fourier_start();
     a->plan = fftw_plan_dft_r2c(m->rank, sides, a->grid, a->transform, FFTW_ESTIMATE);
     CS_REQUIRE(a->plan != NULL, CLSHEAR_OUT_OF_MEMORY, "no transform of %zu values", a->cells);
 done:

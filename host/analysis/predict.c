@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
+#include "analysis/fourier.h"
 #include "base/status.h"
 
 static const double pi = 3.14159265358979323846;
@@ -103,6 +104,7 @@ clshear_status clshear_predict_variance(const clshear_spectrum *samples, const f
     means = calloc(2 * rings, sizeof *means);
     CS_REQUIRE(values != NULL && transform != NULL && means != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory for an integrand of %zu x %zu cells", side, side);
+    cs_fourier_start();
     plan = fftw_plan_dft_r2c_2d((int)side, (int)side, values, transform, FFTW_ESTIMATE);
     CS_REQUIRE(plan != NULL, CLSHEAR_OUT_OF_MEMORY, "no transform of %zu x %zu cells", side, side);
     for (size_t i = 0; i < side * side; i++) {
@@ -137,6 +139,7 @@ clshear_status clshear_spectrum_of_grid(const float *values, size_t width, size_
     made.power = malloc(made.count * sizeof *made.power);
     CS_REQUIRE(data != NULL && made.power != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory for %zu x %zu values", width, height);
+    cs_fourier_start();
     plan = fftw_plan_dft_2d((int)height, (int)width, data, data, FFTW_FORWARD, FFTW_ESTIMATE);
     CS_REQUIRE(plan != NULL, CLSHEAR_OUT_OF_MEMORY, "no transform of %zu x %zu values", width,
                height);
