@@ -198,7 +198,7 @@ case $?$output in 1*"kept.csv: cannot be written: File too large"*) ;; *) wrong 
 expect 2 "--nsamps 64,16: must be 2 to 32 rising" -- converge --integrand box --nsamps 64,16
 expect 1 "crop 600,601,3,4" -- converge "$cornell" --quiet --pixels 600,3
 output=$(PATH=/nonexistent "$program" converge --integrand disk --nreps 4 --plot no.png 2>&1)
-case $?$output in 0*"no gnuplot here: no.png is not drawn"*) ;; *) wrong "without gnuplot: $output" ;; esac
+case $?$output in 1*"no gnuplot here: no.png is not drawn"*) ;; *) wrong "without gnuplot: $output" ;; esac
 
 # A scene without camera, lens and light says what was chosen.
 cat >bare.obj <<'END'

@@ -1,11 +1,15 @@
 /* Pictures and their metadata, as other programs read them: looked at with oiiotool. */
 #include "support.h"
 
+#include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "film/film.h"
+#include "hash.h"
 
 static cs_error error;
 
@@ -107,12 +111,121 @@ static void failures_leave_files_alone(void **state)
     clshear_film_free(film);
 }
 
+static const char *const kinds[] = {"exr", "png", "jpg", "tif"};
+
+/* A file system without room, by a limit on the size of files; libjpeg would end the process. */
+static void full_disks_are_noticed(void **state)
+{
+    const int window[4] = {0, 300, 0, 200};
+    clshear_film *film = NULL;
+    struct rlimit before;
+    (void)state;
+    assert_int_equal(cs_film_create(window, 300, 200, &error, &film), CLSHEAR_OK);
+    for (int c = 0; c < 3; c++) {
+        float *pixels = cs_film_add_channel(film, (const char[]){"RGB"[c], '\0'});
+        for (int p = 0; p < 300 * 200; p++)
+            pixels[p] = (float)(cs_hash((u32)(3 * p + c)) >> 8) * 0x1p-24f;
+    }
+    for (int i = 0; i < 4; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "kept.%s", kinds[i]);
+        const char *kept = test_path(name);
+        FILE *stream = fopen(kept, "w");
+        fputs("precious", stream);
+        fclose(stream);
+        signal(SIGXFSZ, SIG_IGN);
+        getrlimit(RLIMIT_FSIZE, &before);
+        setrlimit(RLIMIT_FSIZE, &(struct rlimit){8192, before.rlim_max});
+        const clshear_status status = clshear_film_write(film, kept);
+        setrlimit(RLIMIT_FSIZE, &before);
+        assert_int_equal(status, CLSHEAR_BAD_FILE);
+        assert_non_null(strstr(error.message, kept));
+        assert_string_equal(output_of("cat '%s'", kept), "precious");
+        assert_string_equal(output_of("ls '%s'.part* 2>/dev/null", kept), "");
+        remove(kept);
+    }
+    clshear_film_free(film);
+}
+
+static void *count_bytes(void *argument)
+{
+    FILE *stream = fopen(argument, "rb");
+    static size_t count;
+    count = 0;
+    while (stream != NULL && fgetc(stream) != EOF)
+        count++;
+    if (stream != NULL) fclose(stream);
+    return &count;
+}
+
+/* Pipes are written to, not replaced, and a link goes on leading to its file. */
+static void pipes_and_links_stay(void **state)
+{
+    clshear_film *film = make_film();
+    struct stat about;
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        char path[1024], file[1024], name[16];
+        pthread_t reader;
+        void *count;
+        snprintf(name, sizeof name, "pipe.%s", kinds[i]);
+        snprintf(path, sizeof path, "%s", test_path(name));
+        remove(path);
+        assert_int_equal(mkfifo(path, 0600), 0);
+        assert_int_equal(pthread_create(&reader, NULL, count_bytes, path), 0);
+        assert_int_equal(clshear_film_write(film, path), CLSHEAR_OK);
+        pthread_join(reader, &count);
+        assert_true(*(size_t *)count > 100);
+        assert_true(stat(path, &about) == 0 && S_ISFIFO(about.st_mode));
+        remove(path);
+
+        snprintf(name, sizeof name, "real.%s", kinds[i]);
+        snprintf(file, sizeof file, "%s", test_path(name));
+        fclose(fopen(file, "w"));
+        assert_int_equal(symlink(file, path), 0);
+        assert_int_equal(clshear_film_write(film, path), CLSHEAR_OK);
+        assert_true(lstat(path, &about) == 0 && S_ISLNK(about.st_mode));
+        assert_true(stat(file, &about) == 0 && about.st_size > 100);
+        remove(path);
+        remove(file);
+    }
+    clshear_film_free(film);
+}
+
+/* Sixteen patterns kept for an extension and the gain are more than 64 channels. */
+static void no_channel_is_lost(void **state)
+{
+    clshear_film *film = make_film(), *read = NULL;
+    const char *path = test_path("many.exr");
+    char name[32];
+    (void)state;
+    for (int i = 0; i < 136; i++) {
+        snprintf(name, sizeof name, "Pattern%d.R", i);
+        float *pixels = cs_film_add_channel(film, name);
+        for (int p = 0; p < 6; p++)
+            pixels[p] = (float)(6 * i + p);
+    }
+    assert_int_equal(clshear_film_write(film, path), CLSHEAR_OK);
+    assert_int_equal(cs_film_read(path, &error, &read), CLSHEAR_OK);
+    for (int i = 0; i < 136; i++) {
+        snprintf(name, sizeof name, "Pattern%d.R", i);
+        assert_memory_equal(clshear_film_channel(read, name), clshear_film_channel(film, name),
+                            6 * sizeof(float));
+    }
+    clshear_film_free(read);
+    clshear_film_free(film);
+    remove(path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exr_has_channels_windows_and_metadata),
         cmocka_unit_test(pictures_are_srgb),
         cmocka_unit_test(failures_leave_files_alone),
+        cmocka_unit_test(full_disks_are_noticed),
+        cmocka_unit_test(pipes_and_links_stay),
+        cmocka_unit_test(no_channel_is_lost),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

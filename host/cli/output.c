@@ -1,7 +1,10 @@
 #include "cli/output.h"
 
 #include <errno.h>
+#include <limits.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli/job.h"
@@ -12,21 +15,33 @@ static int fail(const char *path)
     return CLI_FAILED;
 }
 
+int cli_is_special_file(const char *path)
+{
+    struct stat about;
+    return stat(path, &about) == 0 && !S_ISREG(about.st_mode);
+}
+
 int cli_write_file(const char *path, void (*write)(FILE *stream, const void *user),
                    const void *user)
 {
-    char part[4096];
+    char target[PATH_MAX], part[PATH_MAX + 32];
     if (strcmp(path, "-") == 0) {
         write(stdout, user);
         return fflush(stdout) == 0 && !ferror(stdout) ? CLI_DONE : fail("standard output");
     }
-    snprintf(part, sizeof part, "%s.part%ld", path, (long)getpid());
+    const int special = cli_is_special_file(path);
+    if (special || realpath(path, target) == NULL) /* links are followed */
+        snprintf(target, sizeof target, "%s", path);
+    if (special)
+        snprintf(part, sizeof part, "%s", path);
+    else
+        snprintf(part, sizeof part, "%s.part%ld", target, (long)getpid());
     FILE *stream = fopen(part, "wb");
     if (stream == NULL) return fail(path);
     write(stream, user);
     const int broken = ferror(stream);
-    if (fclose(stream) == 0 && !broken && rename(part, path) == 0) return CLI_DONE;
+    if (fclose(stream) == 0 && !broken && (special || rename(part, target) == 0)) return CLI_DONE;
     const int code = fail(path);
-    unlink(part);
+    if (!special) unlink(part);
     return code;
 }

@@ -4,9 +4,12 @@
 
 #include <stdio.h>
 
+/* Whether a path is a device, a pipe or the like, which no new file must replace. */
+int cli_is_special_file(const char *path);
+
 /* Writes a file with what `write` puts out; "-" is standard output. A file appears under its name
- * only when it is complete, so one that was there survives a failure. Returns CLI_DONE or
- * CLI_FAILED, with a line printed. */
+ * only when it is complete, so one that was there survives a failure; links are followed, devices
+ * and pipes written as they are. Returns CLI_DONE or CLI_FAILED, with a line printed. */
 int cli_write_file(const char *path, void (*write)(FILE *stream, const void *user),
                    const void *user);
 

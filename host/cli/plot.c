@@ -66,43 +66,69 @@ static void write_script(FILE *stream, const void *user)
             ends_in(d->plot->path, ".svg") ? "svg size 800,560 font 'sans,14' background '#ffffff'"
                                            : "pngcairo size 960,672 font 'sans,13'");
     write_quoted(stream, d->plot->path);
-    fprintf(stream, "\nset output target\ndata = ");
+    fprintf(stream, "\nif (strlen(target) > 0) set output target\ndata = ");
     write_quoted(stream, d->data);
     fprintf(stream, "\nset grid lc rgb '#dddddd'\n");
     d->write_script(stream, d->user);
 }
 
-/* Runs gnuplot on a script that draws into `target`; its complaints go to the standard error
- * stream.
- */
-static int run_gnuplot(const char *script, const char *target)
+/* What gnuplot drew, in memory: it does not notice when a disk is full. */
+typedef struct picture {
+    char *bytes;
+    size_t size;
+} picture;
+
+/* All that comes from `source`, until its end. Returns whether there was memory for it. */
+static int read_all(int source, picture *result)
 {
-    char assignment[4200];
-    int state = 0;
-    FILE *text = fmemopen(assignment, sizeof assignment, "w");
-    if (text == NULL) return 0;
-    fprintf(text, "target = ");
-    write_quoted(text, target);
-    fclose(text);
+    char chunk[65536];
+    ssize_t got;
+    FILE *memory = open_memstream(&result->bytes, &result->size);
+    if (memory == NULL) return 0;
+    while ((got = read(source, chunk, sizeof chunk)) > 0)
+        fwrite(chunk, 1, (size_t)got, memory);
+    const int broken = ferror(memory);
+    return fclose(memory) == 0 && !broken && got == 0;
+}
+
+/* Runs gnuplot on a script that draws to the standard output stream; its complaints go to the
+ * standard error stream. */
+static int run_gnuplot(const char *script, picture *result)
+{
+    int state = 0, ends[2];
+    if (pipe(ends) != 0) return 0;
     fflush(NULL);
     const pid_t child = fork();
     if (child == 0) {
-        execlp("gnuplot", "gnuplot", "-e", assignment, script, (char *)NULL);
+        dup2(ends[1], STDOUT_FILENO);
+        close(ends[0]);
+        close(ends[1]);
+        execlp("gnuplot", "gnuplot", "-e", "target = ''", script, (char *)NULL);
         _exit(127);
     }
+    close(ends[1]);
+    const int complete = read_all(ends[0], result);
+    close(ends[0]);
     return child > 0 && waitpid(child, &state, 0) == child && WIFEXITED(state) &&
-           WEXITSTATUS(state) == 0;
+           WEXITSTATUS(state) == 0 && complete && result->size > 0;
 }
 
-/* Draws beside the plot and gives it its name when it is complete. */
+static void write_picture(FILE *stream, const void *user)
+{
+    const picture *drawn = user;
+    fwrite(drawn->bytes, 1, drawn->size, stream);
+}
+
 static int draw(const cli_plot *plot, const char *script)
 {
-    char part[4096];
-    snprintf(part, sizeof part, "%s.part%ld", plot->path, (long)getpid());
-    if (run_gnuplot(script, part) && rename(part, plot->path) == 0) return CLI_DONE;
-    unlink(part);
-    fprintf(stderr, "clshear: %s: gnuplot could not draw it\n", plot->path);
-    return CLI_FAILED;
+    picture drawn = {0};
+    int code = CLI_FAILED;
+    if (run_gnuplot(script, &drawn))
+        code = cli_write_file(plot->path, write_picture, &drawn);
+    else
+        fprintf(stderr, "clshear: %s: gnuplot could not draw it\n", plot->path);
+    free(drawn.bytes);
+    return code;
 }
 
 int cli_plot_draw(const cli_plot *plot, void (*write_data)(FILE *stream, const void *user),
@@ -114,7 +140,7 @@ int cli_plot_draw(const cli_plot *plot, void (*write_data)(FILE *stream, const v
     if (!drawn)
         fprintf(stderr, "clshear: no gnuplot here: %s is not drawn; install gnuplot-nox\n",
                 plot->path);
-    if (!drawn && !plot->keep) return CLI_DONE;
+    if (!drawn && !plot->keep) return CLI_FAILED;
     snprintf(data, sizeof data, "%s.dat", plot->path);
     snprintf(script, sizeof script, "%s.gp", plot->path);
     const drawing d = {plot, data, write_curves, user};
@@ -125,5 +151,5 @@ int cli_plot_draw(const cli_plot *plot, void (*write_data)(FILE *stream, const v
         unlink(data);
         unlink(script);
     }
-    return code;
+    return drawn ? code : CLI_FAILED;
 }

@@ -138,36 +138,44 @@ const float *clshear_film_channel(const clshear_film *film, const char *name)
     return NULL;
 }
 
-clshear_status clshear_film_write(clshear_film *film, const char *path)
+static clshear_status write_channels(const clshear_film *film, const char *path, const char **names,
+                                     const float **planes)
 {
-    enum {
-        MAX_CHANNELS = 64
-    };
-    const char *names[MAX_CHANNELS];
-    const float *planes[MAX_CHANNELS];
     const cs_channel *channels = film->channels.items;
-    if (!cs_image_can_write(path))
-        return cs_fail(film->error, CLSHEAR_BAD_FILE,
-                       "%s: unknown image format; use .exr, .png, .jpg or .tif", path);
-    size_t count = film->channels.count < MAX_CHANNELS ? film->channels.count : MAX_CHANNELS;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < film->channels.count; i++) {
         names[i] = channels[i].name;
         planes[i] = channels[i].pixels;
     }
-    cs_picture picture = {
+    const cs_picture picture = {
         .width = film->info.width,
         .height = film->info.height,
         .x = film->window[0],
         .y = film->window[2],
         .full_width = film->full_width,
         .full_height = film->full_height,
-        .channel_count = count,
+        .channel_count = film->channels.count,
         .names = names,
         .planes = planes,
         .attribute_count = film->attributes.count,
         .attributes = film->attributes.items,
     };
     return cs_image_write(path, &picture, film->error);
+}
+
+clshear_status clshear_film_write(clshear_film *film, const char *path)
+{
+    if (!cs_image_can_write(path))
+        return cs_fail(film->error, CLSHEAR_BAD_FILE,
+                       "%s: unknown image format; use .exr, .png, .jpg or .tif", path);
+    const char **names = malloc(film->channels.count * sizeof *names);
+    const float **planes = malloc(film->channels.count * sizeof *planes);
+    clshear_status status =
+        names != NULL && planes != NULL
+            ? write_channels(film, path, names, planes)
+            : cs_fail(film->error, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
+    free(names);
+    free(planes);
+    return status;
 }
 
 static clshear_status copy_picture(clshear_film *film, const cs_picture *picture)

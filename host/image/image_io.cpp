@@ -18,6 +18,8 @@
 #include <unistd.h>
 #include <vector>
 
+#include "base/output_file.h"
+
 namespace
 {
 
@@ -272,39 +274,61 @@ ImageBuf buffer_for(const std::string &extension, const cs_picture *picture)
     return OIIO::ImageBufAlgo::colorconvert(linear, "linear", "sRGB", false);
 }
 
-/* Writes under a temporary name in the same folder; the rename is what makes it visible. */
-clshear_status write_picture(const char *path, const cs_picture *picture, cs_error *error)
+/* Encodes into a file called `path`, or into `memory` if that is not NULL. Returns what failed, or
+ * nothing. */
+std::string encode(const std::string &extension, const ImageBuf &buffer, const std::string &path,
+                   OIIO::Filesystem::IOProxy *memory)
 {
-    const std::string extension = extension_of(path);
-    const ImageBuf buffer = buffer_for(extension, picture);
-    const std::string temporary =
-        std::string(path) + ".part" + std::to_string(static_cast<long>(getpid()));
-    if (buffer.has_error())
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,
-                       first_line(buffer.geterror()).c_str());
     auto output = OIIO::ImageOutput::create(extension);
-    if (output == nullptr)
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: this image format cannot be written", path);
+    if (output == nullptr) return "this image format cannot be written";
     ImageSpec spec = buffer.spec();
     const bool is_exr = extension == "exr";
     const bool is_tiff = extension == "tif" || extension == "tiff";
     spec.set_format(is_exr ? TypeDesc::FLOAT : is_tiff ? TypeDesc::UINT16 : TypeDesc::UINT8);
     if (!is_exr) spec.attribute("oiio:ColorSpace", "sRGB");
     if (is_exr) spec.attribute("compression", "zip");
-    bool good =
-        output->open(temporary, spec) && output->write_image(TypeDesc::FLOAT, buffer.localpixels());
-    std::string reason = first_line(output->geterror());
-    if (!output->close() && good) {
-        good = false;
-        reason = first_line(output->geterror());
-    }
-    if (good && std::rename(temporary.c_str(), path) != 0) {
-        good = false;
-        reason = std::strerror(errno);
-    }
-    if (good) return CLSHEAR_OK;
-    std::remove(temporary.c_str());
-    return cs_fail(error, CLSHEAR_BAD_FILE, "%s: cannot be written: %s", path, reason.c_str());
+    if (memory != nullptr) output->set_ioproxy(memory);
+    if (!output->open(path, spec) || !output->write_image(TypeDesc::FLOAT, buffer.localpixels()))
+        return first_line(output->geterror());
+    return output->close() ? std::string() : first_line(output->geterror());
+}
+
+/* By way of memory: libpng's errors get lost on their way here, and libjpeg ends the process when a
+ * disk is full. The encoder never sees pipes and devices either, which know no places to go to. */
+std::string write_by_memory(const std::string &extension, const ImageBuf &buffer,
+                            const std::string &path)
+{
+    OIIO::Filesystem::IOVecOutput memory;
+    std::string failure = encode(extension, buffer, path, &memory);
+    if (!failure.empty()) return failure;
+    FILE *stream = std::fopen(path.c_str(), "wb");
+    if (stream == nullptr) return std::strerror(errno);
+    const auto &bytes = memory.buffer();
+    errno = 0;
+    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
+    const int reason = errno;
+    if (std::fclose(stream) != 0 && written) return std::strerror(errno);
+    return written ? std::string() : std::strerror(reason);
+}
+
+clshear_status write_picture(const char *path, const cs_picture *picture, cs_error *error)
+{
+    const std::string extension = extension_of(path);
+    const bool is_large = extension != "png" && extension != "jpg" && extension != "jpeg";
+    const ImageBuf buffer = buffer_for(extension, picture);
+    cs_output_file file;
+    if (buffer.has_error())
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,
+                       first_line(buffer.geterror()).c_str());
+    if (cs_output_begin(path, &file) != 0)
+        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
+    std::string failure = is_large && !cs_is_special_file(path)
+                              ? encode(extension, buffer, file.part, nullptr)
+                              : write_by_memory(extension, buffer, file.part);
+    const int reason = cs_output_end(&file, failure.empty());
+    if (failure.empty() && reason != 0) failure = std::strerror(reason);
+    if (failure.empty()) return CLSHEAR_OK;
+    return cs_fail(error, CLSHEAR_BAD_FILE, "%s: cannot be written: %s", path, failure.c_str());
 }
 
 } // namespace

@@ -5,10 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/array.h"
+#include "base/output_file.h"
 #include "image/image_io.h"
 #include "points/points.h"
 
@@ -126,35 +125,23 @@ static int print_points(const clshear_points *points, const char *separator, FIL
     return fflush(stream) == 0 && !ferror(stream);
 }
 
-/* Whether a path is a device, a pipe or the like, which no new file must replace. */
-static int is_special(const char *path)
-{
-    struct stat about;
-    return stat(path, &about) == 0 && !S_ISREG(about.st_mode);
-}
-
-/* A regular file appears under its name only when it is complete. */
 static clshear_status write_text(const clshear_points *points, const char *path, cs_error *error)
 {
-    char temporary[4096];
-    const int direct = is_special(path);
     const char *separator = has_extension(path, ".csv") ? "," : " ";
+    cs_output_file file;
     if (strcmp(path, "-") == 0) {
         if (print_points(points, separator, stdout)) return CLSHEAR_OK;
         return cs_fail(error, CLSHEAR_BAD_FILE, "standard output cannot be written: %s",
                        strerror(errno));
     }
-    if (direct)
-        snprintf(temporary, sizeof temporary, "%s", path);
-    else
-        snprintf(temporary, sizeof temporary, "%s.part%ld", path, (long)getpid());
-    FILE *stream = fopen(temporary, "w");
-    int good = stream != NULL && print_points(points, separator, stream);
-    int reason = errno;
-    if (stream != NULL && fclose(stream) != 0 && good) good = 0, reason = errno;
-    if (good && !direct && rename(temporary, path) != 0) good = 0, reason = errno;
-    if (good) return CLSHEAR_OK;
-    if (stream != NULL && !direct) remove(temporary);
+    int reason = cs_output_open(path, &file);
+    if (reason == 0) {
+        const int printed = print_points(points, separator, file.stream);
+        const int while_printing = printed ? 0 : errno;
+        reason = cs_output_end(&file, printed);
+        if (!printed) reason = while_printing;
+    }
+    if (reason == 0) return CLSHEAR_OK;
     return cs_fail(error, CLSHEAR_BAD_FILE, "%s: cannot be written: %s", path, strerror(reason));
 }
 

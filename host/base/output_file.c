@@ -1,0 +1,62 @@
+#include "base/output_file.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+int cs_is_special_file(const char *path)
+{
+    struct stat about;
+    return stat(path, &about) == 0 && !S_ISREG(about.st_mode);
+}
+
+int cs_output_begin(const char *path, cs_output_file *file)
+{
+    static const size_t room = sizeof ".part" + 20; /* a number of 64 bits has 20 digits */
+    *file = (cs_output_file){0};
+    const int special = cs_is_special_file(path);
+    file->target = special ? NULL : realpath(path, NULL);
+    if (file->target == NULL) file->target = strdup(path);
+    if (file->target == NULL) return ENOMEM;
+    file->part = malloc(strlen(file->target) + room);
+    if (file->part == NULL) {
+        free(file->target);
+        *file = (cs_output_file){0};
+        return ENOMEM;
+    }
+    strcpy(file->part, file->target);
+    if (!special) snprintf(file->part + strlen(file->part), room, ".part%ld", (long)getpid());
+    return 0;
+}
+
+int cs_output_open(const char *path, cs_output_file *file)
+{
+    int reason = cs_output_begin(path, file);
+    if (reason != 0) return reason;
+    file->stream = fopen(file->part, "wb");
+    if (file->stream != NULL) return 0;
+    reason = errno;
+    free(file->target);
+    free(file->part);
+    *file = (cs_output_file){0};
+    return reason;
+}
+
+int cs_output_end(cs_output_file *file, int good)
+{
+    const int special = strcmp(file->part, file->target) == 0;
+    int reason = 0;
+    if (file->stream != NULL) {
+        errno = 0;
+        const int broken = ferror(file->stream);
+        if (fclose(file->stream) != 0 || broken) reason = errno != 0 ? errno : EIO;
+    }
+    if (good && reason == 0 && !special && rename(file->part, file->target) != 0) reason = errno;
+    if ((!good || reason != 0) && !special) unlink(file->part);
+    free(file->target);
+    free(file->part);
+    *file = (cs_output_file){0};
+    return reason;
+}
