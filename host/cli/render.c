@@ -147,27 +147,62 @@ static void print_stats(const clshear_context *context, const clshear_scene *sce
                mean_of(film, "Variance"));
 }
 
-/* Whether an interrupted render would replace the picture that it was to extend, which is worth
- * more: it can be extended again. */
-static int is_spared(const cli_job *job, const char *path)
+/* What an interrupted render has to show. */
+typedef enum held {
+    HELD_NOTHING, /* no samples at all */
+    HELD_PART,    /* some pixels have none */
+    HELD_ALL
+} held;
+
+static held held_by(const clshear_film *film)
+{
+    const clshear_film_info info = clshear_film_describe(film);
+    const size_t pixels = (size_t)info.width * (size_t)info.height;
+    const float *samples = clshear_film_channel(film, "Samples");
+    size_t sampled = 0;
+    for (size_t i = 0; i < pixels; i++)
+        sampled += samples[i] > 0.0f;
+    return sampled == 0 ? HELD_NOTHING : sampled < pixels ? HELD_PART : HELD_ALL;
+}
+
+/* Whether an interrupted render would replace a file that is worth more: any, if it has pixels
+ * without samples, and always the picture that it was to extend, which can be extended again. */
+static int is_spared(const cli_job *job, const char *path, held content)
 {
     struct stat out, base;
-    return job->extend != NULL && stat(path, &out) == 0 && stat(job->extend, &base) == 0 &&
-           out.st_ino == base.st_ino && out.st_dev == base.st_dev;
+    if (content == HELD_NOTHING) return 1;
+    if (stat(path, &out) != 0 || !S_ISREG(out.st_mode)) return 0;
+    return content == HELD_PART || (job->extend != NULL && stat(job->extend, &base) == 0 &&
+                                    out.st_ino == base.st_ino && out.st_dev == base.st_dev);
+}
+
+static void tell_interruption(const cli_job *job, const char *path, int spared, held content)
+{
+    if (spared && access(path, F_OK) == 0)
+        fprintf(stderr, "clshear: interrupted; %s is left as it was\n", path);
+    else if (spared)
+        fprintf(stderr, "clshear: interrupted before the first samples; no %s\n", path);
+    else if (!job->quiet)
+        fprintf(stderr, "clshear: interrupted; %s holds the samples so far%s\n", path,
+                content == HELD_PART ? ", some pixels none" : "");
 }
 
 static int write_outputs(const cli_job *job, const clshear_context *context, clshear_film *film,
                          const char *command, int interrupted)
 {
+    const held content = interrupted ? held_by(film) : HELD_ALL;
     if (command != NULL && clshear_film_annotate(film, "clshear.cmdline", command) != CLSHEAR_OK)
         return fail(context);
     int code = CLI_DONE; /* one output that fails must not cost the others */
-    for (int i = 0; i < job->output_count; i++)
-        if (interrupted && is_spared(job, job->outputs[i]))
-            fprintf(stderr, "clshear: interrupted; %s is left as it was\n", job->outputs[i]);
-        else if (clshear_film_write(film, job->outputs[i]) != CLSHEAR_OK)
+    for (int i = 0; i < job->output_count; i++) {
+        const int spared = interrupted && is_spared(job, job->outputs[i], content);
+        if (!spared && clshear_film_write(film, job->outputs[i]) != CLSHEAR_OK)
             code = fail(context);
-    if (job->gain != NULL && clshear_film_write_ratio(film, "Gain", job->gain) != CLSHEAR_OK)
+        else if (interrupted)
+            tell_interruption(job, job->outputs[i], spared, content);
+    }
+    if (job->gain != NULL && clshear_film_channel(film, "Gain") != NULL &&
+        clshear_film_write_ratio(film, "Gain", job->gain) != CLSHEAR_OK)
         code = fail(context);
     return code;
 }
@@ -195,8 +230,6 @@ static int render(cli_job *job, clshear_context *context, clshear_scene *scene, 
     if (code == CLI_DONE && job->stats) print_stats(context, scene, film);
     clshear_film_free(film);
     if (code != CLI_DONE) return code;
-    if (status == CLSHEAR_CANCELLED && !job->quiet && !is_spared(job, job->outputs[0]))
-        fprintf(stderr, "clshear: interrupted; %s holds the samples so far\n", job->outputs[0]);
     return status == CLSHEAR_CANCELLED ? CLI_INTERRUPTED : CLI_DONE;
 }
 

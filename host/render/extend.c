@@ -17,12 +17,12 @@ static void plane_name(char *name, size_t size, uint32_t replicate, int colour)
     snprintf(name, size, "Pattern%u.%c", replicate, "RGB"[colour]);
 }
 
-/* Adds 4-byte words to a fingerprint. */
+/* Adds bytes to a fingerprint, four at a time. */
 static void add_words(u32 *fingerprint, const void *items, size_t size)
 {
-    for (size_t i = 0; i + 4 <= size; i += 4) {
-        u32 word;
-        memcpy(&word, (const char *)items + i, sizeof word);
+    for (size_t i = 0; i < size; i += 4) {
+        u32 word = 0;
+        memcpy(&word, (const char *)items + i, size - i < 4 ? size - i : 4);
         *fingerprint = cs_key(*fingerprint, word);
     }
 }
@@ -43,15 +43,20 @@ static void recipe_of(const cs_job *job, char *text, size_t size)
     add_array(&lens, &job->optics.table);
     add_array(&light, &scene->lights);
     add_array(&world, &scene->positions);
+    add_array(&world, &scene->vertices);
     add_array(&world, &scene->indices);
+    add_array(&world, &scene->triangle_materials);
+    add_array(&world, &scene->triangle_flags);
     add_array(&world, &scene->materials);
+    add_array(&world, &scene->textures);
     add_array(&world, &scene->texels);
     snprintf(text, size,
-             "sampler=%s;seed=%u;replicates=%u;shear=%d;size=%dx%d;camera=%08x;aperture or "
+             "sampler=%s;seed=%u;replicates=%u;shear=%d;oracle=%d;lens "
+             "rays=%u;size=%dx%d;camera=%08x;aperture or "
              "filter=%08x;lights=%08x;"
              "scene=%08x",
-             cs_sampler_name(job->pattern.sampler), o->seed, o->replicates, (int)o->shear, o->width,
-             o->height, camera, lens, light, world);
+             cs_sampler_name(job->pattern.sampler), o->seed, o->replicates, (int)o->shear,
+             (int)o->oracle, o->lens_rays, o->width, o->height, camera, lens, light, world);
 }
 
 /* Name of the first thing in which two recipes differ. */

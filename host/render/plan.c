@@ -113,7 +113,12 @@ clshear_status cs_job_plan(cs_job *job, cs_error *error)
         job->gain = calloc(job->pixel_count, sizeof *job->gain);
         CS_REQUIRE(job->gain != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
                    job->pixel_count);
-        CS_TRY(cs_pilot_gain(job, job->gain, error));
+        status = cs_pilot_gain(job, job->gain, error);
+        if (status != CLSHEAR_OK) { /* cancelled: no channel rather than a wrong one */
+            free(job->gain);
+            job->gain = NULL;
+            goto done;
+        }
     }
     CS_TRY(plan_batches(job, error));
     job->pilot_s = cs_now_s() - start_s - job->prepass_s;

@@ -28,6 +28,8 @@ clshear_status clshear_render(clshear_scene *scene, const clshear_camera *camera
     CS_TRY(cs_job_resolve(&job, film, error));
     (*film)->info.render_s = cs_now_s() - start_s;
     status = cs_film_set_float(*film, "renderTimeSeconds", (float)(*film)->info.render_s);
+    if (status == CLSHEAR_OK && passes == CLSHEAR_CANCELLED)
+        status = cs_film_set_int(*film, "clshear.interrupted", 1);
     if (status != CLSHEAR_OK) {
         clshear_film_free(*film);
         *film = NULL;

@@ -164,9 +164,8 @@ static clshear_status describe(const cs_job *job, clshear_film *film)
     CS_TRY(cs_film_set_int(film, "clshear.adaptive", job->options.adaptive != 0));
     CS_TRY(cs_film_set_int(film, "clshear.replicates", (int32_t)job->options.replicates));
     CS_TRY(cs_film_set_int(film, "clshear.packet", cs_device_packet(context->device)));
-    CS_TRY(cs_film_set_int(
-        film, "samplesPerPixel",
-        (int32_t)(job->options.replicates * (job->pattern.first + job->pattern.grid.count))));
+    CS_TRY(cs_film_set_int(film, "samplesPerPixel",
+                           (int32_t)((double)film->info.samples / (double)job->pixel_count + 0.5)));
     CS_TRY(cs_film_set_float(film, "clshear.focalDistance", job->camera.focal_distance));
     CS_TRY(cs_film_set_float(film, "clshear.lensRadius", job->lens.lens_radius));
     CS_TRY(cs_film_set_float(film, "clshear.fov", job->lens.fov_deg));
@@ -180,6 +179,9 @@ clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *erro
     clshear_status status = CLSHEAR_OK;
     clshear_film *film = NULL;
     planes all;
+    /* Cancelled before the first pass: what is extended must not be lost. */
+    if (job->options.extend != NULL && job->replicates_begun == 0)
+        CS_TRY(cs_extend_begin(job, 0, error));
     CS_TRY(cs_film_create(job->window, job->options.width, job->options.height, error, &film));
     CS_TRY(add_planes(film, &all));
     CS_TRY(read_pixels(job, film, &all, error));

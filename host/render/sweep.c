@@ -1,5 +1,6 @@
 #include "render/sweep.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -142,11 +143,12 @@ static u32 flushes_of(const cs_batch *batch)
     return (batch->pattern.blocks + CS_FLUSH_BLOCKS - 1) / CS_FLUSH_BLOCKS;
 }
 
-/* Blocks of a batch that are drawn when `part` of the replicate is: whole flushes, then all. */
+/* Blocks of a batch that are drawn when `part` of the replicate is: whole flushes, rounded up so
+ * that the first step leaves no pixel without samples. */
 static u32 blocks_at(const cs_batch *batch, double part)
 {
-    if (part >= 1.0) return batch->pattern.blocks;
-    return (u32)(part * flushes_of(batch)) * CS_FLUSH_BLOCKS;
+    const u32 blocks = (u32)ceil(part * flushes_of(batch)) * CS_FLUSH_BLOCKS;
+    return blocks < batch->pattern.blocks ? blocks : batch->pattern.blocks;
 }
 
 clshear_status cs_sweep_replicate(cs_sweep *sweep, const cs_batch *batches, size_t batch_count,
