@@ -199,7 +199,8 @@ CLSHEAR_API float clshear_lens_extent(const clshear_camera *camera);
 /* The integrand of pixel (x, y) of a width x height image: radiance at `count` points of four
  * coordinates each, film x and y from the pixel's left upper corner (0 to 1 is the pixel), and lens
  * u and v, where 0 to 1 is the square around the aperture, whatever its shape. `rgb`: 3 floats a
- * point. Area lights are seen from one point of each emitter. The camera's lens must be chosen. */
+ * point. Area lights: one point of one of them, always the same, stands for all their power, as it
+ * does for one sample of a render. The camera's lens must be chosen. */
 CLSHEAR_API clshear_status clshear_radiance(clshear_scene *scene, const clshear_camera *camera,
                                             int width, int height, int x, int y,
                                             const float *points, size_t count, float *rgb);

@@ -178,6 +178,9 @@ expect 2 "give either an --integrand or a SCENE" -- converge --sampler mj
 expect 2 "give either an --integrand or a SCENE" -- converge "$cornell" --integrand box
 expect 0 "pixel 3:4,mj,none,16" -- converge "$cornell" --quiet --pixels 3,4 --sampler mj --nreps 4 \
     --nsamps 4,16 --aperture bright.exr
+expect 1 "lens radius 1e+19: must be 0 to 1e12" -- "$cornell" --quiet --lens-radius 1e19 --out far.exr
+expect 1 "focal distance 1e-18: must be above 0" -- slice "$cornell" --pixel 1,1 --focal-distance 1e-18
+expect 1 "eye, target and up must be -1e12" -- "$cornell" --quiet --eye 1e38,0,0 --out far.exr
 expect 2 "--size 0: must be above 0" -- predict --integrand plane-wave --size 0
 expect 1 "too few frequencies" -- spectrum --resolution 2 --n 4 --sets 1 --plot p.png
 

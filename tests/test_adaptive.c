@@ -66,6 +66,30 @@ static void samples_are_counted(void **state)
     clshear_film_free(film);
 }
 
+static int stop_after_a_third(void *user, const clshear_progress *progress)
+{
+    (void)user;
+    return progress->fraction > 0.33;
+}
+
+/* Patterns of all sizes grow together: an interrupted picture has no pixels without samples. */
+static void interruption_leaves_no_holes(void **state)
+{
+    test_fixture *made = *state;
+    clshear_options options = clshear_options_defaults();
+    clshear_film *film = NULL;
+    options.width = options.height = SIZE;
+    options.spp = 8192;
+    options.replicates = 1;
+    options.adaptive = 1;
+    options.progress = stop_after_a_third;
+    assert_int_equal(clshear_render(made->scene, &made->camera, &options, &film),
+                     CLSHEAR_CANCELLED);
+    for (int i = 0; i < PIXELS; i++)
+        assert_true(clshear_film_channel(film, "Samples")[i] > 0.0f);
+    clshear_film_free(film);
+}
+
 /* The same picture as with even samples, and less noise. 16 seeds each: the image means differ by
  * less than 5 standard errors (false alarms 6e-7). The variance is lower by a factor of 1.3 at
  * least; it is 1.6 here, and its relative standard error over seeds and pixels below 3 %. */
@@ -120,9 +144,8 @@ static void gain_is_shown(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_choice_is_visible),
-        cmocka_unit_test(samples_are_counted),
-        cmocka_unit_test(gain_is_shown),
+        cmocka_unit_test(the_choice_is_visible),        cmocka_unit_test(samples_are_counted),
+        cmocka_unit_test(interruption_leaves_no_holes), cmocka_unit_test(gain_is_shown),
         cmocka_unit_test(sharing_is_unbiased_and_pays),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);

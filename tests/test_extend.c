@@ -132,6 +132,35 @@ static void an_interrupted_extension_is_whole(void **state)
     clshear_film_free(second);
 }
 
+static int stop_at_once(void *user, const clshear_progress *progress)
+{
+    (void)user, (void)progress;
+    return 1;
+}
+
+/* Stopped in the pilot that measures the gain, before a pass has begun: the picture is the old one,
+ * but for the rounding of means to float, and says so; the gain is not known. */
+static void an_extension_that_never_began_is_whole(void **state)
+{
+    test_fixture *made = *state;
+    clshear_options options = options_of("sz", 256);
+    clshear_film *first = render(made, &options), *second = NULL;
+    options.extend = first;
+    options.gain = 1;
+    options.progress = stop_at_once;
+    options.spp = 1024;
+    assert_int_equal(clshear_render(made->scene, &made->camera, &options, &second),
+                     CLSHEAR_CANCELLED);
+    const float *a = clshear_film_channel(first, "G"), *b = clshear_film_channel(second, "G");
+    for (int i = 0; i < 24 * 24; i++) {
+        assert_true(clshear_film_channel(second, "Samples")[i] == 256.0f);
+        assert_true(fabsf(a[i] - b[i]) <= 4e-7f * fabsf(a[i]));
+    }
+    assert_null(clshear_film_channel(second, "Gain"));
+    clshear_film_free(first);
+    clshear_film_free(second);
+}
+
 static void refuse(test_fixture *made, const clshear_options *options, const char *words)
 {
     clshear_film *film = NULL;
@@ -188,6 +217,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(extended_equals_whole),
         cmocka_unit_test(an_interrupted_extension_is_whole),
+        cmocka_unit_test(an_extension_that_never_began_is_whole),
         cmocka_unit_test(the_choice_of_the_pilot_stays),
         cmocka_unit_test(what_does_not_continue_is_refused),
     };

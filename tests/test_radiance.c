@@ -274,6 +274,33 @@ static void no_acne_far_from_the_origin(void **state)
     clshear_scene_free(scene);
 }
 
+/* What a render would refuse. */
+static void integrands_check_what_they_are_given(void **state)
+{
+    fixture *made = *state;
+    const clshear_camera good = looking_down(0.1f, 3.0f, CLSHEAR_APERTURE_DISK);
+    clshear_camera wide = good;
+    clshear_options options = clshear_options_defaults();
+    const float point[4] = {0.5f, 0.5f, 0.5f, 0.5f};
+    float rgb[3];
+    wide.lens_radius = INFINITY;
+    options.width = options.height = 8;
+    static const int sizes[][4] = {{-5, -5, 0, 0},       {8, 8, -1, 0}, {8, 8, 0, 8},
+                                   {1000000, 8, 100, 0}, {0, 8, 0, 0},  {8, 8, 8, 0}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        assert_int_equal(clshear_radiance(made->floor, &good, sizes[i][0], sizes[i][1], sizes[i][2],
+                                          sizes[i][3], point, 1, rgb),
+                         CLSHEAR_BAD_ARGUMENT);
+    assert_int_equal(clshear_radiance(made->floor, &wide, 8, 8, 0, 0, point, 1, rgb),
+                     CLSHEAR_BAD_ARGUMENT);
+    test_ok(made->context,
+            clshear_radiance_of_samples(made->floor, &good, &options, 7, 7, 0.0f, point, 1, rgb));
+    options.shear = (clshear_shear)77;
+    assert_int_equal(
+        clshear_radiance_of_samples(made->floor, &good, &options, 7, 7, 0.0f, point, 1, rgb),
+        CLSHEAR_BAD_ARGUMENT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -283,6 +310,7 @@ int main(void)
         cmocka_unit_test(area_light_over_a_plane),
         cmocka_unit_test(shadows_fall),
         cmocka_unit_test(no_acne_far_from_the_origin),
+        cmocka_unit_test(integrands_check_what_they_are_given),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -83,14 +83,19 @@ static clshear_status choose_pattern(cs_job *job, cs_error *error)
     return CLSHEAR_OK;
 }
 
+/* Limits keep rays within what floats and Embree (1.8e18) can follow. */
 static clshear_status check_lens(const clshear_camera *camera, cs_error *error)
 {
-    if (!(camera->lens_radius >= 0.0f) || !isfinite(camera->lens_radius))
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "lens radius %g: must be 0 or more",
-                       (double)camera->lens_radius);
-    if (!(camera->focal_distance > 0.0f) || !isfinite(camera->focal_distance))
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "focal distance %g: must be above 0",
-                       (double)camera->focal_distance);
+    const double radius = (double)camera->lens_radius, focus = (double)camera->focal_distance;
+    if (!(radius >= 0.0 && radius <= 1e12))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "lens radius %g: must be 0 to 1e12", radius);
+    if (!(focus >= 1e-12 && focus <= 1e12))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "focal distance %g: must be above 0, 1e-12 to 1e12", focus);
+    if (radius > 1e6 * focus)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "lens radius %g: must be at most a million times the focal distance, %g",
+                       radius, focus);
     return CLSHEAR_OK;
 }
 

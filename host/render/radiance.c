@@ -6,7 +6,7 @@
 #include "frame.h"
 #include "optics/optics.h"
 #include "render/handles.h"
-#include "scene/camera.h"
+#include "render/job.h"
 
 enum {
     LANES = 16,     /* the widest packet */
@@ -17,8 +17,8 @@ enum {
 typedef struct evaluation {
     clshear_scene *scene;
     cs_frame frame;
-    u32 pixel[2];
-    u32 tuples; /* not 0: points are what a sampler draws */
+    u32 pixel[2]; /* x, y */
+    u32 tuples;   /* not 0: points are what a sampler draws */
     f32 shear_px;
     f32 lens_offset; /* of points that are places: to the centre of the square around the */
     f32 lens_scale;  /* aperture, and from that square to aperture widths */
@@ -77,22 +77,21 @@ done:
 }
 
 static clshear_status prepare(evaluation *e, const clshear_camera *camera,
-                              const clshear_options *options, size_t count, cs_error *error)
+                              const clshear_options *options, int x, int y, size_t count,
+                              cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_device *device = e->scene->context->device;
-    const u32 width = (u32)options->width, height = (u32)options->height;
-    CS_REQUIRE(e->pixel[0] < width && e->pixel[1] < height, CLSHEAR_BAD_ARGUMENT,
-               "pixel %d,%d is outside the %d x %d image", (int)e->pixel[0], (int)e->pixel[1],
-               options->width, options->height);
-    CS_REQUIRE(camera->lens_radius >= 0.0f && camera->focal_distance > 0.0f, CLSHEAR_BAD_ARGUMENT,
-               "the camera's lens is not chosen");
-    CS_TRY(cs_camera_frame(camera, options->width, options->height, &e->frame.camera, error));
-    CS_TRY(cs_optics_make(camera, options->filter, options->filter_width_px, &e->optics, error));
-    CS_REQUIRE(options->shear != CLSHEAR_SHEAR_TOROIDAL || e->optics.optics.closed || !e->tuples,
-               CLSHEAR_BAD_ARGUMENT,
-               "a toroidal shear is of a disk or square with a box filter 1 px wide");
-    e->frame.camera.optics = e->optics.optics;
+    cs_job job = {.scene = e->scene, .options = *options, .lens = *camera};
+    job.options.spp = job.options.replicates = 1; /* the points are the caller's */
+    status = cs_job_check(&job, error);
+    e->optics = job.optics;
+    if (status != CLSHEAR_OK) goto done;
+    CS_REQUIRE(x >= 0 && x < options->width && y >= 0 && y < options->height, CLSHEAR_BAD_ARGUMENT,
+               "pixel %d,%d is outside the %d x %d image", x, y, options->width, options->height);
+    e->pixel[0] = (u32)x;
+    e->pixel[1] = (u32)y;
+    e->frame.camera = job.camera;
     e->frame.shear_mode = (u32)options->shear;
     e->frame.lights = e->scene->world.lights;
     e->frame.emitters = e->scene->world.emitters;
@@ -135,8 +134,8 @@ clshear_status clshear_radiance(clshear_scene *scene, const clshear_camera *came
 {
     cs_error *error = &scene->context->error;
     const clshear_options options = {.width = width, .height = height};
-    evaluation e = {.scene = scene, .pixel = {(u32)x, (u32)y}, .lens_offset = 0.5f};
-    clshear_status status = prepare(&e, camera, &options, count, error);
+    evaluation e = {.scene = scene, .lens_offset = 0.5f};
+    clshear_status status = prepare(&e, camera, &options, x, y, count, error);
     e.lens_scale = camera->lens_radius > 0.0f
                        ? 2.0f * camera->lens_radius / e.frame.camera.aperture_width
                        : 1.0f;
@@ -151,12 +150,8 @@ clshear_status clshear_radiance_of_samples(clshear_scene *scene, const clshear_c
                                            float *rgb)
 {
     cs_error *error = &scene->context->error;
-    evaluation e = {.scene = scene,
-                    .pixel = {(u32)x, (u32)y},
-                    .tuples = 1,
-                    .shear_px = shear_px,
-                    .lens_scale = 1.0f};
-    clshear_status status = prepare(&e, camera, options, count, error);
+    evaluation e = {.scene = scene, .tuples = 1, .shear_px = shear_px, .lens_scale = 1.0f};
+    clshear_status status = prepare(&e, camera, options, x, y, count, error);
     if (status == CLSHEAR_OK) status = evaluate_all(&e, samples, count, rgb, error);
     release(&e);
     return status;

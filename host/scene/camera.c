@@ -117,9 +117,10 @@ clshear_status cs_camera_frame(const clshear_camera *camera, int width, int heig
     for (int i = 0; i < 3; i++) {
         frame->eye[i] = camera->eye[i];
         frame->forward[i] = camera->target[i] - camera->eye[i];
-        if (!isfinite(camera->eye[i]) || !isfinite(camera->target[i]) || !isfinite(up[i]))
+        if (!(fabsf(camera->eye[i]) <= 1e12f && fabsf(camera->target[i]) <= 1e12f &&
+              fabsf(up[i]) <= 1e12f))
             return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                           "camera: eye, target and up must be finite");
+                           "camera: coordinates of eye, target and up must be -1e12 to 1e12");
     }
     if (!normalise(frame->forward))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "camera: eye and target are the same point");
