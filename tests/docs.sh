@@ -20,6 +20,25 @@ cc -std=c17 -Wall -Wextra -Werror -I "$root/include" readme.c -o readme -L "$bui
     -Wl,-rpath,"$build"
 ./readme
 
+# Installed anywhere: the program starts, and others find the library by CMake and by pkg-config.
+cmake --install "$build" --prefix "$PWD/installed" >/dev/null
+./installed/bin/clshear --version
+cat >CMakeLists.txt <<'END'
+cmake_minimum_required(VERSION 3.20)
+project(user C)
+find_package(clshear REQUIRED)
+add_executable(user readme.c)
+target_link_libraries(user PRIVATE clshear::clshear)
+END
+cmake -S . -B user -DCMAKE_PREFIX_PATH="$PWD/installed" >/dev/null
+cmake --build user >/dev/null
+./user/user
+PKG_CONFIG_PATH=$(dirname "$(find "$PWD/installed" -name clshear.pc)")
+export PKG_CONFIG_PATH
+# shellcheck disable=SC2046
+cc readme.c -o packaged $(pkg-config --cflags --libs clshear)
+LD_LIBRARY_PATH=$(pkg-config --variable=libdir clshear) ./packaged
+
 for document in "$root"/README.md "$root"/docs/*.md "$root"/scenes/README.md; do
     folder=$(dirname "$document")
     grep -o '](\([^)#]*\))' "$document" | tr -d '()]' | while read -r link; do
