@@ -178,6 +178,27 @@ expect 2 "give either an --integrand or a SCENE" -- converge --sampler mj
 expect 2 "give either an --integrand or a SCENE" -- converge "$cornell" --integrand box
 expect 0 "pixel 3:4,mj,none,16" -- converge "$cornell" --quiet --pixels 3,4 --sampler mj --nreps 4 \
     --nsamps 4,16 --aperture bright.exr
+
+# Outputs that cannot be written are found before the work, whatever the command.
+expect 1 "--out nowhere/x: folder nowhere/ cannot be written" -- predict "$cornell" --pixel 302,130 --out nowhere/x
+expect 1 "--out nowhere/x.csv: folder nowhere/ cannot" -- converge "$cornell" --out nowhere/x.csv
+expect 1 "--plot nowhere/p.png: folder nowhere/ cannot" -- spectrum --plot nowhere/p.png
+expect 1 "--out nowhere/x.png: folder nowhere/ cannot" -- slice "$cornell" --pixel 1,1 --out nowhere/x.png
+expect 1 "--out nowhere/p: folder nowhere/ cannot" -- points --out nowhere/p
+mkfifo pipe.csv
+cat pipe.csv >piped.csv &
+expect 0 "" -- predict --integrand step --n 16 --sets 2 --out pipe.csv
+wait
+[ -p pipe.csv ] && [ -s piped.csv ] || wrong "a pipe is replaced"
+
+# The file beside a scene is of its renders: their outputs are not another command's.
+cp "$cornell" "${cornell%.obj}.mtl" "$(dirname "$cornell")/checker.png" .
+echo "--out rendered.exr" >cornell.flags
+echo precious >rendered.exr
+expect 0 "" -- slice cornell.obj --quiet --pixel 1,1 --resolution 8 --out of-pixel.png
+[ "$(cat rendered.exr)" = precious ] || wrong "slice wrote what its scene's render would"
+rm -f cornell.* rendered.exr
+
 expect 1 "lens radius 1e+19: must be 0 to 1e12" -- "$cornell" --quiet --lens-radius 1e19 --out far.exr
 expect 1 "focal distance 1e-18: must be above 0" -- slice "$cornell" --pixel 1,1 --focal-distance 1e-18
 expect 1 "eye, target and up must be -1e12" -- "$cornell" --quiet --eye 1e38,0,0 --out far.exr

@@ -158,6 +158,8 @@ static int check(const cli_converge_job *job)
 static int run(cli_converge_job *job)
 {
     int code = check(job);
+    if (code == CLI_DONE) code = cli_check_places("out", job->outputs, job->output_count);
+    if (code == CLI_DONE) code = cli_check_place("plot", job->plot.path);
     if (code != CLI_DONE) return code;
     cli_study *study = calloc(1, sizeof *study);
     double *means = calloc((size_t)job->size_count * job->replicates, sizeof *means);

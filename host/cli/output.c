@@ -21,6 +21,33 @@ int cli_is_special_file(const char *path)
     return stat(path, &about) == 0 && !S_ISREG(about.st_mode);
 }
 
+int cli_check_place(const char *flag, const char *path)
+{
+    char folder[PATH_MAX] = ".";
+    struct stat about;
+    if (path == NULL || strcmp(path, "-") == 0) return CLI_DONE;
+    const char *slash = strrchr(path, '/');
+    const int exists = stat(path, &about) == 0;
+    if (exists && S_ISDIR(about.st_mode)) {
+        fprintf(stderr, "clshear: --%s %s: is a folder\n", flag, path);
+        return CLI_FAILED;
+    }
+    if (slash != NULL) snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
+    const int special = exists && !S_ISREG(about.st_mode);
+    if (access(special ? path : folder, W_OK) == 0) return CLI_DONE;
+    fprintf(stderr, "clshear: --%s %s: %s%s cannot be written: %s\n", flag, path,
+            special ? "" : "folder ", special ? path : folder, strerror(errno));
+    return CLI_FAILED;
+}
+
+int cli_check_places(const char *flag, const char *const *paths, int count)
+{
+    int code = CLI_DONE;
+    for (int i = 0; i < count && code == CLI_DONE; i++)
+        code = cli_check_place(flag, paths[i]);
+    return code;
+}
+
 int cli_write_file(const char *path, void (*write)(FILE *stream, const void *user),
                    const void *user)
 {

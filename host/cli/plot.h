@@ -14,7 +14,7 @@ const char *cli_read_plot_path(const char *value, const char **path);
 
 /* Draws: `write_data` writes the data file, `write_curves` a gnuplot script that plots the file
  * called by the string variable `data`, without terminal and output. Without gnuplot one line says
- * so, which is no failure. Returns CLI_DONE or CLI_FAILED. */
+ * so, and only what `keep` leaves is written. Returns CLI_DONE or CLI_FAILED. */
 int cli_plot_draw(const cli_plot *plot, void (*write_data)(FILE *stream, const void *user),
                   void (*write_curves)(FILE *stream, const void *user), const void *user);
 

@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "cli/flags.h"
+#include "cli/output.h"
 #include "cli/parse.h"
 #include "cli/source.h"
 
@@ -64,6 +65,7 @@ int cli_points(int argc, char **argv)
         return CLI_DONE;
     }
     code = cli_source_check(&job.source);
+    if (code == CLI_DONE) code = cli_check_place("out", job.out);
     if (code != CLI_DONE) return code;
     const char *all = job.source.in == NULL ? "xyuv" : NULL;
     clshear_status status =

@@ -227,7 +227,8 @@ int cli_predict(int argc, char **argv)
         return CLI_USAGE;
     }
     if (job.source.projection == NULL && job.source.in == NULL) job.source.projection = "xy";
-    code = predict(&job, &found.prediction);
+    code = cli_check_place("out", job.out);
+    if (code == CLI_DONE) code = predict(&job, &found.prediction);
     found.is_measured = job.measured_sets > 0;
     if (code == CLI_DONE && found.is_measured) code = measure(&job, &found.measured);
     return code == CLI_DONE ? cli_write_file(job.out, write_table, &found) : code;

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/scene.h"
 
@@ -52,30 +53,18 @@ static void choose_output(cli_job *job)
     job->outputs[job->output_count++] = default_output;
 }
 
-/* Finds out before a long render whether a result can be kept. */
+/* Whether a picture can be written there, which must be known before a long render. */
 static int check_output(const char *flag, const char *path)
 {
     static const char *const known[] = {".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff"};
-    const char *dot = strrchr(path, '.'), *slash = strrchr(path, '/');
-    char folder[4096] = ".";
-    struct stat about;
+    const char *dot = strrchr(path, '.');
     int found = 0;
     for (size_t k = 0; k < sizeof known / sizeof *known && dot != NULL; k++)
         found |= strcasecmp(dot, known[k]) == 0;
-    if (!found || dot == path || dot[-1] == '/') {
-        fprintf(stderr, "clshear: --%s %s: must be a name that ends in .exr, .png, .jpg or .tif\n",
-                flag, path);
-        return CLI_USAGE;
-    }
-    if (slash != NULL) snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
-    if (stat(path, &about) == 0 && S_ISDIR(about.st_mode)) {
-        fprintf(stderr, "clshear: --%s %s: is a folder\n", flag, path);
-        return CLI_FAILED;
-    }
-    if (access(folder, W_OK) == 0) return CLI_DONE;
-    fprintf(stderr, "clshear: --%s %s: folder %s cannot be written: %s\n", flag, path, folder,
-            strerror(errno));
-    return CLI_FAILED;
+    if (found && dot != path && dot[-1] != '/') return cli_check_place(flag, path);
+    fprintf(stderr, "clshear: --%s %s: must be a name that ends in .exr, .png, .jpg or .tif\n",
+            flag, path);
+    return CLI_USAGE;
 }
 
 static int check_outputs(const cli_job *job)

@@ -75,15 +75,19 @@ static const char *settings_beside(const char *scene)
 }
 
 /* Reads the settings file and then the line again, which wins; its lights and outputs replace the
- * file's. `line`: what the line says by itself. */
+ * file's. The file beside a scene is about renders: other commands take what it says of the scene,
+ * but not its outputs, nor flags that mean something else to them. `line`: what the line says by
+ * itself. */
 static int read_over_settings(const cli_command *command, const char *settings, const cli_job *line,
                               int argc, char **argv, cli_job *job)
 {
-    int code = cli_parse_settings(command, job, settings);
+    const int beside = line->settings == NULL, renders = command->name == NULL;
+    int code = cli_parse_settings(beside ? &cli_render_command : command, job, settings);
     if (code != CLI_DONE) return code;
     if (!line->quiet) fprintf(stderr, "clshear: settings from %s\n", settings);
     if (line->light_count > 0) job->light_count = 0;
-    if (line->output_count > 0) job->output_count = 0;
+    if (line->output_count > 0 || !renders) job->output_count = 0;
+    if (!renders) job->gain = job->extend = NULL;
     return cli_parse_words(command, job, argc, argv, &job->scene);
 }
 

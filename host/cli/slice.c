@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/output.h"
 #include "cli/render.h"
 #include "cli/scene.h"
 
@@ -218,5 +219,7 @@ int cli_slice_run(int argc, char **argv)
         job.outputs[job.output_count++] =
             strcmp(job.projection, "4d") == 0 ? "slice.npy" : "slice.png";
     code = check(&job);
+    if (code == CLI_DONE) code = cli_check_places("out", job.outputs, job.output_count);
+    if (code == CLI_DONE) code = cli_check_place("spectrum", job.spectrum);
     return code == CLI_DONE ? run(&job) : code;
 }

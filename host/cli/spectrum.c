@@ -218,5 +218,7 @@ int cli_spectrum(int argc, char **argv)
     code = cli_source_check(&job.source);
     if (code != CLI_DONE) return code;
     if (job.output_count == 0 && job.plot.path == NULL) job.outputs[job.output_count++] = "-";
-    return measure(&job);
+    code = cli_check_places("out", job.outputs, job.output_count);
+    if (code == CLI_DONE) code = cli_check_place("plot", job.plot.path);
+    return code == CLI_DONE ? measure(&job) : code;
 }
