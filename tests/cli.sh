@@ -336,7 +336,7 @@ case $output in *"100 %"*) ;; *) wrong "never at 100 %: $output" ;; esac
 rm -f h.exr
 "$program" "$cornell" --spp 200000 --width 64 --height 64 --out h.exr 2>h.txt &
 child=$!
-for _ in $(seq 300); do grep -q ' %' h.txt 2>/dev/null && break; sleep 0.1; done
+for _ in $(seq 300); do grep -q '10 %' h.txt 2>/dev/null && break; sleep 0.1; done
 kill -INT $child
 wait $child
 [ $? -eq 130 ] || wrong "interrupted: exit code"
