@@ -96,7 +96,7 @@ typedef struct clshear_mesh {
     const uint32_t *indices; /* 3 a triangle */
     size_t vertex_count;
     size_t triangle_count;
-    float diffuse[3];  /* albedo */
+    float diffuse[3];  /* albedo; like all colours 0 to 1e15 */
     float emission[3]; /* radiance, both sides */
 } clshear_mesh;
 
@@ -124,8 +124,8 @@ typedef struct clshear_scene_info {
 } clshear_scene_info;
 
 /* Reads OBJ, glTF 2.0, PLY, STL or whatever else Assimp knows, and builds the hierarchy. What can
- * be repaired (missing materials and textures, degenerate triangles) is told to the context's
- * `warn`. */
+ * be repaired (missing material files and textures, colours that are none, degenerate triangles) is
+ * told to the context's `warn`. */
 CLSHEAR_API clshear_status clshear_scene_load(clshear_context *context, const char *path,
                                               clshear_scene **scene);
 

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <sys/stat.h>
 
 typedef struct fixture {
     clshear_context *context;
@@ -324,9 +325,56 @@ static void bad_meshes_are_refused(void **state)
     const uint32_t outside[3] = {0, 1, 3};
     const clshear_mesh mesh = {
         .positions = positions, .indices = outside, .vertex_count = 3, .triangle_count = 1};
-    assert_int_equal(clshear_scene_create(made->context, &mesh, 1, &scene), CLSHEAR_BAD_FILE);
-    assert_int_equal(clshear_scene_create(made->context, NULL, 0, &scene), CLSHEAR_BAD_FILE);
+    assert_int_equal(clshear_scene_create(made->context, &mesh, 1, &scene), CLSHEAR_BAD_ARGUMENT);
+    const float wrong[] = {NAN, -1.0f, INFINITY, 1e16f};
+    for (int i = 0; i < 4; i++) {
+        const uint32_t inside[3] = {0, 1, 2};
+        clshear_mesh dark = mesh, bright = mesh;
+        dark.indices = bright.indices = inside;
+        dark.diffuse[1] = bright.emission[2] = wrong[i];
+        assert_int_equal(clshear_scene_create(made->context, &dark, 1, &scene),
+                         CLSHEAR_BAD_ARGUMENT);
+        assert_int_equal(clshear_scene_create(made->context, &bright, 1, &scene),
+                         CLSHEAR_BAD_ARGUMENT);
+    }
     assert_null(scene);
+}
+
+static void colours_that_are_none_become_black(void **state)
+{
+    fixture *made = *state;
+    test_file("odd.mtl", "newmtl a\nKd inf 1 1\nnewmtl b\nKd 0.5 0.25 1\nKe -5 nan 1e38\n");
+    clshear_scene *scene =
+        load(made, test_file("odd.obj",
+                             "mtllib odd.mtl\n" SQUARE "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n"));
+    const char *warnings = test_warnings();
+    assert_non_null(strstr(warnings, "material \"a\" has the colour inf 1 1"));
+    assert_non_null(strstr(warnings, "material \"b\" has the colour -5 nan 1e+38"));
+    expect_colour(made, scene, -0.5f, 0.5f, 0.5f, 0.25f, 1);
+    assert_int_equal(clshear_scene_describe(scene).emitters, 0);
+    const clshear_light lights[] = {{.kind = (clshear_light_kind)9, .colour = {1, 1, 1}},
+                                    {.colour = {1e38f, 1, 1}},
+                                    {.colour = {1, -1, 1}},
+                                    {.vector = {NAN, 0, 0}}};
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(clshear_scene_add_light(scene, &lights[i]), CLSHEAR_BAD_ARGUMENT);
+    clshear_scene_free(scene);
+}
+
+/* A pipe without a writer would be waited for, and a folder has no bytes. */
+static void pipes_and_folders_are_not_read(void **state)
+{
+    fixture *made = *state;
+    mkfifo(test_path("pipe.png"), 0600);
+    mkdir(test_path("folder.mtl"), 0700);
+    test_file("piped.mtl", "newmtl t\nmap_Kd pipe.png\n");
+    clshear_scene *scene =
+        load(made, test_file("piped.obj", "mtllib piped.mtl folder.mtl\n" SQUARE
+                                          "vt 0 0\nusemtl t\nf 1/1 2/1 3/1 4/1\n"));
+    const char *warnings = test_warnings();
+    assert_non_null(strstr(warnings, "folder.mtl not found"));
+    assert_non_null(strstr(warnings, "pipe.png: is not a regular file"));
+    clshear_scene_free(scene);
 }
 
 int main(void)
@@ -345,6 +393,8 @@ int main(void)
         cmocka_unit_test(gltf_with_camera_and_light),
         cmocka_unit_test(bad_files_are_refused),
         cmocka_unit_test(bad_meshes_are_refused),
+        cmocka_unit_test(colours_that_are_none_become_black),
+        cmocka_unit_test(pipes_and_folders_are_not_read),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

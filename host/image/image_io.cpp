@@ -70,6 +70,8 @@ ImageBuf linear_rgba(const ImageBuf &source)
 clshear_status read_rgba(const char *path, const void *memory, size_t size, ImageBuf &rgba,
                          cs_error *error)
 {
+    if (memory == nullptr && cs_is_special_file(path))
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: is not a regular file", path);
     forget(path);
     OIIO::Filesystem::IOMemReader reader(const_cast<void *>(memory), size);
     ImageBuf source(path, 0, 0, nullptr, nullptr, memory != nullptr ? &reader : nullptr);
@@ -184,6 +186,8 @@ clshear_status read_picture(const char *path, cs_loaded_picture *loaded, cs_erro
     if (access(path, R_OK) != 0)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: cannot be opened: %s", path,
                        std::strerror(errno));
+    if (cs_is_special_file(path))
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: is not a regular file", path);
     forget(path);
     ImageBuf source(path);
     if (!source.read(0, 0, true, TypeDesc::FLOAT))

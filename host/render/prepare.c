@@ -63,6 +63,8 @@ done:
 
 static clshear_status add_mesh(cs_scene *scene, const clshear_mesh *mesh, cs_error *error)
 {
+    if (!cs_is_colour(mesh->diffuse) || !cs_is_colour(mesh->emission))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "mesh: diffuse and emission must be 0 to 1e15");
     cs_material *look = cs_array_extend(&scene->materials, 1);
     if (look == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     look->texture = CS_NO_TEXTURE;
@@ -88,7 +90,7 @@ clshear_status clshear_scene_create(clshear_context *context, const clshear_mesh
     scene = NULL;
 done:
     clshear_scene_free(scene);
-    return status;
+    return status == CLSHEAR_BAD_FILE ? CLSHEAR_BAD_ARGUMENT : status; /* there is no file */
 }
 
 clshear_status clshear_scene_add_light(clshear_scene *scene, const clshear_light *light)

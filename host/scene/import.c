@@ -32,13 +32,25 @@ static int is_stand_in(const struct aiMaterial *material, const float *colour, i
            colour[2] == assimp_unknown;
 }
 
-static void read_colour(const struct aiMaterial *material, const char *key, float *colour)
+/* Replaces what no colour can be by 0, with a warning; `what` it belongs to. */
+static void make_colour(float *colour, const char *path, const char *what, const char *name,
+                        const cs_log *log)
+{
+    if (cs_is_colour(colour)) return;
+    cs_warn(log, "%s: %s \"%s\" has the colour %g %g %g, which must be 0 to 1e15; taken as 0", path,
+            what, name, (double)colour[0], (double)colour[1], (double)colour[2]);
+    colour[0] = colour[1] = colour[2] = 0.0f;
+}
+
+static void read_colour(const struct aiMaterial *material, const char *key, const char *path,
+                        const cs_log *log, float *colour)
 {
     struct aiColor4D value;
+    struct aiString name = {0};
     if (aiGetMaterialColor(material, key, 0, 0, &value) != aiReturn_SUCCESS) return;
-    colour[0] = fmaxf(value.r, 0.0f);
-    colour[1] = fmaxf(value.g, 0.0f);
-    colour[2] = fmaxf(value.b, 0.0f);
+    memcpy(colour, &value.r, 3 * sizeof *colour);
+    aiGetMaterialString(material, "?mat.name", 0, 0, &name);
+    make_colour(colour, path, "material", name.data, log);
 }
 
 static clshear_status add_material(cs_scene *scene, const struct aiScene *file,
@@ -48,9 +60,9 @@ static clshear_status add_material(cs_scene *scene, const struct aiScene *file,
     cs_material look = {.texture = CS_NO_TEXTURE};
     for (int c = 0; c < 3; c++)
         look.diffuse[c] = mid_grey;
-    read_colour(source, "$clr.diffuse", look.diffuse);
-    read_colour(source, "$clr.base", look.diffuse);
-    read_colour(source, "$clr.emissive", look.emission);
+    read_colour(source, "$clr.diffuse", path, log, look.diffuse);
+    read_colour(source, "$clr.base", path, log, look.diffuse);
+    read_colour(source, "$clr.emissive", path, log, look.emission);
     const int stand_in = is_stand_in(source, look.diffuse, materials_missing);
     for (int c = 0; c < 3 && stand_in; c++)
         look.diffuse[c] = mid_grey;
@@ -174,6 +186,7 @@ static clshear_status add_light(cs_scene *scene, const struct aiScene *file,
         light.vector[i] = sign * position[i];
         light.colour[i] = colour[i] / fade;
     }
+    make_colour(light.colour, path, "light", source->mName.data, log);
     return cs_scene_add_light(scene, &light, error);
 }
 

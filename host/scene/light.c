@@ -4,12 +4,25 @@
 
 #include "scene/scene.h"
 
+int cs_is_colour(const float *colour)
+{
+    int good = 1;
+    for (int c = 0; c < 3; c++)
+        good &= colour[c] >= 0.0f && colour[c] <= 1e15f;
+    return good;
+}
+
 clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error)
 {
-    for (int i = 0; i < 3; i++)
-        if (!isfinite(light->vector[i]) || !isfinite(light->colour[i]) || light->colour[i] < 0.0f)
-            return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                           "light: position must be finite, colour finite and not negative");
+    if (light->kind != CLSHEAR_LIGHT_POINT && light->kind != CLSHEAR_LIGHT_DIRECTIONAL)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: kind %d is not known",
+                       (int)light->kind);
+    if (!isfinite(light->vector[0]) || !isfinite(light->vector[1]) || !isfinite(light->vector[2]))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: its position must be finite");
+    if (!cs_is_colour(light->colour))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: colour %g,%g,%g: must be 0 to 1e15",
+                       (double)light->colour[0], (double)light->colour[1],
+                       (double)light->colour[2]);
     float length = 1.0f;
     if (light->kind == CLSHEAR_LIGHT_DIRECTIONAL) {
         length = sqrtf(light->vector[0] * light->vector[0] + light->vector[1] * light->vector[1] +

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/output_file.h"
+
 static FILE *stream_of(struct aiFile *file)
 {
     return (FILE *)(void *)file->UserData;
@@ -60,7 +62,7 @@ static int append_file(const char *path, FILE *target)
 {
     char bytes[4096];
     size_t count;
-    FILE *stream = fopen(path, "rb");
+    FILE *stream = cs_is_special_file(path) ? NULL : fopen(path, "rb");
     if (stream == NULL) return 0;
     while ((count = fread(bytes, 1, sizeof bytes, stream)) > 0)
         fwrite(bytes, 1, count, target);
@@ -103,7 +105,7 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *path, const cha
     (void)mode; /* importing only reads */
     struct aiFile *file = calloc(1, sizeof *file);
     cs_missing *missing = (cs_missing *)(void *)io->UserData;
-    FILE *stream = fopen(path, "rb");
+    FILE *stream = cs_is_special_file(path) ? NULL : fopen(path, "rb"); /* folders, pipes */
     if (stream == NULL) stream = open_several(missing, path);
     if (file == NULL || stream == NULL) {
         if (stream != NULL) fclose(stream);

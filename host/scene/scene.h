@@ -40,6 +40,9 @@ clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, cons
 /* Checks that there is something to render and computes the bounds. */
 clshear_status cs_scene_finish(cs_scene *scene, const char *name, cs_error *error);
 
+/* Whether three numbers can be a colour: 0 to 1e15, whose squares and sums are still floats. */
+int cs_is_colour(const float *colour);
+
 /* Checks and appends a light. */
 clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error);
 
