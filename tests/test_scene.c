@@ -326,6 +326,7 @@ static void bad_meshes_are_refused(void **state)
     const clshear_mesh mesh = {
         .positions = positions, .indices = outside, .vertex_count = 3, .triangle_count = 1};
     assert_int_equal(clshear_scene_create(made->context, &mesh, 1, &scene), CLSHEAR_BAD_ARGUMENT);
+    assert_int_equal(clshear_scene_create(made->context, NULL, 0, &scene), CLSHEAR_BAD_ARGUMENT);
     const float wrong[] = {NAN, -1.0f, INFINITY, 1e16f};
     for (int i = 0; i < 4; i++) {
         const uint32_t inside[3] = {0, 1, 2};
@@ -354,9 +355,8 @@ static void colours_that_are_none_become_black(void **state)
     assert_int_equal(clshear_scene_describe(scene).emitters, 0);
     const clshear_light lights[] = {{.kind = (clshear_light_kind)9, .colour = {1, 1, 1}},
                                     {.colour = {1e38f, 1, 1}},
-                                    {.colour = {1, -1, 1}},
                                     {.vector = {NAN, 0, 0}}};
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < 3; i++)
         assert_int_equal(clshear_scene_add_light(scene, &lights[i]), CLSHEAR_BAD_ARGUMENT);
     clshear_scene_free(scene);
 }
