@@ -191,6 +191,9 @@ expect 0 "" -- predict --integrand step --n 16 --sets 2 --out pipe.csv
 wait
 [ -p pipe.csv ] && [ -s piped.csv ] || wrong "a pipe is replaced"
 
+output=$(POCL_CACHE_DIR=/proc/none "$program" --list-devices 2>&1)
+case $?$output in 1*"PoCL needs a cache folder that it can write"*) ;; *) wrong "no cache: $output" ;; esac
+
 # The file beside a scene is of its renders: their outputs are not another command's.
 cp "$cornell" "${cornell%.obj}.mtl" "$(dirname "$cornell")/checker.png" .
 echo "--out rendered.exr" >cornell.flags

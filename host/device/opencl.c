@@ -61,11 +61,13 @@ void cs_opencl_describe(cl_device_id device, char *name, char *driver, size_t si
     if (driver != NULL) snprintf(driver, size, "%s %s", platform_name, version);
 }
 
-static cl_uint all_devices(cl_device_id *devices)
+/* Finds the devices of all drivers; fails when there are none. */
+static clshear_status all_devices(cl_device_id *devices, cl_uint *found, cs_error *error)
 {
     cl_platform_id platforms[MAX_PLATFORMS];
     cl_uint platform_count = 0, total = 0;
-    if (clGetPlatformIDs(MAX_PLATFORMS, platforms, &platform_count) != CL_SUCCESS) return 0;
+    if (clGetPlatformIDs(MAX_PLATFORMS, platforms, &platform_count) != CL_SUCCESS)
+        platform_count = 0;
     if (platform_count > MAX_PLATFORMS) platform_count = MAX_PLATFORMS;
     for (cl_uint i = 0; i < platform_count; i++) {
         cl_uint count = 0;
@@ -75,7 +77,14 @@ static cl_uint all_devices(cl_device_id *devices)
         total += count < MAX_DEVICES - total ? count : MAX_DEVICES - total;
         if (total == MAX_DEVICES) break;
     }
-    return total;
+    *found = total;
+    if (total > 0) return CLSHEAR_OK;
+    return cs_fail(
+        error, CLSHEAR_NO_DEVICE,
+        platform_count == 0
+            ? "no OpenCL device found; install a driver, for CPUs pocl-opencl-icd"
+            : "the OpenCL drivers here offer no device; PoCL needs a cache folder that it "
+              "can write: $POCL_CACHE_DIR, else one in $XDG_CACHE_HOME or ~/.cache");
 }
 
 static int contains_ignoring_case(const char *text, const char *part)
@@ -93,10 +102,9 @@ static int contains_ignoring_case(const char *text, const char *part)
 clshear_status cs_opencl_find(const char *wanted, cl_device_id *device, cs_error *error)
 {
     cl_device_id devices[MAX_DEVICES];
-    cl_uint count = all_devices(devices);
-    if (count == 0)
-        return cs_fail(error, CLSHEAR_NO_DEVICE,
-                       "no OpenCL device found; install a driver, for CPUs pocl-opencl-icd");
+    cl_uint count;
+    clshear_status status = all_devices(devices, &count, error);
+    if (status != CLSHEAR_OK) return status;
     char *end;
     long number = wanted == NULL ? 0 : strtol(wanted, &end, 10);
     int is_number = wanted == NULL || (*wanted != '\0' && *end == '\0');
@@ -116,10 +124,9 @@ clshear_status cs_device_list(void (*report)(void *user, int number, const char 
                               cs_error *error)
 {
     cl_device_id devices[MAX_DEVICES];
-    cl_uint count = all_devices(devices);
-    if (count == 0)
-        return cs_fail(error, CLSHEAR_NO_DEVICE,
-                       "no OpenCL device found; install a driver, for CPUs pocl-opencl-icd");
+    cl_uint count;
+    clshear_status status = all_devices(devices, &count, error);
+    if (status != CLSHEAR_OK) return status;
     for (cl_uint i = 0; i < count; i++) {
         char name[256];
         cs_opencl_describe(devices[i], name, NULL, sizeof name);
