@@ -223,7 +223,8 @@ case $?$output in 1*"kept.csv: cannot be written: File too large"*) ;; *) wrong 
 [ "$(cat kept.csv)" = precious ] || wrong "kept.csv is lost"
 [ -z "$(ls | grep part)" ] || wrong "parts of files are left: $(ls | grep part)"
 expect 2 "--nsamps 64,16: must be 2 to 32 rising" -- converge --integrand box --nsamps 64,16
-expect 1 "crop 600,601,3,4" -- converge "$cornell" --quiet --pixels 600,3
+expect 2 "--pixels 600,3: is outside the 512 x 512 image" -- converge "$cornell" --quiet --pixels 600,3
+expect 0 "sampler oa has no sets of 30 points: 49" -- converge --integrand disk --sampler oa --nsamps 9,30 --nreps 4
 output=$(PATH=/nonexistent "$program" converge --integrand disk --nreps 4 --plot no.png 2>&1)
 case $?$output in 1*"no gnuplot here: no.png is not drawn"*) ;; *) wrong "without gnuplot: $output" ;; esac
 

@@ -24,6 +24,9 @@ static clshear_status integrate(const cli_converge_job *job, cli_series *series,
             series->sampler, job->counts[k], job->replicates, job->render.options.seed, &points);
         if (status != CLSHEAR_OK) return status;
         series->counts[k] = (uint32_t)points.count;
+        if (points.count != job->counts[k])
+            fprintf(stderr, "clshear: sampler %s has no sets of %u points: %zu\n", series->sampler,
+                    job->counts[k], points.count);
         clshear_points_integrate(&points, &job->integrand, 0, 0,
                                  means + (size_t)k * job->replicates);
         clshear_points_free(&points);
@@ -158,6 +161,8 @@ static int check(const cli_converge_job *job)
 static int run(cli_converge_job *job)
 {
     int code = check(job);
+    for (int i = 0; i < job->pixel_count && code == CLI_DONE; i++)
+        code = cli_check_pixel(&job->render, "pixels", job->pixels[i]);
     if (code == CLI_DONE) code = cli_check_places("out", job->outputs, job->output_count);
     if (code == CLI_DONE) code = cli_check_place("plot", job->plot.path);
     if (code != CLI_DONE) return code;

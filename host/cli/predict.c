@@ -198,6 +198,14 @@ static int predict(const predict_job *job, clshear_prediction *prediction)
     return code;
 }
 
+/* Whether a word is the flag that makes this a prediction for a pixel of a scene. */
+static int is_pixel(const char *word)
+{
+    if (word[0] != '-') return 0;
+    word += word[1] == '-' ? 2 : 1;
+    return strcmp(word, "pixel") == 0 || strncmp(word, "pixel=", 6) == 0;
+}
+
 int cli_predict(int argc, char **argv)
 {
     predict_job job = {.source = {.count = 1024, .sets = 1000, .shear = CLSHEAR_SHEAR_EQUAL_AREA},
@@ -206,8 +214,7 @@ int cli_predict(int argc, char **argv)
                        .out = "-"};
     result found = {0};
     for (int i = 1; i < argc; i++)
-        if (strcmp(argv[i], "--pixel") == 0 || strncmp(argv[i], "--pixel=", 8) == 0)
-            return cli_predict_pixel(argc, argv);
+        if (is_pixel(argv[i])) return cli_predict_pixel(argc, argv);
     int code = cli_parse_words(&command, &job, argc, argv, NULL);
     if (code != CLI_DONE) return code;
     if (job.source.help) {

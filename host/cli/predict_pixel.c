@@ -256,6 +256,6 @@ int cli_predict_pixel(int argc, char **argv)
         fail("--pixel is of a SCENE; see clshear predict --help");
         return CLI_USAGE;
     }
-    if (cli_check_pixel(&job.render, job.pixel) != CLI_DONE) return CLI_USAGE;
+    if (cli_check_pixel(&job.render, "pixel", job.pixel) != CLI_DONE) return CLI_USAGE;
     return cli_check_place("out", job.out) == CLI_DONE ? run(&job) : CLI_FAILED;
 }

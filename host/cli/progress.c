@@ -42,8 +42,9 @@ int cli_progress_report(void *user, const clshear_progress *progress)
     if (state->quiet || (percent / step == state->last_percent / step && state->last_percent >= 0))
         return cli_interrupted();
     state->last_percent = percent;
-    fprintf(stderr, "%s%3d %%  %.2f Msamples/s", state->on_terminal ? "\r" : "clshear: ",
-            percent / step * step, 1e-6 * progress->samples_per_s);
+    fprintf(stderr, "%s%3d %%  %.2f Msamples/s",
+            state->on_terminal ? "\r" : "clshear: ", percent / step * step,
+            1e-6 * progress->samples_per_s);
     if (progress->fraction > 0.0) /* else a pilot, which does not know what is left */
         fprintf(stderr, "  %ld:%02ld:%02ld left", left_s / 3600, left_s / 60 % 60, left_s % 60);
     fputs(state->on_terminal ? "   " : "\n", stderr);

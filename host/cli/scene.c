@@ -149,11 +149,11 @@ void cli_close_scene(cli_job *job, clshear_context *context, clshear_scene *scen
     clshear_aperture_image_free(&job->aperture_image);
 }
 
-int cli_check_pixel(const cli_job *job, const int *pixel)
+int cli_check_pixel(const cli_job *job, const char *flag, const int *pixel)
 {
     const clshear_options *options = &job->options;
     if (pixel[0] < options->width && pixel[1] < options->height) return CLI_DONE;
-    fprintf(stderr, "clshear: --pixel %d,%d: is outside the %d x %d image\n", pixel[0], pixel[1],
+    fprintf(stderr, "clshear: --%s %d,%d: is outside the %d x %d image\n", flag, pixel[0], pixel[1],
             options->width, options->height);
     return CLI_USAGE;
 }

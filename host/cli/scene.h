@@ -30,7 +30,7 @@ clshear_status cli_choose_camera(const cli_job *job, const clshear_scene *scene,
                                  clshear_camera *camera);
 
 /* Whether the image has that pixel: CLI_DONE, or CLI_USAGE with a line printed. */
-int cli_check_pixel(const cli_job *job, const int *pixel);
+int cli_check_pixel(const cli_job *job, const char *flag, const int *pixel);
 
 /* The shear in pixels that the oracle has for a pixel of the image; the pilot's is that of the
  * centre's depth. */

@@ -178,7 +178,7 @@ static int check(const cli_slice_job *job)
     for (int i = 0; i < job->output_count && wrong == NULL; i++)
         if (four != (strcmp(strrchr(job->outputs[i], '.'), ".npy") == 0))
             wrong = "--out: .npy is for --projection 4d, and the only one for it";
-    if (wrong == NULL) return cli_check_pixel(&job->render, job->pixel);
+    if (wrong == NULL) return cli_check_pixel(&job->render, "pixel", job->pixel);
     fprintf(stderr, "clshear: %s\n", wrong);
     return CLI_USAGE;
 }
