@@ -14,20 +14,22 @@ int cs_is_special_file(const char *path)
 
 int cs_output_begin(const char *path, cs_output_file *file)
 {
-    static const size_t room = sizeof ".part" + 20; /* a number of 64 bits has 20 digits */
     *file = (cs_output_file){0};
     const int special = cs_is_special_file(path);
     file->target = special ? NULL : realpath(path, NULL);
     if (file->target == NULL) file->target = strdup(path);
     if (file->target == NULL) return ENOMEM;
-    file->part = malloc(strlen(file->target) + room);
+    const size_t size = strlen(file->target) + sizeof ".part" + 20; /* 64 bits have 20 digits */
+    file->part = malloc(size);
     if (file->part == NULL) {
         free(file->target);
         *file = (cs_output_file){0};
         return ENOMEM;
     }
-    strcpy(file->part, file->target);
-    if (!special) snprintf(file->part + strlen(file->part), room, ".part%ld", (long)getpid());
+    if (special)
+        snprintf(file->part, size, "%s", file->target);
+    else
+        snprintf(file->part, size, "%s.part%ld", file->target, (long)getpid());
     return 0;
 }
 

@@ -32,11 +32,12 @@ typedef struct cs_pilot_picture {
 } cs_pilot_picture;
 
 /* Numbers of samples for a mean of at most `mean` a pixel, powers of two between a 16th (4 where
- * that is less, if the mean is not) and 16 times the mean or `limit`: in proportion to (V (1/A + W/10B))^0.4, which is best where variance falls as N^-1.5. V is
- * the pixel's variance with equal samples, smoothed over 3 x 3 pixels, and a part of its squared
- * contrast with them: what differs there may reach into the pixel where the pilot did not look. W =
- * 1/(I^2 + e^2) weights it for the relative error, with e a hundredth of the mean of the intensity
- * I; A and B are the sums of V and V W: absolute error first, and relative error not forgotten. */
+ * that is less, if the mean is not) and 16 times the mean or `limit`: in proportion to (V (1/A +
+ * W/10B))^0.4, which is best where variance falls as N^-1.5. V is the pixel's variance with equal
+ * samples, smoothed over 3 x 3 pixels, and a part of its squared contrast with them: what differs
+ * there may reach into the pixel where the pilot did not look. W = 1/(I^2 + e^2) weights it for the
+ * relative error, with e a hundredth of the mean of the intensity I; A and B are the sums of V and
+ * V W: absolute error first, and relative error not forgotten. */
 clshear_status cs_share_samples(const cs_pilot_picture *pilot, u32 mean, u32 limit, u32 *samples,
                                 cs_error *error);
 
