@@ -265,7 +265,7 @@ expect 1 "folder.exr: is a folder" -- bare.obj --out folder.exr
 
 # Metadata reproduces the image.
 info=$(oiiotool --info -v a.exr)
-for word in 'Software: "clshear' 'clshear.cmdline: "' 'clshear.seed: "0"' 'clshear.sampler: "sz"' \
+for word in 'Software: "clshear' 'clshear.cmdline: "' 'clshear.settings: "--eye 276.4,274.4,800 --target' 'clshear.seed: "0"' 'clshear.sampler: "sz"' \
     'clshear.shear: "equal-area"' 'clshear.replicates: 2' 'samplesPerPixel: 16' \
     'renderTimeSeconds: ' 'worldToCamera: ' 'clshear.focalDistance: 930' 'clshear.device: "' \
     'clshear.driver: "' 'Variance.R' 'SampleVariance.B' 'Samples' 'Shear'; do

@@ -8,8 +8,26 @@
 
 #include "cli/job.h"
 
-/* Text of a settings file: kept to the end of the process, since the job points into it. */
-static char *settings_text;
+/* Text of a settings file, kept to the end of the process, since the job points into it; and its
+ * flags as they would stand on a line. */
+static char *settings_text, *settings_words;
+
+const char *cli_settings_words(void)
+{
+    return settings_words != NULL ? settings_words : "";
+}
+
+/* Appends a flag to the settings' words, as long as there is memory. */
+static void note_setting(const char *name, size_t length, const char *value)
+{
+    const size_t used = settings_words != NULL ? strlen(settings_words) : 0;
+    const size_t size = used + length + (value != NULL ? strlen(value) : 0) + 8;
+    char *longer = realloc(settings_words, size);
+    if (longer == NULL) return;
+    snprintf(longer + used, size - used, "%s--%.*s%s%s", used > 0 ? " " : "", (int)length, name,
+             value != NULL ? " " : "", value != NULL ? value : "");
+    settings_words = longer;
+}
 
 static int complain(const char *place, const char *format, const char *a, const char *b)
 {
@@ -59,7 +77,9 @@ static int apply_line(const cli_command *command, void *job, char *line, const c
     size_t length = strcspn(line, " \t=");
     char *value = line + length;
     value += strspn(value, " \t=");
-    return apply(command, job, place, line, length, *value != '\0' ? value : NULL);
+    if (*value == '\0') value = NULL;
+    note_setting(line, length, value);
+    return apply(command, job, place, line, length, value);
 }
 
 /* All of a text file; NULL, with errno, if it cannot be read. */

@@ -13,4 +13,7 @@ int cli_parse_words(const cli_command *command, void *job, int argc, char **argv
  * Returns CLI_DONE, CLI_FAILED or CLI_USAGE. */
 int cli_parse_settings(const cli_command *command, void *job, const char *path);
 
+/* What settings files said so far, as words of a line; "" if there was none. */
+const char *cli_settings_words(void);
+
 #endif

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "cli/output.h"
+#include "cli/parse.h"
 #include "cli/progress.h"
 #include "cli/scene.h"
 
@@ -180,7 +181,11 @@ static int write_outputs(const cli_job *job, const clshear_context *context, cls
                          const char *command, int interrupted)
 {
     const held content = interrupted ? held_by(film) : HELD_ALL;
-    if (command != NULL && clshear_film_annotate(film, "clshear.cmdline", command) != CLSHEAR_OK)
+    const char *settings = cli_settings_words();
+    if ((command != NULL &&
+         clshear_film_annotate(film, "clshear.cmdline", command) != CLSHEAR_OK) ||
+        (*settings != '\0' &&
+         clshear_film_annotate(film, "clshear.settings", settings) != CLSHEAR_OK))
         return fail(context);
     int code = CLI_DONE; /* one output that fails must not cost the others */
     for (int i = 0; i < job->output_count; i++) {
