@@ -77,18 +77,28 @@ static int check_outputs(const cli_job *job)
     return code;
 }
 
-/* The command that was given; words that a shell would take apart in quotes. */
+/* Writes a word as a shell reads it. */
+static void write_word(FILE *stream, const char *word)
+{
+    const int plain = *word != '\0' && strpbrk(word, " \t\n\"'$&*;<>?\\`|()[]{}!#~") == NULL;
+    if (!plain) fputc('\'', stream);
+    for (; *word != '\0'; word++)
+        fputs(*word == '\'' ? "'\\''" : (const char[]){*word, '\0'}, stream);
+    if (!plain) fputc('\'', stream);
+}
+
+/* The command that was given; NULL when out of memory. */
 static char *command_line(int argc, char **argv)
 {
-    size_t size = 1;
-    for (int i = 0; i < argc; i++)
-        size += strlen(argv[i]) + 3;
-    char *text = calloc(1, size);
-    for (int i = 0; i < argc && text != NULL; i++) {
-        const char *quote = strpbrk(argv[i], " \t\"$&*;<>?\\`|()") != NULL ? "'" : "";
-        size_t used = strlen(text);
-        snprintf(text + used, size - used, "%s%s%s%s", i > 0 ? " " : "", quote, argv[i], quote);
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (stream == NULL) return NULL;
+    for (int i = 0; i < argc; i++) {
+        if (i > 0) fputc(' ', stream);
+        write_word(stream, argv[i]);
     }
+    fclose(stream);
     return text;
 }
 

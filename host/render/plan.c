@@ -68,9 +68,9 @@ static clshear_status batch_by_samples(cs_job *job, cs_error *error)
         }
         if (count == 0) continue;
         const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, wanted));
+        job->batch_count++; /* first, so that what a failure leaves is freed */
         CS_TRY(cs_batch_create(job->scene->context, &pattern, list, count, width, 0,
-                               &job->batches[job->batch_count], error));
-        job->batch_count++;
+                               &job->batches[job->batch_count - 1], error));
     }
     for (size_t i = 0; i < job->pixel_count; i++)
         job->samples[i] = cs_sampler_count(sampler, job->samples[i]);

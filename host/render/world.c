@@ -1,14 +1,18 @@
 /* A scene's buffers on the device. */
 #include "render/handles.h"
 
+/* What was there stays when there is no room for the new. */
 static clshear_status upload(cs_device_world *world, cs_device *device, cs_world_buffer which,
                              const cs_array *array, cs_error *error)
 {
-    cs_buffer_free(world->buffers[which]);
-    world->buffers[which] = NULL;
     const void *items = array->count > 0 ? array->items : NULL;
-    return cs_buffer_create(device, array->count * array->item_size, items, &world->buffers[which],
-                            error);
+    cs_buffer *made = NULL;
+    clshear_status status =
+        cs_buffer_create(device, array->count * array->item_size, items, &made, error);
+    if (status != CLSHEAR_OK) return status;
+    cs_buffer_free(world->buffers[which]);
+    world->buffers[which] = made;
+    return CLSHEAR_OK;
 }
 
 static int any_face_is_described(const cs_scene *scene)
@@ -52,8 +56,8 @@ clshear_status cs_world_upload_lights(cs_device_world *world, cs_device *device,
     const int dark = scene->lights.count == 0 && emitters.count == 0;
     const cs_array *lights = dark ? &fallback_only : &scene->lights;
     CS_TRY(upload(world, device, CS_WORLD_LIGHTS, lights, error));
-    CS_TRY(upload(world, device, CS_WORLD_EMITTERS, &emitters, error));
     world->lights = (uint32_t)lights->count;
+    CS_TRY(upload(world, device, CS_WORLD_EMITTERS, &emitters, error));
     world->emitters = (uint32_t)emitters.count;
 done:
     cs_array_free(&emitters);
