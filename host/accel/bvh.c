@@ -288,7 +288,8 @@ clshear_status cs_accel_build_bvh(const cs_accel *accel, cs_flat_bvh *bvh, cs_er
     CS_REQUIRE(builder != NULL && primitives != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory for the hierarchy of %zu triangles", count);
     CS_REQUIRE(capacity < 1u << CS_LEAF_SHIFT, CLSHEAR_BAD_FILE,
-               "%zu triangles are too many for one scene; the limit is 67 million", count);
+               "%zu triangles are too many for one scene; there must be fewer than %u", count,
+               1u << CS_LEAF_SHIFT);
     describe_primitives(scene, primitives);
     struct RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.byteSize = sizeof arguments;
