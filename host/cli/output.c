@@ -15,7 +15,8 @@ static int fail(const char *path)
     return CLI_FAILED;
 }
 
-int cli_is_special_file(const char *path)
+/* Whether a path is a device, a pipe or the like, which no new file must replace. */
+static int is_special_file(const char *path)
 {
     struct stat about;
     return stat(path, &about) == 0 && !S_ISREG(about.st_mode);
@@ -56,7 +57,7 @@ int cli_write_file(const char *path, void (*write)(FILE *stream, const void *use
         write(stdout, user);
         return fflush(stdout) == 0 && !ferror(stdout) ? CLI_DONE : fail("standard output");
     }
-    const int special = cli_is_special_file(path);
+    const int special = is_special_file(path);
     if (special || realpath(path, target) == NULL) /* links are followed */
         snprintf(target, sizeof target, "%s", path);
     if (special)

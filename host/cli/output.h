@@ -4,9 +4,6 @@
 
 #include <stdio.h>
 
-/* Whether a path is a device, a pipe or the like, which no new file must replace. */
-int cli_is_special_file(const char *path);
-
 /* Finds out before long work whether a result can be kept: CLI_DONE, or CLI_FAILED with a line
  * printed. NULL and "-", standard output, can be written. `flag` is named in the message. */
 int cli_check_place(const char *flag, const char *path);
