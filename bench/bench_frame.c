@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame.h"
+#include "kernels/launch.h"
 #include "measure.h"
 #include "render/handles.h"
 #include "view.h"
@@ -78,15 +78,15 @@ static double tuples_s(bench *state)
 {
     const bench_view *view = &state->view;
     cs_device *device = state->context->device;
-    const u32 pixels = (u32)(view->size * view->size);
+    const cs_u32 pixels = (cs_u32)(view->size * view->size);
     const float shear_px = 3.0f;
     const cs_buffer *rows = NULL;
-    cs_frame frame = {.camera = view->frame,
-                      .pattern = view->pattern,
-                      .pixel_count = pixels,
-                      .shear_mode = CS_SHEAR_EQUAL_AREA};
-    must(state, cs_tables_find(&state->context->tables, device, &view->pattern, &rows,
-                               &state->context->error));
+    cs_launch frame = {.camera = view->frame,
+                       .pattern = view->pattern,
+                       .pixel_count = pixels,
+                       .shear_mode = CS_SHEAR_EQUAL_AREA};
+    must(state, cs_table_cache_find(&state->context->tables, device, &view->pattern, &rows,
+                                    &state->context->error));
     const cs_argument arguments[] = {{.value = &frame, .size = sizeof frame},
                                      {.value = &shear_px, .size = sizeof shear_px},
                                      {.buffer = rows},
@@ -103,7 +103,7 @@ static double trace_s(bench *state, int any_hit, const float *reach)
 {
     cs_device *device = state->context->device;
     cs_error *error = &state->context->error;
-    const u32 count = (u32)state->view.rays.count;
+    const cs_u32 count = (cs_u32)state->view.rays.count;
     const cs_argument arguments[] = {{.value = &count, .size = sizeof count},
                                      {.value = &any_hit, .size = sizeof any_hit},
                                      {.buffer = state->origins},
@@ -193,8 +193,8 @@ static void reserve(bench *state)
 static double difference(const bench *state)
 {
     double off = 0.0, all = 0.0;
-    const u32 size = (u32)state->view.size;
-    for (u32 i = 0; i < size * size; i++) {
+    const cs_u32 size = (cs_u32)state->view.size;
+    for (cs_u32 i = 0; i < size * size; i++) {
         const double a = (double)state->radiance[0][2 * i];
         const double b = (double)state->radiance[1][cs_tiled_pixel(i, size, size)];
         off += fabs(a - b);

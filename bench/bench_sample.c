@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame.h"
+#include "kernels/launch.h"
 #include "optics/optics.h"
 #include "pattern/pattern.h"
 #include "render/handles.h"
@@ -49,8 +49,9 @@ static double draw_s(const bench *state, const cs_pattern *pattern, const cs_buf
 {
     cs_error error;
     const float shear = 3.0f;
-    cs_frame frame = {
-        .pattern = *pattern, .pixel_count = SIDE * SIDE, .shear_mode = (u32)state->options.shear};
+    cs_launch frame = {.pattern = *pattern,
+                       .pixel_count = SIDE * SIDE,
+                       .shear_mode = (cs_u32)state->options.shear};
     cs_optics_tables optics = {0};
     cs_buffer *table = NULL;
     must(state, cs_optics_make(&state->camera, state->options.filter, 0.0f, &optics, &error));
@@ -80,17 +81,17 @@ static double frame_s(const bench *state)
     return took_s;
 }
 
-static void measure(bench *state, u32 sampler, int rounds)
+static void measure(bench *state, cs_u32 sampler, int rounds)
 {
     cs_error error;
     double draw[MOST_ROUNDS], share[MOST_ROUNDS];
     const cs_buffer *rows = NULL;
     cs_buffer *sums = NULL;
     cs_device *device = state->context->device;
-    const u32 count = cs_sampler_count(sampler, state->options.spp);
+    const cs_u32 count = cs_sampler_count(sampler, state->options.spp);
     const cs_pattern pattern = cs_pattern_of(sampler, 0, count);
     state->options.sampler = cs_sampler_name(sampler);
-    must(state, cs_tables_find(&state->context->tables, device, &pattern, &rows, &error));
+    must(state, cs_table_cache_find(&state->context->tables, device, &pattern, &rows, &error));
     must(state, cs_buffer_create(device, SIDE * SIDE * sizeof(float), NULL, &sums, &error));
     for (int round = -1; round < rounds; round++) { /* the first one warms up */
         const double alone = draw_s(state, &pattern, rows, sums), all = frame_s(state);
@@ -117,7 +118,7 @@ int main(int argc, char **argv)
                                     .lens_radius = 25.0f,
                                     .focal_distance = 930.0f};
     state.options.width = state.options.height = SIDE;
-    state.options.spp = argc > 2 && atoi(argv[2]) > 0 ? (u32)atoi(argv[2]) : 1024;
+    state.options.spp = argc > 2 && atoi(argv[2]) > 0 ? (cs_u32)atoi(argv[2]) : 1024;
     state.options.replicates = 1;
     must(&state, clshear_context_create(NULL, &state.context));
     must(&state, clshear_scene_load(state.context, argc > 1 ? argv[1] : "scenes/cornell.obj",
@@ -130,7 +131,7 @@ int main(int argc, char **argv)
             printf("\n%s aperture, shear %s\n\n| sampler | N | M tuples/s | of the frame |\n"
                    "|---|---|---|---|\n",
                    disk ? "disk" : "square", shear ? "equal-area" : "none");
-            for (u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
+            for (cs_u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
                 if (argc < 5 || strcmp(argv[4], cs_sampler_name(sampler)) == 0)
                     measure(&state, sampler, rounds);
         }

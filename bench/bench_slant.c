@@ -8,11 +8,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "hash.h"
+#include "clshear/device/hash.h"
+#include "clshear/device/sampler/sampler.h"
+#include "clshear/device/shear.h"
 #include "optics/optics.h"
 #include "pattern/pattern.h"
-#include "sampler/sampler.h"
-#include "shear.h"
 
 enum {
     NONE,
@@ -29,7 +29,7 @@ typedef struct plane {
     double offset[2];
 } plane;
 
-static double is_white(const plane *p, cs_film_lens point)
+static double is_white(const plane *p, cs_camera_sample point)
 {
     const double v = (double)point.v, u = (double)point.u;
     const double row = ((double)point.y - 0.5 + p->shear * v) / (1.0 - p->slope * v);
@@ -40,33 +40,33 @@ static double is_white(const plane *p, cs_film_lens point)
 }
 
 /* Both axes with shears of their own: the second first. */
-static cs_film_lens by_row(const f32 *t, const plane *p)
+static cs_camera_sample by_row(const cs_f32 *t, const plane *p)
 {
-    cs_film_lens point;
-    const cs_blur down = cs_blur_of((f32)p->shear, 1.0f);
+    cs_camera_sample point;
+    const cs_blur down = cs_blur_of((cs_f32)p->shear, 1.0f);
     point.v = down.sign * (cs_trapezoid(t[1], t[3], down.y, &point.y) - 0.5f);
-    const f32 row = point.y - 0.5f + (f32)p->shear * point.v;
-    const cs_blur across = cs_blur_of((f32)(p->shear + p->slope * (double)row), 1.0f);
+    const cs_f32 row = point.y - 0.5f + (cs_f32)p->shear * point.v;
+    const cs_blur across = cs_blur_of((cs_f32)(p->shear + p->slope * (double)row), 1.0f);
     point.u = across.sign * (cs_trapezoid(t[0], t[2], across.x, &point.x) - 0.5f);
     return point;
 }
 
 /* Mean of one pattern for every way. */
-static void pattern_means(const cs_pattern *pattern, const u32 *rows, u32 key, const plane *p,
+static void pattern_means(const cs_pattern *pattern, const cs_u32 *rows, cs_u32 key, const plane *p,
                           const cs_optics_tables *lens, double *mean)
 {
     plane frontal = *p;
     frontal.slope = 0.0;
     for (int way = 0; way < WAYS; way++)
         mean[way] = 0.0;
-    for (u32 i = 0; i < pattern->grid.count; i++) {
-        f32 t[CS_DIMENSIONS] = {0};
+    for (cs_u32 i = 0; i < pattern->grid.count; i++) {
+        cs_f32 t[CS_DIMENSIONS] = {0};
         cs_draw(pattern, rows, key, i, 2, t);
-        const f32 *table = lens->table.items;
-        const cs_film_lens plain =
+        const cs_f32 *table = lens->table.items;
+        const cs_camera_sample plain =
             cs_shear(t[0], t[1], t[2], t[3], CS_SHEAR_NONE, &lens->optics, table, 0.0f);
-        const cs_film_lens sheared = cs_shear(t[0], t[1], t[2], t[3], CS_SHEAR_EQUAL_AREA,
-                                              &lens->optics, table, (f32)p->shear);
+        const cs_camera_sample sheared = cs_shear(t[0], t[1], t[2], t[3], CS_SHEAR_EQUAL_AREA,
+                                                  &lens->optics, table, (cs_f32)p->shear);
         mean[NONE] += is_white(p, plain);
         mean[CENTRE] += is_white(p, sheared);
         mean[BY_ROW] += is_white(p, by_row(t, p));
@@ -76,18 +76,19 @@ static void pattern_means(const cs_pattern *pattern, const u32 *rows, u32 key, c
         mean[way] /= pattern->grid.count;
 }
 
-static void measure(plane p, u32 count, u32 offsets, u32 replicates, const cs_optics_tables *lens)
+static void measure(plane p, cs_u32 count, cs_u32 offsets, cs_u32 replicates,
+                    const cs_optics_tables *lens)
 {
     cs_error error;
     cs_array rows = {0};
     double variance[WAYS] = {0};
     const cs_pattern pattern = cs_pattern_of(CS_SAMPLER_SZ, 0, count);
-    if (cs_rows_make(&pattern, CS_ORDER_SEQUENCE, &rows, &error) != CLSHEAR_OK) exit(1);
-    for (u32 o = 0; o < offsets; o++) {
+    if (cs_sample_table_make(&pattern, CS_ORDER_SEQUENCE, &rows, &error) != CLSHEAR_OK) exit(1);
+    for (cs_u32 o = 0; o < offsets; o++) {
         double sum[WAYS] = {0}, square[WAYS] = {0}, mean[WAYS];
-        for (u32 axis = 0; axis < 2; axis++)
+        for (cs_u32 axis = 0; axis < 2; axis++)
             p.offset[axis] = 2.0 * p.cell_px * 0x1p-32 * cs_key(o + 1u, axis);
-        for (u32 r = 0; r < replicates; r++) {
+        for (cs_u32 r = 0; r < replicates; r++) {
             pattern_means(&pattern, rows.items, cs_pattern_key(o, 7, r), &p, lens, mean);
             for (int way = 0; way < WAYS; way++)
                 sum[way] += mean[way], square[way] += mean[way] * mean[way];
@@ -105,15 +106,15 @@ static void measure(plane p, u32 count, u32 offsets, u32 replicates, const cs_op
 int main(int argc, char **argv)
 {
     static const double shears[] = {5, 16, -16}, slopes[] = {0.05, 0.16, 0.3}, cells[] = {4, 20};
-    const u32 offsets = argc > 1 ? (u32)atoi(argv[1]) : 60;
-    const u32 replicates = argc > 2 && atoi(argv[2]) > 1 ? (u32)atoi(argv[2]) : 40;
+    const cs_u32 offsets = argc > 1 ? (cs_u32)atoi(argv[1]) : 60;
+    const cs_u32 replicates = argc > 2 && atoi(argv[2]) > 1 ? (cs_u32)atoi(argv[2]) : 40;
     const clshear_camera camera = {.aperture = CLSHEAR_APERTURE_SQUARE};
     cs_optics_tables lens = {0};
     cs_error error;
     if (cs_optics_make(&camera, CLSHEAR_FILTER_BOX, 0.0f, &lens, &error) != CLSHEAR_OK) return 1;
     printf("| N | shear | slope | cell | none | centre | by row | no slope |\n"
            "|---|---|---|---|---|---|---|---|\n");
-    for (u32 count = 256; count <= 1024; count *= 4)
+    for (cs_u32 count = 256; count <= 1024; count *= 4)
         for (int s = 0; s < 3; s++)
             for (int g = 0; g < 3; g++)
                 for (int c = 0; c < 2; c++)

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hash.h"
+#include "clshear/device/hash.h"
 
 typedef struct builder {
     cs_array positions; /* float[3] */

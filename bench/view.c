@@ -5,12 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame.h"
-#include "lens.h"
+#include "clshear/device/lens.h"
+#include "clshear/device/shear.h"
+#include "kernels/launch.h"
 #include "meshes.h"
 #include "oracle/oracle.h"
 #include "scene/camera.h"
-#include "shear.h"
 
 void *bench_allocate(size_t size)
 {
@@ -45,13 +45,15 @@ static void place_camera(bench_view *view, cs_error *error)
 }
 
 /* The ray of sample number `place` of a pixel's order. */
-static cs_ray ray_at(const bench_view *view, const u32 *rows, u32 pixel, u32 place, float shear_px)
+static cs_ray ray_at(const bench_view *view, const cs_u32 *rows, cs_u32 pixel, cs_u32 place,
+                     float shear_px)
 {
-    const u32 key = cs_pattern_key(0, pixel, 0), size = (u32)view->size;
+    const cs_u32 key = cs_pattern_key(0, pixel, 0), size = (cs_u32)view->size;
     float tuple[CS_DIMENSIONS] = {0};
     cs_draw(&view->pattern, rows, key, cs_index_at(&view->pattern, key, place), 2, tuple);
-    const cs_film_lens point = cs_shear(tuple[0], tuple[1], tuple[2], tuple[3], CS_SHEAR_EQUAL_AREA,
-                                        &view->frame.optics, view->optics.table.items, shear_px);
+    const cs_camera_sample point =
+        cs_shear(tuple[0], tuple[1], tuple[2], tuple[3], CS_SHEAR_EQUAL_AREA, &view->frame.optics,
+                 view->optics.table.items, shear_px);
     return cs_lens_ray(view->frame, point.x + (float)(pixel % size),
                        point.y + (float)(pixel / size), point.u, point.v);
 }
@@ -64,15 +66,16 @@ static void make_rays(bench_view *view, cs_error *error)
     cs_depth *depth = bench_allocate(pixels * sizeof *depth);
     ray_planes *rays = &view->rays;
     must(cs_accel_depth(view->accel, &view->frame, NULL, window, 0, depth, error), error);
-    must(cs_rows_make(&view->pattern, CS_ORDER_COHERENT, &rows, error), error);
+    must(cs_sample_table_make(&view->pattern, CS_ORDER_COHERENT, &rows, error), error);
     rays->count = pixels * spp;
     rays->origins = bench_allocate(3 * rays->count * sizeof(float));
     rays->directions = bench_allocate(3 * rays->count * sizeof(float));
     rays->reach = bench_allocate(rays->count * sizeof(float));
     for (size_t i = 0; i < rays->count; i++) {
-        const u32 pixel = cs_tiled_pixel((u32)(i / spp), (u32)view->size, (u32)view->size);
+        const cs_u32 pixel =
+            cs_tiled_pixel((cs_u32)(i / spp), (cs_u32)view->size, (cs_u32)view->size);
         const float shear_px = cs_oracle_shear(&view->frame, &depth[pixel], CS_RULE_CENTRE);
-        const cs_ray ray = ray_at(view, rows.items, pixel, (u32)(i % spp), shear_px);
+        const cs_ray ray = ray_at(view, rows.items, pixel, (cs_u32)(i % spp), shear_px);
         for (size_t axis = 0; axis < 3; axis++) {
             rays->origins[axis * rays->count + i] = ray.origin[axis];
             rays->directions[axis * rays->count + i] = ray.direction[axis];
@@ -86,8 +89,8 @@ static void make_rays(bench_view *view, cs_error *error)
 void bench_view_open(bench_view *view)
 {
     cs_error error = {0};
-    view->spp = (int)cs_sampler_count(view->sampler, (u32)view->spp);
-    view->pattern = cs_pattern_of(view->sampler, 0, (u32)view->spp);
+    view->spp = (int)cs_sampler_count(view->sampler, (cs_u32)view->spp);
+    view->pattern = cs_pattern_of(view->sampler, 0, (cs_u32)view->spp);
     cs_scene_init(&view->scene);
     must(bench_make_mesh(view->mesh, view->triangles, &view->scene, &error), &error);
     const double start_s = cs_now_s();

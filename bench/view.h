@@ -14,7 +14,7 @@ typedef struct bench_view {
     int spp;
     int threads;
     double lens_radius;
-    u32 sampler;
+    cs_u32 sampler;
     int square; /* the aperture; else round */
     cs_scene scene;
     cs_accel *accel;

@@ -8,7 +8,7 @@ for name in clang clang-14 clang-15 clang-16; do
 done
 [ -n "$clang" ] || { echo "no clang here: skipped"; exit 77; }
 for width in 1 4 8 16; do
-    for kernel in "$root"/cl/*.cl; do
+    for kernel in "$root"/cl/kernels/*.cl; do
         "$clang" -x cl -cl-std=CL1.2 -Wall -Wextra -Werror -Xclang -finclude-default-header \
             -fsyntax-only -DCS_PACKET=$width -I "$root/cl" "$kernel"
     done

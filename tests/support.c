@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-#include "sampler/sampler.h"
+#include "clshear/device/sampler/sampler.h"
 
 static char warnings[8192];
 static char shown[8192];
@@ -102,12 +102,12 @@ int test_close(void **state)
     return 0;
 }
 
-test_pattern test_pattern_of(u32 sampler, u32 count, cs_row_order order)
+test_pattern test_pattern_of(cs_u32 sampler, cs_u32 count, cs_sample_order order)
 {
     cs_error error;
     test_pattern made;
     made.pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, count));
-    if (cs_rows_make(&made.pattern, order, &made.rows, &error) != CLSHEAR_OK)
+    if (cs_sample_table_make(&made.pattern, order, &made.rows, &error) != CLSHEAR_OK)
         fail_msg("%s", error.message);
     return made;
 }
@@ -117,7 +117,7 @@ void test_pattern_free(test_pattern *pattern)
     cs_array_free(&pattern->rows);
 }
 
-void test_draw(const test_pattern *pattern, u32 key, u32 index, f32 *tuple)
+void test_draw(const test_pattern *pattern, cs_u32 key, cs_u32 index, cs_f32 *tuple)
 {
     cs_draw(&pattern->pattern, pattern->rows.items, key, index, CS_DIMENSIONS / 2, tuple);
 }

@@ -60,10 +60,10 @@ typedef struct test_pattern {
 } test_pattern;
 
 /* `count` is raised to the next one that the sampler has. */
-test_pattern test_pattern_of(u32 sampler, u32 count, cs_row_order order);
+test_pattern test_pattern_of(cs_u32 sampler, cs_u32 count, cs_sample_order order);
 void test_pattern_free(test_pattern *pattern);
 
 /* Sample `index` of the pattern named by `key`: CS_DIMENSIONS coordinates. */
-void test_draw(const test_pattern *pattern, u32 key, u32 index, f32 *tuple);
+void test_draw(const test_pattern *pattern, cs_u32 key, cs_u32 index, cs_f32 *tuple);
 
 #endif

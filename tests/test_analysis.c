@@ -5,7 +5,7 @@
 #include <pthread.h>
 #include <stdio.h>
 
-#include "hash.h"
+#include "clshear/device/hash.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -203,7 +203,7 @@ static void slopes_are_fitted(void **state)
     double means[4 * 200], errors[4];
     const double reference = 1.0;
     clshear_fit fit;
-    for (u32 i = 0; i < 800; i++) {
+    for (cs_u32 i = 0; i < 800; i++) {
         const double a = 0x1p-32 * (cs_key(i, 1) + 0.5), b = 0x1p-32 * cs_key(i, 2);
         means[i] = 1.0 + pow(counts[i / 200], -0.75) * sqrt(-2.0 * log(a)) * cos(2.0 * pi * b);
     }

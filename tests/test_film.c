@@ -8,8 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "clshear/device/hash.h"
 #include "film/film.h"
-#include "hash.h"
 
 static cs_error error;
 
@@ -124,7 +124,7 @@ static void full_disks_are_noticed(void **state)
     for (int c = 0; c < 3; c++) {
         float *pixels = cs_film_add_channel(film, (const char[]){"RGB"[c], '\0'});
         for (int p = 0; p < 300 * 200; p++)
-            pixels[p] = (float)(cs_hash((u32)(3 * p + c)) >> 8) * 0x1p-24f;
+            pixels[p] = (float)(cs_hash((cs_u32)(3 * p + c)) >> 8) * 0x1p-24f;
     }
     for (int i = 0; i < 4; i++) {
         char name[16];

@@ -3,14 +3,14 @@
 
 #include <math.h>
 
-#include "sampler/grid.h"
+#include "clshear/device/sampler/grid.h"
 
 /* Whether `marks` has each of [0, count) exactly once. */
-static int each_once(const u32 *marks, u32 count)
+static int each_once(const cs_u32 *marks, cs_u32 count)
 {
     unsigned char *seen = calloc(count, 1);
     int good = 1;
-    for (u32 i = 0; i < count; i++) {
+    for (cs_u32 i = 0; i < count; i++) {
         good &= marks[i] < count && !seen[marks[i]];
         if (marks[i] < count) seen[marks[i]] = 1;
     }
@@ -22,10 +22,10 @@ static int each_once(const u32 *marks, u32 count)
 static void grids_are_nearly_square(void **state)
 {
     (void)state;
-    const u32 expected[][2] = {{16, 4}, {49, 7}, {512, 16}, {1000, 25}, {1024, 32}, {7, 3}};
+    const cs_u32 expected[][2] = {{16, 4}, {49, 7}, {512, 16}, {1000, 25}, {1024, 32}, {7, 3}};
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
         assert_int_equal(cs_grid_of(expected[i][0]).columns, expected[i][1]);
-    for (u32 n = 1; n < 3000; n++) {
+    for (cs_u32 n = 1; n < 3000; n++) {
         cs_grid grid = cs_grid_of(n);
         assert_int_equal(grid.columns * grid.rows + grid.extra, n);
         assert_true(grid.extra < grid.columns);
@@ -37,14 +37,14 @@ static void grids_are_nearly_square(void **state)
 static void orders_are_bijections(void **state)
 {
     (void)state;
-    for (u32 n = 1; n < 600; n++) {
+    for (cs_u32 n = 1; n < 600; n++) {
         const cs_grid grid = cs_grid_of(n);
-        u32 *cells = malloc(n * sizeof *cells), *blocks = malloc(n * sizeof *blocks);
-        for (u32 i = 0; i < n; i++) {
+        cs_u32 *cells = malloc(n * sizeof *cells), *blocks = malloc(n * sizeof *blocks);
+        for (cs_u32 i = 0; i < n; i++) {
             cs_cell a = cs_cell_of(&grid, i), b = cs_cell_in_block_order(&grid, i);
             /* The partial row's columns are spread: number them by their order. */
-            u32 a_column = a.row == grid.rows ? cs_extra_before(&grid, a.column) : a.column;
-            u32 b_column = b.row == grid.rows ? cs_extra_before(&grid, b.column) : b.column;
+            cs_u32 a_column = a.row == grid.rows ? cs_extra_before(&grid, a.column) : a.column;
+            cs_u32 b_column = b.row == grid.rows ? cs_extra_before(&grid, b.column) : b.column;
             cells[i] = a.row * grid.columns + a_column;
             blocks[i] = b.row * grid.columns + b_column;
         }
@@ -58,19 +58,19 @@ static void orders_are_bijections(void **state)
 static void divisions_are_exact(void **state)
 {
     (void)state;
-    for (u32 divisor = 1; divisor < 1100; divisor += 7)
-        for (u32 a = 0; a < CS_MAX_PATTERN; a += 13 * divisor + 1)
-            for (u32 near = a > 2 ? a - 2 : 0; near < a + 3; near++)
-                assert_int_equal(cs_divide(near, divisor, 1.0f / (f32)divisor), near / divisor);
+    for (cs_u32 divisor = 1; divisor < 1100; divisor += 7)
+        for (cs_u32 a = 0; a < CS_MAX_PATTERN; a += 13 * divisor + 1)
+            for (cs_u32 near = a > 2 ? a - 2 : 0; near < a + 3; near++)
+                assert_int_equal(cs_divide(near, divisor, 1.0f / (cs_f32)divisor), near / divisor);
 }
 
 static void permutations_are_bijections(void **state)
 {
     (void)state;
-    for (u32 size = 1; size < 300; size++)
-        for (u32 key = 0; key < 20; key++) {
-            u32 *image = malloc(size * sizeof *image);
-            for (u32 i = 0; i < size; i++)
+    for (cs_u32 size = 1; size < 300; size++)
+        for (cs_u32 key = 0; key < 20; key++) {
+            cs_u32 *image = malloc(size * sizeof *image);
+            for (cs_u32 i = 0; i < size; i++)
                 image[i] = cs_permute(i, size, cs_domain_of(size), cs_hash(key));
             assert_true(each_once(image, size));
             free(image);
@@ -84,19 +84,19 @@ static void permutations_are_bijections(void **state)
 static void permutations_mix_pairs(void **state)
 {
     (void)state;
-    const u32 sizes[] = {5, 8, 12, 16, 25, 32};
+    const cs_u32 sizes[] = {5, 8, 12, 16, 25, 32};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
-        const u32 n = sizes[k], keys = 400 * n * (n - 1);
+        const cs_u32 n = sizes[k], keys = 400 * n * (n - 1);
         const cs_domain domain = cs_domain_of(n);
-        for (u32 gap = 1; gap < n; gap += n / 4 + 1) {
-            u32 *hits = calloc(n * n, sizeof *hits);
+        for (cs_u32 gap = 1; gap < n; gap += n / 4 + 1) {
+            cs_u32 *hits = calloc(n * n, sizeof *hits);
             double chi = 0.0, expected = 400.0, dof = (double)n * (n - 1) - 1.0;
-            for (u32 t = 0; t < keys; t++) {
-                u32 key = cs_key(gap, t);
+            for (cs_u32 t = 0; t < keys; t++) {
+                cs_u32 key = cs_key(gap, t);
                 hits[cs_permute(0, n, domain, key) * n + cs_permute(gap, n, domain, key)]++;
             }
-            for (u32 a = 0; a < n; a++)
-                for (u32 b = 0; b < n; b++)
+            for (cs_u32 a = 0; a < n; a++)
+                for (cs_u32 b = 0; b < n; b++)
                     if (a != b) chi += pow(hits[a * n + b] - expected, 2) / expected;
             assert_true(chi / dof < 10.0);
             free(hits);

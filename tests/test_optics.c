@@ -4,22 +4,22 @@
 
 #include <math.h>
 
-#include "hash.h"
-#include "shear.h"
+#include "clshear/device/hash.h"
+#include "clshear/device/shear.h"
 
-static f32 uniform(u32 index, u32 dimension)
+static cs_f32 uniform(cs_u32 index, cs_u32 dimension)
 {
-    return (f32)(cs_key(cs_key(991, index), dimension) >> 8) * (1.0f / 16777216.0f);
+    return (cs_f32)(cs_key(cs_key(991, index), dimension) >> 8) * (1.0f / 16777216.0f);
 }
 
-static const f32 shears[] = {1e-6f, 0.3f, -0.3f, 1.0f, -1.0f, 3.0f, -25.0f};
+static const cs_f32 shears[] = {1e-6f, 0.3f, -0.3f, 1.0f, -1.0f, 3.0f, -25.0f};
 enum {
     SHEARS = sizeof shears / sizeof *shears,
     LENSES = 6
 };
 
 /* A variety of apertures; filters in turn. */
-static cs_optics_tables lens(u32 which)
+static cs_optics_tables lens(cs_u32 which)
 {
     const clshear_camera cameras[LENSES] = {
         {.aperture = CLSHEAR_APERTURE_DISK},
@@ -28,11 +28,11 @@ static cs_optics_tables lens(u32 which)
         {.aperture = CLSHEAR_APERTURE_POLYGON, .blades = 6},
         {.aperture = CLSHEAR_APERTURE_POLYGON, .blades = 4, .blade_rotation_deg = 45.0f},
         {.aperture = CLSHEAR_APERTURE_IMAGE, .image = test_aperture_image()}};
-    static const f32 widths[] = {0.0f, 2.5f, 0.0f, 1.7f, 0.0f};
+    static const cs_f32 widths[] = {0.0f, 2.5f, 0.0f, 1.7f, 0.0f};
     static const clshear_filter filters[] = {CLSHEAR_FILTER_GAUSSIAN, CLSHEAR_FILTER_BOX,
                                              CLSHEAR_FILTER_BOX, CLSHEAR_FILTER_TENT,
                                              CLSHEAR_FILTER_BLACKMAN_HARRIS};
-    const u32 filter = which / LENSES;
+    const cs_u32 filter = which / LENSES;
     return test_optics(&cameras[which % LENSES], filters[filter], widths[filter]);
 }
 enum {
@@ -40,44 +40,45 @@ enum {
 };
 
 /* Where x lies in the filter's distribution. */
-static f32 filter_rank(const cs_optics_tables *lens, f32 x)
+static cs_f32 filter_rank(const cs_optics_tables *lens, cs_f32 x)
 {
-    const f32 *heights = lens->table.items;
-    const f32 step = lens->optics.filter_width / (f32)lens->optics.filter_steps;
-    const f32 place = (x - 0.5f + 0.5f * lens->optics.filter_width) / step;
-    f32 sum = 0.0f;
-    for (u32 k = 0; k < lens->optics.filter_steps; k++)
-        sum += heights[k] * step * cs_clamp(place - (f32)k, 0.0f, 1.0f);
+    const cs_f32 *heights = lens->table.items;
+    const cs_f32 step = lens->optics.filter_width / (cs_f32)lens->optics.filter_steps;
+    const cs_f32 place = (x - 0.5f + 0.5f * lens->optics.filter_width) / step;
+    cs_f32 sum = 0.0f;
+    for (cs_u32 k = 0; k < lens->optics.filter_steps; k++)
+        sum += heights[k] * step * cs_clamp(place - (cs_f32)k, 0.0f, 1.0f);
     return sum;
 }
 
 /* Cells of equal measure of the four coordinates: v by its distribution given u. */
-static u32 cell_of(const cs_optics_tables *lens, const cs_film_lens *p)
+static cs_u32 cell_of(const cs_optics_tables *lens, const cs_camera_sample *p)
 {
-    const f32 *table = lens->table.items;
-    const cs_profile across = cs_profile_across(&lens->optics, table);
+    const cs_f32 *table = lens->table.items;
+    const cs_marginal across = cs_marginal_across(&lens->optics, table);
     const cs_chord chord = cs_chord_at(&lens->optics, table, &across, p->u);
-    const f32 v = (p->v - chord.centre) / cs_max(chord.length, 1e-9f);
-    const f32 ranks[4] = {filter_rank(lens, p->x), filter_rank(lens, p->y),
-                          cs_profile_at(&across, p->u).below,
-                          cs_profile_at(&chord.profile, v).below};
-    u32 cell = 0;
+    const cs_f32 v = (p->v - chord.centre) / cs_max(chord.length, 1e-9f);
+    const cs_f32 ranks[4] = {filter_rank(lens, p->x), filter_rank(lens, p->y),
+                             cs_marginal_at(&across, p->u).below,
+                             cs_marginal_at(&chord.marginal, v).below};
+    cs_u32 cell = 0;
     for (int d = 0; d < 4; d++) {
         assert_true(ranks[d] > -1e-4f && ranks[d] < 1.0001f);
-        cell = 4 * cell + (u32)cs_clamp(4.0f * ranks[d], 0.0f, 3.0f);
+        cell = 4 * cell + (cs_u32)cs_clamp(4.0f * ranks[d], 0.0f, 3.0f);
     }
     return cell;
 }
 
-static double chi_square(const cs_optics_tables *lens, f32 shear, u32 salt)
+static double chi_square(const cs_optics_tables *lens, cs_f32 shear, cs_u32 salt)
 {
-    const u32 count = 32000;
-    u32 hits[256] = {0};
+    const cs_u32 count = 32000;
+    cs_u32 hits[256] = {0};
     double chi = 0.0;
-    for (u32 i = salt; i < salt + count; i++) {
-        const cs_film_lens p = cs_shear(uniform(i, 0), uniform(i, 1), uniform(i, 2), uniform(i, 3),
-                                        shear == 0.0f ? CS_SHEAR_NONE : CS_SHEAR_EQUAL_AREA,
-                                        &lens->optics, lens->table.items, shear);
+    for (cs_u32 i = salt; i < salt + count; i++) {
+        const cs_camera_sample p =
+            cs_shear(uniform(i, 0), uniform(i, 1), uniform(i, 2), uniform(i, 3),
+                     shear == 0.0f ? CS_SHEAR_NONE : CS_SHEAR_EQUAL_AREA, &lens->optics,
+                     lens->table.items, shear);
         hits[cell_of(lens, &p)]++;
     }
     for (int i = 0; i < 256; i++)
@@ -90,10 +91,10 @@ static double chi_square(const cs_optics_tables *lens, f32 shear, u32 salt)
 static void measure_is_kept(void **state)
 {
     (void)state;
-    for (u32 which = 0; which < VARIANTS; which++) {
+    for (cs_u32 which = 0; which < VARIANTS; which++) {
         cs_optics_tables made = lens(which);
         assert_true(chi_square(&made, 0.0f, 1u + 40000u * which) < 420.0);
-        for (u32 k = 0; k < SHEARS; k++) {
+        for (cs_u32 k = 0; k < SHEARS; k++) {
             const double chi = chi_square(&made, shears[k], 7u + 40000u * which);
             if (!(chi < 420.0))
                 fail_msg("lens %u, shear %g: chi-square %g", which, (double)shears[k], chi);
@@ -106,16 +107,16 @@ static void measure_is_kept(void **state)
 static void extreme_tuples_are_inside(void **state)
 {
     (void)state;
-    static const f32 ends[] = {0.0f, 6e-8f, 5e-7f, 0.5f, 0.99999994f};
-    for (u32 which = 0; which < VARIANTS; which++) {
+    static const cs_f32 ends[] = {0.0f, 6e-8f, 5e-7f, 0.5f, 0.99999994f};
+    for (cs_u32 which = 0; which < VARIANTS; which++) {
         cs_optics_tables made = lens(which);
         const cs_optics *o = &made.optics;
-        const f32 half = 0.5f * o->filter_width + 1e-5f;
-        for (u32 i = 0; i < 625 * SHEARS; i++) {
-            const cs_film_lens p =
+        const cs_f32 half = 0.5f * o->filter_width + 1e-5f;
+        for (cs_u32 i = 0; i < 625 * SHEARS; i++) {
+            const cs_camera_sample p =
                 cs_shear(ends[i % 5], ends[i / 5 % 5], ends[i / 25 % 5], ends[i / 125 % 5],
                          CS_SHEAR_EQUAL_AREA, o, made.table.items, shears[i / 625]);
-            if (!(fabsf(p.u) <= 1.0001f * o->reach[0] && fabsf(p.v) <= 1.0001f * o->reach[1] &&
+            if (!(fabsf(p.u) <= 1.0001f * o->half_width[0] && fabsf(p.v) <= 1.0001f * o->half_width[1] &&
                   fabsf(p.x - 0.5f) <= half && fabsf(p.y - 0.5f) <= half))
                 fail_msg("lens %u, tuple %u: %g %g %g %g", which, i, (double)p.x, (double)p.y,
                          (double)p.u, (double)p.v);
@@ -129,18 +130,18 @@ static void extreme_tuples_are_inside(void **state)
 static void first_pair_fixes_the_fibre(void **state)
 {
     (void)state;
-    for (u32 which = 0; which < VARIANTS; which++) {
+    for (cs_u32 which = 0; which < VARIANTS; which++) {
         cs_optics_tables made = lens(which);
         const cs_optics *o = &made.optics;
-        for (u32 i = 0; i < 50 * SHEARS; i++) {
-            const f32 s = shears[i % SHEARS], a = uniform(i, 0), b = uniform(i, 1);
-            const f32 *table = made.table.items;
-            cs_film_lens p[3];
+        for (cs_u32 i = 0; i < 50 * SHEARS; i++) {
+            const cs_f32 s = shears[i % SHEARS], a = uniform(i, 0), b = uniform(i, 1);
+            const cs_f32 *table = made.table.items;
+            cs_camera_sample p[3];
             p[0] = cs_shear(a, b, uniform(i, 2), uniform(i, 3), 2, o, table, s);
             p[1] = cs_shear(a, b, uniform(i, 4), uniform(i, 5), 2, o, table, s);
             p[2] = cs_shear(a + 0.01f, b, uniform(i, 2), uniform(i, 3), 2, o, table, s);
-            const f32 tolerance = 2e-5f * (1.0f + fabsf(s));
-            f32 t[3];
+            const cs_f32 tolerance = 2e-5f * (1.0f + fabsf(s));
+            cs_f32 t[3];
             for (int k = 0; k < 3; k++)
                 t[k] = p[k].x + s * o->squeeze * p[k].u;
             assert_true(fabsf(t[0] - t[1]) < tolerance);
@@ -156,18 +157,18 @@ static void first_pair_fixes_the_fibre(void **state)
 static void fibre_is_a_quantile(void **state)
 {
     (void)state;
-    for (u32 which = 0; which < VARIANTS; which++) {
+    for (cs_u32 which = 0; which < VARIANTS; which++) {
         cs_optics_tables made = lens(which);
-        const cs_profile across = cs_profile_across(&made.optics, made.table.items);
-        for (u32 i = 0; i < 10 * SHEARS; i++) {
-            const f32 s = shears[i % SHEARS] * made.optics.squeeze, a = uniform(i, 0);
-            const cs_film_lens p = cs_shear(a, 0.4f, 0.5f, 0.5f, 2, &made.optics, made.table.items,
-                                            shears[i % SHEARS]);
-            const f32 t = p.x + s * p.u;
+        const cs_marginal across = cs_marginal_across(&made.optics, made.table.items);
+        for (cs_u32 i = 0; i < 10 * SHEARS; i++) {
+            const cs_f32 s = shears[i % SHEARS] * made.optics.squeeze, a = uniform(i, 0);
+            const cs_camera_sample p = cs_shear(a, 0.4f, 0.5f, 0.5f, 2, &made.optics,
+                                                made.table.items, shears[i % SHEARS]);
+            const cs_f32 t = p.x + s * p.u;
             double sum = 0.0;
             for (int j = 0; j < 4000; j++) {
-                const f32 u = cs_profile_quantile(&across, ((f32)j + 0.5f) / 4000.0f);
-                const f32 half = 0.5f * made.optics.filter_width;
+                const cs_f32 u = cs_marginal_quantile(&across, ((cs_f32)j + 0.5f) / 4000.0f);
+                const cs_f32 half = 0.5f * made.optics.filter_width;
                 sum += (double)filter_rank(&made, cs_clamp(t - s * u, 0.5f - half, 0.5f + half));
             }
             assert_true(fabs(sum / 4000.0 - (double)a) < 1e-3);
@@ -193,7 +194,7 @@ static int is_in_polygon(int blades, double rotation_deg, double u, double v)
 static void polygons_are_regular(void **state)
 {
     (void)state;
-    const u32 count = 100000;
+    const cs_u32 count = 100000;
     for (int blades = 3; blades <= 32; blades += blades < 9 ? 1 : 23) {
         const double rotation = 7.0 * blades, pi = 3.14159265358979;
         const clshear_camera camera = {.aperture = CLSHEAR_APERTURE_POLYGON,
@@ -201,9 +202,9 @@ static void polygons_are_regular(void **state)
                                        .blade_rotation_deg = (float)rotation};
         cs_optics_tables made = test_optics(&camera, CLSHEAR_FILTER_BOX, 0.0f);
         double sums[5] = {0}, squares[5] = {0};
-        for (u32 i = 0; i < count; i++) {
-            const cs_film_lens p = cs_shear(0.5f, 0.5f, uniform(i, 2), uniform(i, 3), 0,
-                                            &made.optics, made.table.items, 0.0f);
+        for (cs_u32 i = 0; i < count; i++) {
+            const cs_camera_sample p = cs_shear(0.5f, 0.5f, uniform(i, 2), uniform(i, 3), 0,
+                                                &made.optics, made.table.items, 0.0f);
             assert_true(is_in_polygon(blades, rotation, (double)p.u, (double)p.v));
             const double u = (double)p.u, v = (double)p.v, all[5] = {u, v, u * u, v * v, u * v};
             for (int f = 0; f < 5; f++) {
@@ -229,14 +230,14 @@ static void images_are_sampled_by_luminance(void **state)
     const clshear_aperture_image *image = test_aperture_image();
     const clshear_camera camera = {.aperture = CLSHEAR_APERTURE_IMAGE, .image = image};
     cs_optics_tables made = test_optics(&camera, CLSHEAR_FILTER_BOX, 0.0f);
-    const u32 count = 50000;
-    u32 hits[20] = {0};
+    const cs_u32 count = 50000;
+    cs_u32 hits[20] = {0};
     double sum = 0.0, chi = 0.0;
     for (int i = 0; i < 20; i++)
         sum += (double)image->luminance[i];
-    for (u32 i = 0; i < count; i++) {
-        const cs_film_lens p = cs_shear(0.5f, 0.5f, uniform(i, 2), uniform(i, 3), 0, &made.optics,
-                                        made.table.items, 0.0f);
+    for (cs_u32 i = 0; i < count; i++) {
+        const cs_camera_sample p = cs_shear(0.5f, 0.5f, uniform(i, 2), uniform(i, 3), 0,
+                                            &made.optics, made.table.items, 0.0f);
         hits[(int)((p.v + 0.4f) * 4.9999f) * 5 + (int)((p.u + 0.5f) * 4.9999f)]++;
     }
     for (int i = 0; i < 20; i++) {
@@ -255,12 +256,12 @@ static void filters_are_filters(void **state)
 {
     (void)state;
     const clshear_camera camera = {.aperture = CLSHEAR_APERTURE_SQUARE};
-    for (u32 kind = 0; kind < 4; kind++) {
+    for (cs_u32 kind = 0; kind < 4; kind++) {
         cs_optics_tables made = test_optics(&camera, (clshear_filter)kind, 2.0f);
-        const f32 *heights = made.table.items;
-        const u32 steps = made.optics.filter_steps;
+        const cs_f32 *heights = made.table.items;
+        const cs_u32 steps = made.optics.filter_steps;
         double sum = 0.0;
-        for (u32 k = 0; k < steps; k++) {
+        for (cs_u32 k = 0; k < steps; k++) {
             sum += (double)heights[k] * 2.0 / steps;
             assert_true(heights[k] > 0.0f);
             assert_true(fabsf(heights[k] - heights[steps - 1 - k]) < 1e-6f);

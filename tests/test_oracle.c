@@ -3,9 +3,9 @@
 
 #include <math.h>
 
-#include "hash.h"
-#include "lens.h"
-#include "oracle/pilot.h"
+#include "clshear/device/hash.h"
+#include "clshear/device/lens.h"
+#include "oracle/choose_rule.h"
 
 /* s = A / w * (F / z - 1): positive in front of the focal plane, zero on it, negative behind; what
  * sees nothing is not sheared. */
@@ -45,9 +45,9 @@ enum {
     PIXELS = SIDE * SIDE
 };
 
-static f32 uniform(u32 index)
+static cs_f32 uniform(cs_u32 index)
 {
-    return (f32)(cs_hash(index + 1u) >> 8) * 0x1p-24f;
+    return (cs_f32)(cs_hash(index + 1u) >> 8) * 0x1p-24f;
 }
 
 /* The nearest depth has a third of the prior's variance on the left and three times it on the
@@ -56,12 +56,12 @@ static f32 uniform(u32 index)
  * 10 %, so that a wrong choice well inside either half is out of the question. */
 static void clear_evidence_decides(void **state)
 {
-    static f32 prior[PIXELS], near[PIXELS], far[PIXELS];
+    static cs_f32 prior[PIXELS], near[PIXELS], far[PIXELS];
     static uint8_t rules[PIXELS];
     cs_evidence evidence[CS_RULE_COUNT] = {{0}};
     cs_error error;
     (void)state;
-    for (u32 i = 0; i < PIXELS; i++) {
+    for (cs_u32 i = 0; i < PIXELS; i++) {
         const int looked = cs_hash(i ^ 77u) % 4u == 0u, left = i % SIDE < SIDE / 2;
         prior[i] = looked ? -logf(uniform(3 * i) + 1e-6f) : -1.0f;
         near[i] = looked ? -logf(uniform(3 * i + 1) + 1e-6f) * (left ? 0.33f : 3.0f) : -1.0f;
@@ -71,8 +71,8 @@ static void clear_evidence_decides(void **state)
     evidence[CS_RULE_FAR] = (cs_evidence){far, prior};
     assert_int_equal(cs_pilot_choose(evidence, CS_RULE_CENTRE, SIDE, SIDE, 10, rules, &error),
                      CLSHEAR_OK);
-    for (u32 i = 0; i < PIXELS; i++) {
-        const u32 x = i % SIDE, y = i / SIDE;
+    for (cs_u32 i = 0; i < PIXELS; i++) {
+        const cs_u32 x = i % SIDE, y = i / SIDE;
         if (x < 10 || x >= SIDE - 10 || y < 10 || y >= SIDE - 10)
             continue; /* windows are cut off */
         if (x < SIDE / 2 - 10) assert_int_equal(rules[i], CS_RULE_NEAR);
@@ -82,17 +82,17 @@ static void clear_evidence_decides(void **state)
 
 static void without_evidence_the_prior_stays(void **state)
 {
-    static f32 nothing[PIXELS];
+    static cs_f32 nothing[PIXELS];
     static uint8_t rules[PIXELS];
     cs_evidence evidence[CS_RULE_COUNT] = {{0}};
     cs_error error;
     (void)state;
-    for (u32 i = 0; i < PIXELS; i++)
+    for (cs_u32 i = 0; i < PIXELS; i++)
         nothing[i] = -1.0f;
     evidence[CS_RULE_NEAR] = (cs_evidence){nothing, nothing};
     assert_int_equal(cs_pilot_choose(evidence, CS_RULE_MEDIAN, SIDE, SIDE, 5, rules, &error),
                      CLSHEAR_OK);
-    for (u32 i = 0; i < PIXELS; i++)
+    for (cs_u32 i = 0; i < PIXELS; i++)
         assert_int_equal(rules[i], CS_RULE_MEDIAN);
 }
 
@@ -100,25 +100,25 @@ static void without_evidence_the_prior_stays(void **state)
  * the variance gets about 1000^0.4 = 16 times the samples. */
 static void samples_follow_variance(void **state)
 {
-    static f32 variance[PIXELS], intensity[PIXELS];
-    static u32 samples[PIXELS];
+    static cs_f32 variance[PIXELS], intensity[PIXELS];
+    static cs_u32 samples[PIXELS];
     double total = 0.0;
     cs_error error;
     (void)state;
-    for (u32 i = 0; i < PIXELS; i++) {
+    for (cs_u32 i = 0; i < PIXELS; i++) {
         const int block = i % SIDE >= 20 && i % SIDE < 32 && i / SIDE >= 20 && i / SIDE < 32;
         variance[i] = block ? 1.0f : 1e-3f;
         intensity[i] = 1.0f;
     }
     const cs_pilot_picture pilot = {variance, intensity, SIDE, SIDE, 16, 4};
-    assert_int_equal(cs_share_samples(&pilot, 1000, 1 << 20, samples, &error), CLSHEAR_OK);
-    for (u32 i = 0; i < PIXELS; i++) {
+    assert_int_equal(cs_allocate_samples(&pilot, 1000, 1 << 20, samples, &error), CLSHEAR_OK);
+    for (cs_u32 i = 0; i < PIXELS; i++) {
         total += samples[i];
         assert_int_equal(samples[i] & (samples[i] - 1), 0);
         assert_true(samples[i] >= 64 && samples[i] <= 16000);
     }
     assert_true(total <= 1000.0 * PIXELS && total > 500.0 * PIXELS);
-    const u32 inside = samples[26 * SIDE + 26], outside = samples[5 * SIDE + 5];
+    const cs_u32 inside = samples[26 * SIDE + 26], outside = samples[5 * SIDE + 5];
     assert_true(inside == 16 * outside);
 }
 
@@ -127,21 +127,22 @@ static void samples_follow_variance(void **state)
 static void sharing_keeps_to_limits(void **state)
 {
     static const struct {
-        u32 mean, limit, least, most;
+        cs_u32 mean, limit, least, most;
     } cases[] = {{1, 1 << 20, 1, 1},           {2, 1 << 20, 2, 2},
                  {3, 1 << 20, 2, 32},          {100, 1 << 20, 8, 1024},
                  {100000, 65536, 8192, 65536}, {1 << 20, 1 << 20, 1 << 16, 1 << 20}};
-    static f32 variance[PIXELS], intensity[PIXELS];
-    static u32 samples[PIXELS];
+    static cs_f32 variance[PIXELS], intensity[PIXELS];
+    static cs_u32 samples[PIXELS];
     cs_error error;
     (void)state;
     variance[PIXELS / 2] = 1.0f;
     const cs_pilot_picture pilot = {variance, intensity, SIDE, SIDE, 16, 4};
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         double total = 0.0;
-        assert_int_equal(cs_share_samples(&pilot, cases[c].mean, cases[c].limit, samples, &error),
-                         CLSHEAR_OK);
-        for (u32 i = 0; i < PIXELS; i++) {
+        assert_int_equal(
+            cs_allocate_samples(&pilot, cases[c].mean, cases[c].limit, samples, &error),
+            CLSHEAR_OK);
+        for (cs_u32 i = 0; i < PIXELS; i++) {
             total += samples[i];
             assert_true(samples[i] >= cases[c].least && samples[i] <= cases[c].most);
         }
@@ -154,18 +155,18 @@ static void sharing_keeps_to_limits(void **state)
 /* A pilot that saw an edge between two columns, but no variance in either, does not trust that. */
 static void contrast_gets_samples(void **state)
 {
-    static f32 variance[PIXELS], intensity[PIXELS];
-    static u32 samples[PIXELS];
+    static cs_f32 variance[PIXELS], intensity[PIXELS];
+    static cs_u32 samples[PIXELS];
     cs_error error;
     (void)state;
-    for (u32 i = 0; i < PIXELS; i++) {
+    for (cs_u32 i = 0; i < PIXELS; i++) {
         variance[i] = 1e-7f;
         intensity[i] = i % SIDE < SIDE / 2 ? 0.2f : 1.0f;
     }
     const cs_pilot_picture pilot = {variance, intensity, SIDE, SIDE, 16, 4};
-    assert_int_equal(cs_share_samples(&pilot, 1000, 1 << 20, samples, &error), CLSHEAR_OK);
-    for (u32 y = 0; y < SIDE; y++) {
-        const u32 *row = samples + y * SIDE;
+    assert_int_equal(cs_allocate_samples(&pilot, 1000, 1 << 20, samples, &error), CLSHEAR_OK);
+    for (cs_u32 y = 0; y < SIDE; y++) {
+        const cs_u32 *row = samples + y * SIDE;
         assert_true(row[SIDE / 2 - 1] >= 8 * row[SIDE / 2 - 2]);
         assert_true(row[SIDE / 2] >= 8 * row[SIDE / 2 + 1]);
     }

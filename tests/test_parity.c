@@ -4,9 +4,9 @@
 
 #include <math.h>
 
+#include "clshear/device/shear.h"
 #include "device/device.h"
-#include "frame.h"
-#include "shear.h"
+#include "kernels/launch.h"
 
 static const int widths[] = {1, 4, 8, 16};
 enum {
@@ -15,18 +15,18 @@ enum {
 
 static cs_error error;
 
-static void run_points(cs_device *device, const cs_frame *frame, const cs_array *rows,
-                       const cs_array *optics, u32 pixel, f32 shear, float *points)
+static void run_points(cs_device *device, const cs_launch *frame, const cs_array *rows,
+                       const cs_array *optics, cs_u32 pixel, cs_f32 shear, float *points)
 {
     cs_buffer *buffer = NULL, *table = NULL, *profiles = NULL;
-    const u32 count = frame->pattern.grid.count, packet = (u32)cs_device_packet(device);
+    const cs_u32 count = frame->pattern.grid.count, packet = (cs_u32)cs_device_packet(device);
     const size_t size = count * CS_POINT_VALUES * sizeof(float);
     assert_int_equal(cs_buffer_create(device, size, NULL, &buffer, &error), CLSHEAR_OK);
     assert_int_equal(
-        cs_buffer_create(device, rows->count * sizeof(u32), rows->items, &table, &error),
+        cs_buffer_create(device, rows->count * sizeof(cs_u32), rows->items, &table, &error),
         CLSHEAR_OK);
     assert_int_equal(
-        cs_buffer_create(device, optics->count * sizeof(f32), optics->items, &profiles, &error),
+        cs_buffer_create(device, optics->count * sizeof(cs_f32), optics->items, &profiles, &error),
         CLSHEAR_OK);
     const cs_argument arguments[] = {{.value = frame, .size = sizeof *frame},
                                      {.value = &pixel, .size = sizeof pixel},
@@ -49,29 +49,29 @@ static double ulps(float a, float b)
     return fabs((double)a - (double)b) * 16777216.0;
 }
 
-static void compare(const cs_frame *frame, const test_pattern *drawn, const cs_array *optics,
-                    u32 pixel, f32 shear, const float *points)
+static void compare(const cs_launch *frame, const test_pattern *drawn, const cs_array *optics,
+                    cs_u32 pixel, cs_f32 shear, const float *points)
 {
-    const u32 key = cs_pattern_key(frame->seed, pixel, frame->replicate);
-    for (u32 i = 0; i < frame->pattern.grid.count; i++) {
+    const cs_u32 key = cs_pattern_key(frame->seed, pixel, frame->replicate);
+    for (cs_u32 i = 0; i < frame->pattern.grid.count; i++) {
         const float *given = points + (size_t)CS_POINT_VALUES * i;
-        f32 t[CS_DIMENSIONS];
+        cs_f32 t[CS_DIMENSIONS];
         test_draw(drawn, key, i, t);
-        cs_film_lens p = cs_shear(t[0], t[1], t[2], t[3], frame->shear_mode, &frame->camera.optics,
-                                  optics->items, shear);
+        cs_camera_sample p = cs_shear(t[0], t[1], t[2], t[3], frame->shear_mode,
+                                      &frame->camera.optics, optics->items, shear);
         const float place[4] = {p.x, p.y, p.u, p.v};
         if (memcmp(given, t, sizeof t) != 0)
             fail_msg("%s: sample %u differs", cs_sampler_name(frame->pattern.sampler), i);
-        for (u32 k = 0; k < 4; k++)
+        for (cs_u32 k = 0; k < 4; k++)
             assert_true(ulps(given[CS_DIMENSIONS + k], place[k]) <= 16.0);
     }
 }
 
 /* Square and disk with a box filter for all shears; besides them, for the equal-area shear, the
  * other apertures and filters. */
-static cs_optics_tables optics_of(u32 variant)
+static cs_optics_tables optics_of(cs_u32 variant)
 {
-    const u32 other = variant % 3 == CS_SHEAR_TOROIDAL ? 0 : variant / 6 % 5;
+    const cs_u32 other = variant % 3 == CS_SHEAR_TOROIDAL ? 0 : variant / 6 % 5;
     const clshear_camera camera = {.aperture =
                                        (clshear_aperture)(other == 0 ? variant / 3 % 2 : other - 1),
                                    .blades = 5,
@@ -83,23 +83,23 @@ static cs_optics_tables optics_of(u32 variant)
 
 static void host_equals_device(void **state)
 {
-    const u32 counts[] = {1, 7, 49, 64, 1000};
-    const f32 shears[] = {0.0f, 0.4f, -3.0f, 12.0f};
+    const cs_u32 counts[] = {1, 7, 49, 64, 1000};
+    const cs_f32 shears[] = {0.0f, 0.4f, -3.0f, 12.0f};
     (void)state;
     for (int w = 0; w < WIDTHS; w++) {
         cs_device *device = NULL;
         assert_int_equal(cs_device_open(NULL, 0, widths[w], &device, &error), CLSHEAR_OK);
-        for (u32 variant = 0; variant < 5 * CS_SAMPLER_COUNT; variant++) {
+        for (cs_u32 variant = 0; variant < 5 * CS_SAMPLER_COUNT; variant++) {
             test_pattern drawn =
                 test_pattern_of(variant / 5, counts[variant % 5], CS_ORDER_COHERENT);
-            cs_frame frame = {.pattern = drawn.pattern,
-                              .seed = variant,
-                              .replicate = variant / 3,
-                              .shear_mode = variant % 3};
+            cs_launch frame = {.pattern = drawn.pattern,
+                               .seed = variant,
+                               .replicate = variant / 3,
+                               .shear_mode = variant % 3};
             cs_optics_tables optics = optics_of(variant);
             frame.camera.optics = optics.optics;
             float *points = malloc(drawn.pattern.grid.count * CS_POINT_VALUES * sizeof *points);
-            const f32 shear = shears[variant / 6 % 4];
+            const cs_f32 shear = shears[variant / 6 % 4];
             run_points(device, &frame, &drawn.rows, &optics.table, 1234u + variant, shear, points);
             compare(&frame, &drawn, &optics.table, 1234u + variant, shear, points);
             free(points);

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "context/context.h"
-#include "shared.h"
+#include "kernels/pixel.h"
 
 enum {
     SIZE = 48,

@@ -5,16 +5,16 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "sampler/sampler.h"
+#include "clshear/device/sampler/sampler.h"
 
-static const u32 counts[] = {1, 2, 3, 5, 7, 16, 49, 64, 101, 512, 1000, 1024};
+static const cs_u32 counts[] = {1, 2, 3, 5, 7, 16, 49, 64, 101, 512, 1000, 1024};
 enum {
     COUNTS = sizeof counts / sizeof *counts
 };
 
-static u32 stratum(f32 value, u32 strata)
+static cs_u32 stratum(cs_f32 value, cs_u32 strata)
 {
-    return (u32)((double)value * strata);
+    return (cs_u32)((double)value * strata);
 }
 
 /* Over many patterns, one sample's pairs are uniform in the unit square: chi-square on 8 x 8 cells,
@@ -22,14 +22,14 @@ static u32 stratum(f32 value, u32 strata)
  * alarms below 1e-7 for each of 225 tests. */
 static void single_samples_are_uniform(void **state)
 {
-    static const u32 sizes[] = {1, 7, 16, 101, 1000};
+    static const cs_u32 sizes[] = {1, 7, 16, 101, 1000};
     (void)state;
-    for (u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
+    for (cs_u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
         for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
             test_pattern drawn = test_pattern_of(sampler, sizes[k], CS_ORDER_COHERENT);
-            u32 hits[3][64] = {{0}};
-            for (u32 t = 0; t < 64000; t++) {
-                f32 tuple[CS_DIMENSIONS];
+            cs_u32 hits[3][64] = {{0}};
+            for (cs_u32 t = 0; t < 64000; t++) {
+                cs_f32 tuple[CS_DIMENSIONS];
                 test_draw(&drawn, cs_pattern_key(9, t, 0), t % drawn.pattern.grid.count, tuple);
                 for (int pair = 0; pair < 3; pair++)
                     hits[pair][stratum(tuple[2 * pair + 1], 8) * 8 + stratum(tuple[2 * pair], 8)]++;
@@ -52,7 +52,7 @@ enum {
     INTEGRANDS = 4
 };
 
-static void integrands(const f32 *t, double *values)
+static void integrands(const cs_f32 *t, double *values)
 {
     const double x = t[0], y = t[1], u = t[2], v = t[3];
     values[0] = x * x + y * y + u * u + v * v < 1.0;
@@ -63,12 +63,12 @@ static void integrands(const f32 *t, double *values)
 
 static const double integrals[INTEGRANDS] = {0.308425137534042, 0.5, 1.0, 1.0};
 
-static void estimate(const test_pattern *drawn, u32 key, double *mean)
+static void estimate(const test_pattern *drawn, cs_u32 key, double *mean)
 {
-    const u32 count = drawn->pattern.grid.count;
+    const cs_u32 count = drawn->pattern.grid.count;
     memset(mean, 0, INTEGRANDS * sizeof *mean);
-    for (u32 i = 0; i < count; i++) {
-        f32 tuple[CS_DIMENSIONS];
+    for (cs_u32 i = 0; i < count; i++) {
+        cs_f32 tuple[CS_DIMENSIONS];
         double values[INTEGRANDS];
         test_draw(drawn, key, i, tuple);
         integrands(tuple, values);
@@ -82,12 +82,12 @@ static void estimate(const test_pattern *drawn, u32 key, double *mean)
 static void estimates_are_unbiased(void **state)
 {
     (void)state;
-    for (u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
+    for (cs_u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
         for (int c = 0; c < COUNTS; c++) {
             test_pattern drawn = test_pattern_of(sampler, counts[c], CS_ORDER_COHERENT);
             double sum[INTEGRANDS] = {0}, squares[INTEGRANDS] = {0};
-            const u32 patterns = counts[c] > 60 ? 250 : 2000;
-            for (u32 t = 0; t < patterns; t++) {
+            const cs_u32 patterns = counts[c] > 60 ? 250 : 2000;
+            for (cs_u32 t = 0; t < patterns; t++) {
                 double mean[INTEGRANDS];
                 estimate(&drawn, cs_pattern_key(1, t, 5), mean);
                 for (int k = 0; k < INTEGRANDS; k++)
@@ -109,16 +109,16 @@ static void estimates_are_unbiased(void **state)
  * 180 tests. */
 static void patterns_are_unrelated(void **state)
 {
-    static const u32 others[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    const u32 pairs = 4000;
+    static const cs_u32 others[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const cs_u32 pairs = 4000;
     (void)state;
-    for (u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++) {
+    for (cs_u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++) {
         test_pattern drawn = test_pattern_of(sampler, 16, CS_ORDER_COHERENT);
         for (int o = 0; o < 3; o++) {
             double ab[INTEGRANDS] = {0}, aa[INTEGRANDS] = {0}, bb[INTEGRANDS] = {0};
-            for (u32 t = 0; t < pairs; t++) {
+            for (cs_u32 t = 0; t < pairs; t++) {
                 double a[INTEGRANDS], b[INTEGRANDS];
-                const u32 pixel = 2 * t;
+                const cs_u32 pixel = 2 * t;
                 estimate(&drawn, cs_pattern_key(4, pixel, 2), a);
                 estimate(&drawn,
                          cs_pattern_key(4 + others[o][0], pixel + others[o][1], 2 + others[o][2]),
@@ -143,19 +143,19 @@ static void patterns_are_unrelated(void **state)
 static void orders_hold_the_same_samples(void **state)
 {
     (void)state;
-    for (u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
-        for (u32 n = 1; n < 300; n += 1 + n / 3) {
+    for (cs_u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
+        for (cs_u32 n = 1; n < 300; n += 1 + n / 3) {
             test_pattern drawn = test_pattern_of(sampler, n, CS_ORDER_COHERENT);
             test_pattern sequence = test_pattern_of(sampler, n, CS_ORDER_SEQUENCE);
-            const u32 places = drawn.pattern.blocks * CS_BLOCK, count = drawn.pattern.grid.count;
+            const cs_u32 places = drawn.pattern.blocks * CS_BLOCK, count = drawn.pattern.grid.count;
             unsigned char *seen = calloc(places, 1);
             double sum[2] = {0};
-            for (u32 i = 0; i < places; i++) {
-                const u32 index = cs_index_at(&drawn.pattern, 99, i);
+            for (cs_u32 i = 0; i < places; i++) {
+                const cs_u32 index = cs_index_at(&drawn.pattern, 99, i);
                 assert_true(index < places && !seen[index]);
                 seen[index] = 1;
                 if (index >= count || !cs_sampler_is_progressive(sampler)) continue;
-                f32 a[CS_DIMENSIONS], b[CS_DIMENSIONS];
+                cs_f32 a[CS_DIMENSIONS], b[CS_DIMENSIONS];
                 test_draw(&drawn, 5, index, a);
                 test_draw(&sequence, 5, index, b);
                 sum[0] += cs_hash(cs_as_vuint(a[0]) + cs_hash(cs_as_vuint(a[3])));
@@ -174,15 +174,15 @@ static void progressive_samplers_go_on(void **state)
 {
     cs_error error;
     (void)state;
-    for (u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++) {
+    for (cs_u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++) {
         if (!cs_sampler_is_progressive(sampler)) continue;
         test_pattern whole = test_pattern_of(sampler, 5000, CS_ORDER_SEQUENCE);
         test_pattern start = test_pattern_of(sampler, 300, CS_ORDER_SEQUENCE);
         test_pattern rest = {.pattern = cs_pattern_of(sampler, 300, 4700)};
-        assert_int_equal(cs_rows_make(&rest.pattern, CS_ORDER_SEQUENCE, &rest.rows, &error),
+        assert_int_equal(cs_sample_table_make(&rest.pattern, CS_ORDER_SEQUENCE, &rest.rows, &error),
                          CLSHEAR_OK);
-        for (u32 i = 0; i < 5000; i++) {
-            f32 a[CS_DIMENSIONS], b[CS_DIMENSIONS];
+        for (cs_u32 i = 0; i < 5000; i++) {
+            cs_f32 a[CS_DIMENSIONS], b[CS_DIMENSIONS];
             test_draw(&whole, 31, i, a);
             test_draw(i < 300 ? &start : &rest, 31, i < 300 ? i : i - 300, b);
             assert_memory_equal(a, b, sizeof a);
@@ -197,17 +197,17 @@ static void progressive_samplers_go_on(void **state)
  * no diagonals. */
 static void large_patterns_are_sound(void **state)
 {
-    static const u32 numbers[] = {3194, 59000, 674041, CS_MAX_PATTERN};
+    static const cs_u32 numbers[] = {3194, 59000, 674041, CS_MAX_PATTERN};
     (void)state;
-    for (u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
+    for (cs_u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
         for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
             if (cs_sampler_count(sampler, numbers[k]) == 0) continue;
             if (sampler == CS_SAMPLER_CCVT && k > 0) continue; /* takes long */
             test_pattern drawn = test_pattern_of(sampler, numbers[k], CS_ORDER_COHERENT);
-            const u32 count = drawn.pattern.grid.count;
+            const cs_u32 count = drawn.pattern.grid.count;
             double products = 0.0;
-            for (u32 i = 0; i < count; i++) {
-                f32 t[CS_DIMENSIONS];
+            for (cs_u32 i = 0; i < count; i++) {
+                cs_f32 t[CS_DIMENSIONS];
                 test_draw(&drawn, 12, i, t);
                 for (int d = 0; d < CS_DIMENSIONS; d++)
                     assert_true(t[d] >= 0.0f && t[d] < 1.0f);
@@ -224,9 +224,9 @@ static void names_are_found(void **state)
 {
     cs_error error;
     clshear_sampler_info info;
-    u32 number, defaults = 0;
+    cs_u32 number, defaults = 0;
     (void)state;
-    for (u32 i = 0; i < CS_SAMPLER_COUNT; i++) {
+    for (cs_u32 i = 0; i < CS_SAMPLER_COUNT; i++) {
         assert_int_equal(clshear_sampler_describe(i, &info), 1);
         assert_int_equal(cs_sampler_find(info.name, &number, &error), CLSHEAR_OK);
         assert_int_equal(number, i);

@@ -3,25 +3,26 @@
 
 #include <math.h>
 
-#include "hash.h"
-#include "lens.h"
-#include "shear.h"
+#include "clshear/device/hash.h"
+#include "clshear/device/lens.h"
+#include "clshear/device/shear.h"
 
-static const f32 shears[] = {0.0f, 1e-6f, 0.3f, -0.3f, 1.0f, -1.0f,
-                             2.0f, -2.0f, 8.5f, -8.5f, 60.0f};
+static const cs_f32 shears[] = {0.0f, 1e-6f, 0.3f, -0.3f, 1.0f, -1.0f,
+                                2.0f, -2.0f, 8.5f, -8.5f, 60.0f};
 enum {
     SHEARS = sizeof shears / sizeof *shears,
     MODES = 3,
     APERTURES = 2
 };
 
-static f32 uniform(u32 index, u32 dimension)
+static cs_f32 uniform(cs_u32 index, cs_u32 dimension)
 {
-    return (f32)(cs_key(cs_key(77, index), dimension) >> 8) * (1.0f / 16777216.0f);
+    return (cs_f32)(cs_key(cs_key(77, index), dimension) >> 8) * (1.0f / 16777216.0f);
 }
 
 /* A square or disk aperture with the usual pixel. */
-static cs_film_lens sheared(f32 a, f32 b, f32 c, f32 d, u32 mode, u32 aperture, f32 shear)
+static cs_camera_sample sheared(cs_f32 a, cs_f32 b, cs_f32 c, cs_f32 d, cs_u32 mode,
+                                cs_u32 aperture, cs_f32 shear)
 {
     static cs_optics_tables optics[APERTURES];
     if (optics[aperture].table.items == NULL) {
@@ -32,7 +33,7 @@ static cs_film_lens sheared(f32 a, f32 b, f32 c, f32 d, u32 mode, u32 aperture, 
                     shear);
 }
 
-static cs_film_lens random_point(u32 i, u32 mode, u32 aperture, f32 shear)
+static cs_camera_sample random_point(cs_u32 i, cs_u32 mode, cs_u32 aperture, cs_f32 shear)
 {
     return sheared(uniform(i, 0), uniform(i, 1), uniform(i, 2), uniform(i, 3), mode, aperture,
                    shear);
@@ -42,17 +43,17 @@ static cs_film_lens random_point(u32 i, u32 mode, u32 aperture, f32 shear)
 static void points_are_inside(void **state)
 {
     (void)state;
-    const f32 ends[] = {0.0f, 1e-7f, 0.5f, 0.99999994f};
-    for (u32 mode = 0; mode < MODES; mode++)
-        for (u32 aperture = 0; aperture < APERTURES; aperture++)
+    const cs_f32 ends[] = {0.0f, 1e-7f, 0.5f, 0.99999994f};
+    for (cs_u32 mode = 0; mode < MODES; mode++)
+        for (cs_u32 aperture = 0; aperture < APERTURES; aperture++)
             for (int k = 0; k < SHEARS; k++)
-                for (u32 i = 0; i < 2256; i++) {
-                    cs_film_lens p = i < 256
-                                         ? sheared(ends[i & 3], ends[i >> 2 & 3], ends[i >> 4 & 3],
-                                                   ends[i >> 6], mode, aperture, shears[k])
-                                         : random_point(i, mode, aperture, shears[k]);
+                for (cs_u32 i = 0; i < 2256; i++) {
+                    cs_camera_sample p =
+                        i < 256 ? sheared(ends[i & 3], ends[i >> 2 & 3], ends[i >> 4 & 3],
+                                          ends[i >> 6], mode, aperture, shears[k])
+                                : random_point(i, mode, aperture, shears[k]);
                     assert_true(p.x >= 0.0f && p.x < 1.0f && p.y >= 0.0f && p.y < 1.0f);
-                    f32 radius = sqrtf(p.u * p.u + p.v * p.v);
+                    cs_f32 radius = sqrtf(p.u * p.u + p.v * p.v);
                     if (aperture == CS_APERTURE_DISK)
                         assert_true(radius <= CS_DISK_RADIUS * 1.00001f);
                     else
@@ -66,7 +67,7 @@ enum {
     INTEGRANDS = 9
 };
 
-static void integrands(const cs_film_lens *p, double *values)
+static void integrands(const cs_camera_sample *p, double *values)
 {
     double x = p->x - 0.5, y = p->y - 0.5, u = p->u, v = p->v;
     const double all[INTEGRANDS] = {x,     y * y,        u, v, u * u, v * v, u * u * v * v,
@@ -75,7 +76,7 @@ static void integrands(const cs_film_lens *p, double *values)
 }
 
 /* Second moments: 1/12 for the square; for the disk R^2/4 = 1/(4 pi), and E[u^2 v^2] = R^4/24. */
-static void truths(u32 aperture, double *values)
+static void truths(cs_u32 aperture, double *values)
 {
     const double pi = 3.14159265358979, square = 1.0 / 12.0;
     double second = aperture == CS_APERTURE_DISK ? 1.0 / (4.0 * pi) : square;
@@ -89,14 +90,15 @@ static void truths(u32 aperture, double *values)
 static void measure_is_kept(void **state)
 {
     (void)state;
-    const u32 count = 200000;
-    for (u32 mode = 0; mode < MODES; mode++)
-        for (u32 aperture = 0; aperture < APERTURES; aperture++)
+    const cs_u32 count = 200000;
+    for (cs_u32 mode = 0; mode < MODES; mode++)
+        for (cs_u32 aperture = 0; aperture < APERTURES; aperture++)
             for (int k = 0; k < SHEARS; k++) {
                 double sum[INTEGRANDS] = {0}, squares[INTEGRANDS] = {0};
                 double value[INTEGRANDS], truth[INTEGRANDS];
-                for (u32 i = 0; i < count; i++) {
-                    cs_film_lens p = random_point(i + count * (u32)k, mode, aperture, shears[k]);
+                for (cs_u32 i = 0; i < count; i++) {
+                    cs_camera_sample p =
+                        random_point(i + count * (cs_u32)k, mode, aperture, shears[k]);
                     integrands(&p, value);
                     for (int f = 0; f < INTEGRANDS; f++) {
                         sum[f] += value[f];
@@ -118,16 +120,16 @@ static void measure_is_kept(void **state)
 static void film_and_lens_stay_independent(void **state)
 {
     (void)state;
-    const u32 count = 64000;
-    for (u32 mode = 0; mode < MODES; mode++)
-        for (u32 aperture = 0; aperture < APERTURES; aperture++)
+    const cs_u32 count = 64000;
+    for (cs_u32 mode = 0; mode < MODES; mode++)
+        for (cs_u32 aperture = 0; aperture < APERTURES; aperture++)
             for (int k = 0; k < SHEARS; k++) {
-                u32 hits[64] = {0};
+                cs_u32 hits[64] = {0};
                 double chi = 0.0;
-                for (u32 i = 0; i < count; i++) {
-                    cs_film_lens p = random_point(i + 7777777u, mode, aperture, shears[k]);
-                    f32 rank = aperture == CS_APERTURE_DISK ? cs_disk_cdf(p.u) : p.u + 0.5f;
-                    u32 column = (u32)(p.x * 8.0f), row = (u32)(rank * 7.99999f);
+                for (cs_u32 i = 0; i < count; i++) {
+                    cs_camera_sample p = random_point(i + 7777777u, mode, aperture, shears[k]);
+                    cs_f32 rank = aperture == CS_APERTURE_DISK ? cs_disk_cdf(p.u) : p.u + 0.5f;
+                    cs_u32 column = (cs_u32)(p.x * 8.0f), row = (cs_u32)(rank * 7.99999f);
                     hits[row * 8 + column]++;
                 }
                 for (int i = 0; i < 64; i++)
@@ -142,16 +144,16 @@ static void first_pair_fixes_the_fibre(void **state)
 {
     (void)state;
     for (int k = 0; k < SHEARS; k++) {
-        const f32 s = shears[k], tolerance = 2e-5f * (1.0f + fabsf(s));
-        for (u32 i = 0; i < 500; i++)
-            for (u32 aperture = 0; aperture < APERTURES; aperture++) {
-                f32 a = uniform(i, 0), b = uniform(i, 1);
-                cs_film_lens p =
+        const cs_f32 s = shears[k], tolerance = 2e-5f * (1.0f + fabsf(s));
+        for (cs_u32 i = 0; i < 500; i++)
+            for (cs_u32 aperture = 0; aperture < APERTURES; aperture++) {
+                cs_f32 a = uniform(i, 0), b = uniform(i, 1);
+                cs_camera_sample p =
                     sheared(a, b, uniform(i, 2), uniform(i, 3), CS_SHEAR_EQUAL_AREA, aperture, s);
-                cs_film_lens q =
+                cs_camera_sample q =
                     sheared(a, b, uniform(i, 4), uniform(i, 5), CS_SHEAR_EQUAL_AREA, aperture, s);
-                cs_film_lens r = sheared(a, uniform(i, 6), uniform(i, 4), uniform(i, 5),
-                                         CS_SHEAR_EQUAL_AREA, aperture, s);
+                cs_camera_sample r = sheared(a, uniform(i, 6), uniform(i, 4), uniform(i, 5),
+                                             CS_SHEAR_EQUAL_AREA, aperture, s);
                 assert_true(fabsf((p.x + s * p.u) - (q.x + s * q.u)) < tolerance);
                 assert_true(fabsf((p.y + s * p.v) - (q.y + s * q.v)) < tolerance);
                 assert_true(fabsf((p.x + s * p.u) - (r.x + s * r.u)) < tolerance);
@@ -186,12 +188,12 @@ static double fibre_share(double t_x, double t_y, double s)
 static void disk_fibre_is_a_quantile(void **state)
 {
     (void)state;
-    const f32 blurs[] = {1e-5f, 0.01f, 0.4f, 1.0f, 3.0f, 8.5f, 60.0f};
+    const cs_f32 blurs[] = {1e-5f, 0.01f, 0.4f, 1.0f, 3.0f, 8.5f, 60.0f};
     for (size_t k = 0; k < sizeof blurs / sizeof *blurs; k++)
-        for (u32 i = 0; i < 60; i++) {
-            const f32 s = blurs[k];
-            f32 a = 0.01f + 0.98f * uniform(i, 0), b = uniform(i, 1);
-            cs_film_lens p = {a, b, uniform(i, 2), uniform(i, 3)};
+        for (cs_u32 i = 0; i < 60; i++) {
+            const cs_f32 s = blurs[k];
+            cs_f32 a = 0.01f + 0.98f * uniform(i, 0), b = uniform(i, 1);
+            cs_camera_sample p = {a, b, uniform(i, 2), uniform(i, 3)};
             cs_disk_map(&p, &s, 1, 1.0f);
             double t_x = (double)p.x - 0.5 + (double)s * p.u;
             double t_y = (double)p.y - 0.5 + (double)s * p.v;
@@ -203,14 +205,14 @@ static void disk_fibre_is_a_quantile(void **state)
 static void equal_area_has_no_seams(void **state)
 {
     (void)state;
-    for (u32 aperture = 0; aperture < APERTURES; aperture++)
+    for (cs_u32 aperture = 0; aperture < APERTURES; aperture++)
         for (int k = 0; k < SHEARS; k++) {
-            const f32 s = shears[k], span = 1.0f + fabsf(s) * 1.2f;
-            f32 before = -INFINITY;
-            for (u32 i = 0; i < 4096; i++) {
-                cs_film_lens p = sheared(((f32)i + 0.5f) / 4096.0f, 0.5f, 0.3f, 0.7f,
-                                         CS_SHEAR_EQUAL_AREA, aperture, s);
-                f32 t = p.x + s * p.u;
+            const cs_f32 s = shears[k], span = 1.0f + fabsf(s) * 1.2f;
+            cs_f32 before = -INFINITY;
+            for (cs_u32 i = 0; i < 4096; i++) {
+                cs_camera_sample p = sheared(((cs_f32)i + 0.5f) / 4096.0f, 0.5f, 0.3f, 0.7f,
+                                             CS_SHEAR_EQUAL_AREA, aperture, s);
+                cs_f32 t = p.x + s * p.u;
                 assert_true(t > before - 1e-5f * span);
                 if (i > 0) assert_true(t - before < 0.05f * span);
                 before = t;
@@ -222,22 +224,22 @@ static void equal_area_has_no_seams(void **state)
 static void toroidal_slides_along_fibres(void **state)
 {
     (void)state;
-    for (u32 i = 0; i < 1000; i++) {
-        const f32 s = 0.8f;
-        f32 a = uniform(i, 0), c = uniform(i, 2);
-        cs_film_lens p = sheared(a, 0.5f, c, 0.5f, CS_SHEAR_TOROIDAL, CS_APERTURE_SQUARE, s);
-        f32 t = p.x + s * p.u;
-        f32 wrapped = t - a - roundf(t - a);
+    for (cs_u32 i = 0; i < 1000; i++) {
+        const cs_f32 s = 0.8f;
+        cs_f32 a = uniform(i, 0), c = uniform(i, 2);
+        cs_camera_sample p = sheared(a, 0.5f, c, 0.5f, CS_SHEAR_TOROIDAL, CS_APERTURE_SQUARE, s);
+        cs_f32 t = p.x + s * p.u;
+        cs_f32 wrapped = t - a - roundf(t - a);
         assert_true(fabsf(wrapped) < 1e-5f);
         assert_true(p.u == c - 0.5f);
     }
 }
 
-static f32 disk_fibre(f32 across, f32 blur)
+static cs_f32 disk_fibre(cs_f32 across, cs_f32 blur)
 {
-    const f32 mass = cs_disk_fibre_mass(across);
-    f32 t = cs_disk_fibre_guess(mass, blur);
-    i32 rough = 1;
+    const cs_f32 mass = cs_disk_fibre_mass(across);
+    cs_f32 t = cs_disk_fibre_guess(mass, blur);
+    cs_i32 rough = 1;
     for (int step = 0; step < 2 && rough; step++)
         t = cs_disk_fibre_step(t, sqrtf(mass), blur, &rough);
     return across > 0.5f ? -t : t;
@@ -248,17 +250,17 @@ static f32 disk_fibre(f32 across, f32 blur)
 static void disk_functions_invert(void **state)
 {
     (void)state;
-    for (u32 i = 1; i < 4000; i++) {
-        f32 mass = (f32)i / 4000.0f;
+    for (cs_u32 i = 1; i < 4000; i++) {
+        cs_f32 mass = (cs_f32)i / 4000.0f;
         assert_true(fabsf(cs_disk_cdf(cs_disk_quantile(mass)) - mass) < 1e-6f);
     }
-    const f32 blurs[] = {1e-5f, 0.01f, 0.4f, 1.0f, 3.0f, 5.9f, 6.1f, 20.0f};
+    const cs_f32 blurs[] = {1e-5f, 0.01f, 0.4f, 1.0f, 3.0f, 5.9f, 6.1f, 20.0f};
     for (size_t k = 0; k < sizeof blurs / sizeof *blurs; k++)
-        for (u32 i = 1; i < 40; i++) {
-            f32 mass = (f32)i / 40.0f, t = disk_fibre(mass, blurs[k]);
+        for (cs_u32 i = 1; i < 40; i++) {
+            cs_f32 mass = (cs_f32)i / 40.0f, t = disk_fibre(mass, blurs[k]);
             double sum = 0.0;
             for (int j = 0; j < 4000; j++)
-                sum += cs_disk_cdf((f32)((t - (j + 0.5) / 4000.0 + 0.5) / blurs[k]));
+                sum += cs_disk_cdf((cs_f32)((t - (j + 0.5) / 4000.0 + 0.5) / blurs[k]));
             assert_true(fabs(sum / 4000.0 - mass) < 3e-4);
         }
 }
@@ -277,16 +279,16 @@ static void lens_agrees_with_shear(void **state)
                               .aperture_width = 0.3f,
                               .optics = {.squeeze = 0.5f},
                               .centre_px = {256, 256}};
-    const f32 depths[] = {0.7f, 2.0f, 4.0f, 9.0f, 50.0f};
+    const cs_f32 depths[] = {0.7f, 2.0f, 4.0f, 9.0f, 50.0f};
     for (int k = 0; k < 5; k++)
-        for (u32 i = 0; i < 200; i++) {
-            f32 x = 512.0f * uniform(i, 0), y = 512.0f * uniform(i, 1);
-            f32 u = uniform(i, 2) - 0.5f, v = uniform(i, 3) - 0.5f, z = depths[k];
+        for (cs_u32 i = 0; i < 200; i++) {
+            cs_f32 x = 512.0f * uniform(i, 0), y = 512.0f * uniform(i, 1);
+            cs_f32 u = uniform(i, 2) - 0.5f, v = uniform(i, 3) - 0.5f, z = depths[k];
             cs_ray ray = cs_lens_ray(camera, x, y, u, v);
-            f32 right = ray.origin[0] + z * ray.direction[0] - camera.eye[0];
-            f32 down = camera.eye[1] - ray.origin[1] - z * ray.direction[1];
-            f32 scale = camera.focal_distance / z / camera.pixel_width;
-            f32 shear = cs_shear_of_depth(camera, z);
+            cs_f32 right = ray.origin[0] + z * ray.direction[0] - camera.eye[0];
+            cs_f32 down = camera.eye[1] - ray.origin[1] - z * ray.direction[1];
+            cs_f32 scale = camera.focal_distance / z / camera.pixel_width;
+            cs_f32 shear = cs_shear_of_depth(camera, z);
             assert_true(fabsf(256.0f + right * scale - (x + 0.5f * shear * u)) < 2e-3f);
             assert_true(fabsf(256.0f + down * scale - (y + shear * v)) < 2e-3f);
             assert_true(fabsf(ray.origin[2] + z * ray.direction[2] - (camera.eye[2] - z)) < 1e-4f);

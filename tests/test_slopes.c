@@ -16,7 +16,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "sampler/sampler.h"
+#include "clshear/device/sampler/sampler.h"
 
 enum {
     INTEGRANDS = 6,
@@ -26,9 +26,9 @@ enum {
 
 static const char *const names[INTEGRANDS] = {"step",   "slanted",    "disk",
                                               "smooth", "half-space", "smooth 4D"};
-static const u32 sizes[SIZES] = {16, 64, 256, 1024, 4096};
+static const cs_u32 sizes[SIZES] = {16, 64, 256, 1024, 4096};
 
-static void integrands(const f32 *t, double *values)
+static void integrands(const cs_f32 *t, double *values)
 {
     const double x = t[0], y = t[1], u = t[2], v = t[3];
     values[0] = x < 1.0 / 3.0; /* at a third or two of a stratum for all N here */
@@ -41,15 +41,15 @@ static void integrands(const f32 *t, double *values)
 }
 
 /* Variance of the mean of one pattern, for each integrand. */
-static void measure(u32 sampler, u32 size, u32 *count, double *variance)
+static void measure(cs_u32 sampler, cs_u32 size, cs_u32 *count, double *variance)
 {
     test_pattern drawn = test_pattern_of(sampler, size, CS_ORDER_SEQUENCE);
     double mean[INTEGRANDS] = {0}, m2[INTEGRANDS] = {0};
     *count = drawn.pattern.grid.count;
-    for (u32 t = 0; t < REPLICATES; t++) {
+    for (cs_u32 t = 0; t < REPLICATES; t++) {
         double sum[INTEGRANDS] = {0};
-        for (u32 i = 0; i < *count; i++) {
-            f32 tuple[CS_DIMENSIONS] = {0};
+        for (cs_u32 i = 0; i < *count; i++) {
+            cs_f32 tuple[CS_DIMENSIONS] = {0};
             double values[INTEGRANDS];
             cs_draw(&drawn.pattern, drawn.rows.items, cs_pattern_key(11, t, 0), i, 2, tuple);
             integrands(tuple, values);
@@ -69,7 +69,7 @@ static void measure(u32 sampler, u32 size, u32 *count, double *variance)
 
 /* Least-squares slope of log variance over log N; variances of nothing but rounding are kept out.
  */
-static double slope_of(const u32 *count, double (*variance)[INTEGRANDS], int k)
+static double slope_of(const cs_u32 *count, double (*variance)[INTEGRANDS], int k)
 {
     double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
     for (int i = 0; i < SIZES; i++) {
@@ -81,7 +81,7 @@ static double slope_of(const u32 *count, double (*variance)[INTEGRANDS], int k)
 }
 
 typedef struct expectation {
-    u32 sampler;
+    cs_u32 sampler;
     int integrand;
     double low, high; /* of the slope */
 } expectation;
@@ -106,8 +106,8 @@ static const expectation expected[] = {
 };
 
 /* Steeper than jittering where the function is smooth. */
-static const u32 steeper[] = {CS_SAMPLER_CCVT, CS_SAMPLER_SOBOL, CS_SAMPLER_SOBOL_PAIRS,
-                              CS_SAMPLER_SZ};
+static const cs_u32 steeper[] = {CS_SAMPLER_CCVT, CS_SAMPLER_SOBOL, CS_SAMPLER_SOBOL_PAIRS,
+                                 CS_SAMPLER_SZ};
 
 static void slopes_are_as_in_theory(void **state)
 {
@@ -118,8 +118,8 @@ static void slopes_are_as_in_theory(void **state)
     for (int k = 0; k < INTEGRANDS; k++)
         printf(" %s |", names[k]);
     printf("\n|---|---|---|---|---|---|---|\n");
-    for (u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++) {
-        u32 count[SIZES];
+    for (cs_u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++) {
+        cs_u32 count[SIZES];
         double variance[SIZES][INTEGRANDS];
         for (int i = 0; i < SIZES; i++)
             measure(sampler, sizes[i], &count[i], variance[i]);

@@ -3,20 +3,20 @@
 
 #include <math.h>
 
-#include "hash.h"
-#include "stats.h"
+#include "clshear/device/hash.h"
+#include "clshear/device/stats.h"
 
 enum {
     COUNT = 5000
 };
 
-static void fill(f32 *values, f32 offset)
+static void fill(cs_f32 *values, cs_f32 offset)
 {
-    for (u32 i = 0; i < COUNT; i++)
-        values[i] = offset + (f32)(cs_key(5, i) >> 8) * (1.0f / 16777216.0f);
+    for (cs_u32 i = 0; i < COUNT; i++)
+        values[i] = offset + (cs_f32)(cs_key(5, i) >> 8) * (1.0f / 16777216.0f);
 }
 
-static void batch(const f32 *values, double *mean, double *m2)
+static void batch(const cs_f32 *values, double *mean, double *m2)
 {
     *mean = *m2 = 0.0;
     for (int i = 0; i < COUNT; i++)
@@ -28,9 +28,9 @@ static void batch(const f32 *values, double *mean, double *m2)
 static void adding_equals_the_batch(void **state)
 {
     (void)state;
-    f32 values[COUNT];
+    cs_f32 values[COUNT];
     double mean, m2;
-    const f32 offsets[] = {0.0f, 100.0f};
+    const cs_f32 offsets[] = {0.0f, 100.0f};
     for (int k = 0; k < 2; k++) {
         cs_moments moments = {0};
         fill(values, offsets[k]);
@@ -46,7 +46,7 @@ static void adding_equals_the_batch(void **state)
 static void merging_equals_the_batch(void **state)
 {
     (void)state;
-    f32 values[COUNT];
+    cs_f32 values[COUNT];
     double mean, m2;
     fill(values, 3.0f);
     batch(values, &mean, &m2);
@@ -79,7 +79,7 @@ static void exact_sums_lose_nothing(void **state)
 {
     (void)state;
     cs_exact_sum total = {1e7f, 0.0f};
-    f32 plain = 1e7f;
+    cs_f32 plain = 1e7f;
     for (int i = 0; i < 1000000; i++) {
         total = cs_exact_add(total, 0.01f);
         plain += 0.01f;

@@ -4,10 +4,10 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "pattern/rows.h"
-#include "sampler/sampler.h"
+#include "clshear/device/sampler/sampler.h"
+#include "pattern/table_makers.h"
 
-static const u32 counts[] = {1, 2, 3, 5, 7, 16, 49, 64, 101, 512, 1000, 1024};
+static const cs_u32 counts[] = {1, 2, 3, 5, 7, 16, 49, 64, 101, 512, 1000, 1024};
 enum {
     COUNTS = sizeof counts / sizeof *counts,
     DIMENSIONS = 4 /* that promises are about */
@@ -16,37 +16,37 @@ enum {
 /* A partition of the tuple's cube into cells[0] x ... x cells[3] boxes that hold equally many
  * points each. */
 typedef struct promise {
-    u32 sampler;
-    u32 count;
-    u32 cells[DIMENSIONS];
+    cs_u32 sampler;
+    cs_u32 count;
+    cs_u32 cells[DIMENSIONS];
 } promise;
 
-static u32 promised; /* a bit for each sampler whose strata were looked at */
+static cs_u32 promised; /* a bit for each sampler whose strata were looked at */
 
-static u32 stratum(f32 value, u32 strata)
+static cs_u32 stratum(cs_f32 value, cs_u32 strata)
 {
-    return (u32)((double)value * strata);
+    return (cs_u32)((double)value * strata);
 }
 
 static void expect_kept(const test_pattern *drawn, const promise *p)
 {
-    const u32 count = drawn->pattern.grid.count;
-    u32 boxes = 1;
+    const cs_u32 count = drawn->pattern.grid.count;
+    cs_u32 boxes = 1;
     for (int d = 0; d < DIMENSIONS; d++)
         boxes *= p->cells[d];
-    u32 *hits = calloc(boxes, sizeof *hits);
+    cs_u32 *hits = calloc(boxes, sizeof *hits);
     assert_int_equal(count % boxes, 0);
-    for (u32 key = 0; key < 10; key++) {
+    for (cs_u32 key = 0; key < 10; key++) {
         memset(hits, 0, boxes * sizeof *hits);
-        for (u32 i = 0; i < count; i++) {
-            f32 tuple[CS_DIMENSIONS];
-            u32 box = 0;
+        for (cs_u32 i = 0; i < count; i++) {
+            cs_f32 tuple[CS_DIMENSIONS];
+            cs_u32 box = 0;
             test_draw(drawn, cs_hash(key), i, tuple);
             for (int d = 0; d < DIMENSIONS; d++)
                 box = box * p->cells[d] + stratum(tuple[d], p->cells[d]);
             hits[box]++;
         }
-        for (u32 box = 0; box < boxes; box++)
+        for (cs_u32 box = 0; box < boxes; box++)
             if (hits[box] != count / boxes)
                 fail_msg("%s, N = %u, %u x %u x %u x %u boxes: %u points in one",
                          cs_sampler_name(p->sampler), count, p->cells[0], p->cells[1], p->cells[2],
@@ -58,9 +58,10 @@ static void expect_kept(const test_pattern *drawn, const promise *p)
 
 /* All boxes of `base`^a x base^b x base^c x base^d with a + b + c + d = `total`, each exponent up
  * to most[d]. */
-static void expect_elementary(const test_pattern *drawn, u32 base, u32 total, const u32 *most)
+static void expect_elementary(const test_pattern *drawn, cs_u32 base, cs_u32 total,
+                              const cs_u32 *most)
 {
-    u32 e[DIMENSIONS], seen = 0;
+    cs_u32 e[DIMENSIONS], seen = 0;
     for (e[0] = 0; e[0] <= most[0]; e[0]++)
         for (e[1] = 0; e[1] <= most[1]; e[1]++)
             for (e[2] = 0; e[2] <= most[2]; e[2]++)
@@ -68,7 +69,7 @@ static void expect_elementary(const test_pattern *drawn, u32 base, u32 total, co
                     promise p = {drawn->pattern.sampler, 0, {1, 1, 1, 1}};
                     if (e[0] + e[1] + e[2] + e[3] != total) continue;
                     for (int d = 0; d < DIMENSIONS; d++)
-                        for (u32 k = 0; k < e[d]; k++)
+                        for (cs_u32 k = 0; k < e[d]; k++)
                             p.cells[d] *= base;
                     expect_kept(drawn, &p);
                     seen++;
@@ -79,8 +80,8 @@ static void expect_elementary(const test_pattern *drawn, u32 base, u32 total, co
 /* Every coordinate has one point in each of N strata. */
 static void coordinates_are_stratified(void **state)
 {
-    static const u32 samplers[] = {CS_SAMPLER_NROOKS, CS_SAMPLER_MJ,  CS_SAMPLER_CMJ,
-                                   CS_SAMPLER_OA,     CS_SAMPLER_OA3, CS_SAMPLER_RANK1};
+    static const cs_u32 samplers[] = {CS_SAMPLER_NROOKS, CS_SAMPLER_MJ,  CS_SAMPLER_CMJ,
+                                      CS_SAMPLER_OA,     CS_SAMPLER_OA3, CS_SAMPLER_RANK1};
     (void)state;
     for (size_t s = 0; s < sizeof samplers / sizeof *samplers; s++)
         for (int k = 0; k < COUNTS; k++) {
@@ -97,7 +98,7 @@ static void coordinates_are_stratified(void **state)
 /* Film and lens pairs have one point in each cell of the grid, where it has no partial row. */
 static void pairs_are_stratified(void **state)
 {
-    static const u32 samplers[] = {CS_SAMPLER_JITTERED, CS_SAMPLER_MJ, CS_SAMPLER_CMJ};
+    static const cs_u32 samplers[] = {CS_SAMPLER_JITTERED, CS_SAMPLER_MJ, CS_SAMPLER_CMJ};
     (void)state;
     for (size_t s = 0; s < sizeof samplers / sizeof *samplers; s++)
         for (int k = 0; k < COUNTS; k++) {
@@ -125,19 +126,19 @@ static void hypergrids_are_stratified(void **state)
 /* Strength 2: every two coordinates; strength 3: every three. Primes and prime powers. */
 static void orthogonal_arrays_are_orthogonal(void **state)
 {
-    static const u32 strong[] = {27, 64, 125, 343, 512, 729};
-    static const u32 squares[] = {9, 16, 25, 49, 64, 81, 121, 256, 625, 1024};
+    static const cs_u32 strong[] = {27, 64, 125, 343, 512, 729};
+    static const cs_u32 squares[] = {9, 16, 25, 49, 64, 81, 121, 256, 625, 1024};
     (void)state;
     for (size_t k = 0; k < sizeof squares / sizeof *squares; k++) {
         test_pattern drawn = test_pattern_of(CS_SAMPLER_OA, squares[k], CS_ORDER_COHERENT);
-        const u32 q = drawn.pattern.grid.columns, most[4] = {1, 1, 1, 1};
+        const cs_u32 q = drawn.pattern.grid.columns, most[4] = {1, 1, 1, 1};
         assert_int_equal(q * q, squares[k]);
         expect_elementary(&drawn, q, 2, most);
         test_pattern_free(&drawn);
     }
     for (size_t k = 0; k < sizeof strong / sizeof *strong; k++) {
         test_pattern drawn = test_pattern_of(CS_SAMPLER_OA3, strong[k], CS_ORDER_COHERENT);
-        const u32 q = drawn.pattern.grid.columns, most[4] = {1, 1, 1, 1};
+        const cs_u32 q = drawn.pattern.grid.columns, most[4] = {1, 1, 1, 1};
         assert_int_equal(q * q * q, strong[k]);
         expect_elementary(&drawn, q, 3, most);
         test_pattern_free(&drawn);
@@ -149,11 +150,11 @@ static void orthogonal_arrays_are_orthogonal(void **state)
  * `sobol` is the sum of degree - 1 of its polynomials, 3 (Niederreiter 1992, theorem 4.49). */
 static void nets_fill_elementary_intervals(void **state)
 {
-    static const u32 nets[] = {CS_SAMPLER_SOBOL, CS_SAMPLER_SOBOL_PAIRS, CS_SAMPLER_SZ};
+    static const cs_u32 nets[] = {CS_SAMPLER_SOBOL, CS_SAMPLER_SOBOL_PAIRS, CS_SAMPLER_SZ};
     (void)state;
-    for (u32 bits = 0; bits <= 10; bits++) {
-        const u32 film[4] = {bits, bits, 0, 0}, lens[4] = {0, 0, bits, bits};
-        const u32 all[4] = {bits, bits, bits, bits};
+    for (cs_u32 bits = 0; bits <= 10; bits++) {
+        const cs_u32 film[4] = {bits, bits, 0, 0}, lens[4] = {0, 0, bits, bits};
+        const cs_u32 all[4] = {bits, bits, bits, bits};
         for (int s = 0; s < 3; s++) {
             test_pattern drawn = test_pattern_of(nets[s], 1u << bits, CS_ORDER_COHERENT);
             expect_elementary(&drawn, 2, bits, film);
@@ -181,7 +182,7 @@ static void halton_fills_elementary_intervals(void **state)
     }
 }
 
-static double torus_distance(const f32 *a, const f32 *b)
+static double torus_distance(const cs_f32 *a, const cs_f32 *b)
 {
     double square = 0.0;
     for (int d = 0; d < 2; d++) {
@@ -196,17 +197,17 @@ static double torus_distance(const f32 *a, const f32 *b)
  * densest packing's. Random points come closer than a hundredth of it. */
 static void blue_noise_keeps_its_distance(void **state)
 {
-    static const u32 samplers[] = {CS_SAMPLER_POISSON, CS_SAMPLER_CCVT};
+    static const cs_u32 samplers[] = {CS_SAMPLER_POISSON, CS_SAMPLER_CCVT};
     (void)state;
     for (int s = 0; s < 2; s++)
-        for (u32 n = 2; n <= 512; n = n * 5 / 2 + 1) {
+        for (cs_u32 n = 2; n <= 512; n = n * 5 / 2 + 1) {
             test_pattern drawn = test_pattern_of(samplers[s], n, CS_ORDER_COHERENT);
             const double least = (s == 0 ? 0.65 : 0.5) * sqrt(1.1547 / n);
-            f32(*tuples)[CS_DIMENSIONS] = malloc(n * sizeof *tuples);
-            for (u32 i = 0; i < n; i++)
+            cs_f32(*tuples)[CS_DIMENSIONS] = malloc(n * sizeof *tuples);
+            for (cs_u32 i = 0; i < n; i++)
                 test_draw(&drawn, 7, i, tuples[i]);
-            for (u32 i = 0; i < n; i++)
-                for (u32 j = 0; j < i; j++)
+            for (cs_u32 i = 0; i < n; i++)
+                for (cs_u32 j = 0; j < i; j++)
                     for (int pair = 0; pair < 2; pair++)
                         assert_true(torus_distance(tuples[i] + 2 * pair, tuples[j] + 2 * pair) >
                                     least);
@@ -222,7 +223,7 @@ static void equal_capacity_has_no_low_frequencies(void **state)
     enum {
         POINTS = 400
     };
-    static f32 x[POINTS], y[POINTS];
+    static cs_f32 x[POINTS], y[POINTS];
     double power[2];
     (void)state;
     for (int kind = 0; kind < 2; kind++) {
@@ -251,7 +252,7 @@ static void equal_capacity_has_no_low_frequencies(void **state)
 /* A sampler that is added to the table must have its promises tested. */
 static void every_sampler_is_tested(void **state)
 {
-    const u32 without_strata =
+    const cs_u32 without_strata =
         1u << CS_SAMPLER_RANDOM | 1u << CS_SAMPLER_POISSON | 1u << CS_SAMPLER_CCVT;
     (void)state;
     assert_int_equal(promised | without_strata, (1u << CS_SAMPLER_COUNT) - 1u);

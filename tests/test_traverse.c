@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "accel/accel.h"
+#include "clshear/device/hash.h"
 #include "device/device.h"
-#include "hash.h"
 #include "meshes.h"
 
 enum {
@@ -101,11 +101,11 @@ static double nearest_by_hand(const cs_scene *scene, const double *o, const doub
 
 static void make_random_rays(float *rays, float reach, float *distances)
 {
-    for (u32 i = 0; i < RAYS; i++) {
-        for (u32 axis = 0; axis < 3; axis++) {
-            rays[axis * RAYS + i] = (f32)(cs_key(i, axis) >> 8) * (1.0f / 16777216.0f);
+    for (cs_u32 i = 0; i < RAYS; i++) {
+        for (cs_u32 axis = 0; axis < 3; axis++) {
+            rays[axis * RAYS + i] = (cs_f32)(cs_key(i, axis) >> 8) * (1.0f / 16777216.0f);
             rays[(3 + axis) * RAYS + i] =
-                (f32)(cs_key(i, 3 + axis) >> 8) * (2.0f / 16777216.0f) - 1.0f;
+                (cs_f32)(cs_key(i, 3 + axis) >> 8) * (2.0f / 16777216.0f) - 1.0f;
         }
         distances[i] = reach;
     }
@@ -122,24 +122,24 @@ static void hits_equal_brute_force(void **state)
     build(&made, "box", 0);
     double *truth = malloc(RAYS * sizeof *truth);
     make_random_rays(rays, INFINITY, found);
-    for (u32 i = 0; i < RAYS; i++) {
+    for (cs_u32 i = 0; i < RAYS; i++) {
         double o[3], d[3];
-        for (u32 axis = 0; axis < 3; axis++) {
+        for (cs_u32 axis = 0; axis < 3; axis++) {
             o[axis] = (double)rays[axis * RAYS + i];
             d[axis] = (double)rays[(3 + axis) * RAYS + i];
         }
         truth[i] = nearest_by_hand(&made.scene, o, d);
     }
     for (int w = 0; w < 4; w++) {
-        u32 wrong = 0, blocked_wrong = 0;
+        cs_u32 wrong = 0, blocked_wrong = 0;
         make_random_rays(rays, INFINITY, found);
         trace_device(&made, widths[w], 0, rays, found);
-        for (u32 i = 0; i < RAYS; i++)
+        for (cs_u32 i = 0; i < RAYS; i++)
             wrong += isfinite(truth[i]) ? !(fabs(found[i] - truth[i]) < 1e-4 * (truth[i] + 0.01))
                                         : isfinite(found[i]);
         make_random_rays(rays, 0.4f, found);
         trace_device(&made, widths[w], 1, rays, found);
-        for (u32 i = 0; i < RAYS; i++)
+        for (cs_u32 i = 0; i < RAYS; i++)
             blocked_wrong += (found[i] < 0.0f) != (truth[i] < (double)0.4f);
         assert_true(wrong <= RAYS / 10000);
         assert_true(blocked_wrong <= RAYS / 10000);
@@ -168,22 +168,22 @@ static void hits_equal_embree(void **state)
     float *found = malloc(RAYS * sizeof *found);
     for (int k = 0; k < 2; k++) {
         fixture made;
-        u32 wrong = 0, seen = 0;
+        cs_u32 wrong = 0, seen = 0;
         build(&made, meshes[k], 60000);
         assert_int_equal(cs_accel_depth(made.accel, &camera, NULL, window, 0, depth, &error),
                          CLSHEAR_OK);
-        for (u32 i = 0; i < RAYS; i++) {
-            const float direction[3] = {((f32)(i % 256) + 0.5f - 128.0f) * camera.pixel_width,
-                                        -((f32)(i / 256) + 0.5f - 128.0f) * camera.pixel_width,
+        for (cs_u32 i = 0; i < RAYS; i++) {
+            const float direction[3] = {((cs_f32)(i % 256) + 0.5f - 128.0f) * camera.pixel_width,
+                                        -((cs_f32)(i / 256) + 0.5f - 128.0f) * camera.pixel_width,
                                         -1.0f};
-            for (u32 axis = 0; axis < 3; axis++) {
+            for (cs_u32 axis = 0; axis < 3; axis++) {
                 rays[axis * RAYS + i] = camera.eye[axis];
                 rays[(3 + axis) * RAYS + i] = direction[axis];
             }
             found[i] = INFINITY;
         }
         trace_device(&made, 8, 0, rays, found);
-        for (u32 i = 0; i < RAYS; i++) {
+        for (cs_u32 i = 0; i < RAYS; i++) {
             seen += isfinite(depth[i].centre);
             wrong += found[i] != depth[i].centre &&
                      !(fabsf(found[i] - depth[i].centre) < 1e-4f * depth[i].centre);
@@ -199,18 +199,19 @@ static void hits_equal_embree(void **state)
 }
 
 /* Every triangle is in a leaf, every node is reached once, children lie inside their boxes. */
-static u32 check_subtree(const cs_flat_bvh *bvh, u32 reference, const float (*box)[2],
-                         unsigned char *seen)
+static cs_u32 check_subtree(const cs_flat_bvh *bvh, cs_u32 reference, const float (*box)[2],
+                            unsigned char *seen)
 {
     const cs_node *nodes = bvh->nodes.items;
     const cs_triangle *triangles = bvh->triangles.items;
     if (reference & CS_LEAF) {
-        u32 first = reference & ((1u << CS_LEAF_SHIFT) - 1u), last = first + (reference >> 27 & 7u);
-        for (u32 i = first; i <= last; i++)
+        cs_u32 first = reference & ((1u << CS_LEAF_SHIFT) - 1u),
+               last = first + (reference >> 27 & 7u);
+        for (cs_u32 i = first; i <= last; i++)
             seen[triangles[i].face] = 1;
         return 0;
     }
-    u32 count = 1;
+    cs_u32 count = 1;
     for (int side = 0; side < 2; side++) {
         const float(*inner)[2] = nodes[reference].bounds[side];
         for (int axis = 0; axis < 3 && box != NULL; axis++)
@@ -227,7 +228,7 @@ static void hierarchy_is_complete(void **state)
     fixture made;
     build(&made, "spheres", 20000);
     unsigned char *seen = calloc(made.scene.indices.count, 1);
-    u32 count = check_subtree(&made.bvh, 0, NULL, seen);
+    cs_u32 count = check_subtree(&made.bvh, 0, NULL, seen);
     assert_int_equal(count, made.bvh.nodes.count);
     for (size_t i = 0; i < made.scene.indices.count; i++)
         assert_true(seen[i]);

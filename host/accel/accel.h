@@ -5,8 +5,9 @@
 
 #include "base/array.h"
 #include "base/status.h"
+#include "clshear/device/camera.h"
+#include "kernels/scene.h"
 #include "scene/scene.h"
-#include "shared.h"
 
 typedef struct cs_accel cs_accel;
 
@@ -30,11 +31,11 @@ clshear_status cs_accel_build_bvh(const cs_accel *accel, cs_flat_bvh *bvh, cs_er
 
 /* What a pixel sees, as camera depths; infinite where that is nothing. */
 typedef struct cs_depth {
-    f32 centre; /* through the pixel's centre and the lens's */
-    f32 near;   /* the nearest, median and farthest hit of rays all over pixel and lens */
-    f32 median;
-    f32 far;
-    f32 misses; /* fraction of those rays that see nothing */
+    cs_f32 centre; /* through the pixel's centre and the lens's */
+    cs_f32 near;   /* the nearest, median and farthest hit of rays all over pixel and lens */
+    cs_f32 median;
+    cs_f32 far;
+    cs_f32 misses; /* fraction of those rays that see nothing */
 } cs_depth;
 
 /* Depths of the pixels of a window, row by row, from a centre ray and `lens_rays` others each (0:
@@ -43,7 +44,7 @@ typedef struct cs_depth {
 enum {
     CS_MOST_LENS_RAYS = 256
 };
-clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const f32 *optics,
+clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const cs_f32 *optics,
                               const int *window, int lens_rays, cs_depth *depth, cs_error *error);
 
 #endif

@@ -4,10 +4,10 @@
 
 #include "accel/embree.h"
 #include "base/parallel.h"
-#include "lens.h"
+#include "clshear/device/lens.h"
+#include "clshear/device/sampler/sampler.h"
+#include "clshear/device/shear.h"
 #include "pattern/pattern.h"
-#include "sampler/sampler.h"
-#include "shear.h"
 
 enum {
     WIDTH = 16, /* rays that Embree traces at once */
@@ -18,14 +18,14 @@ typedef struct prepass {
     const cs_accel *accel;
     const cs_camera *camera;
     const int *window;
-    const cs_film_lens *sets; /* SETS * lens_rays */
-    u32 lens_rays;
+    const cs_camera_sample *sets; /* SETS * lens_rays */
+    cs_u32 lens_rays;
     cs_depth *depth;
 } prepass;
 
 /* Rays from the left upper corner (x, y) of a pixel. What tracing does not change is set before. */
-static void aim(const cs_camera *camera, f32 x, f32 y, const cs_film_lens *point, int lane,
-                struct RTCRayHit16 *query)
+static void aim(const cs_camera *camera, cs_f32 x, cs_f32 y, const cs_camera_sample *point,
+                int lane, struct RTCRayHit16 *query)
 {
     const cs_ray ray = cs_lens_ray(*camera, x + point->x, y + point->y, point->u, point->v);
     query->ray.org_x[lane] = ray.origin[0];
@@ -37,7 +37,7 @@ static void aim(const cs_camera *camera, f32 x, f32 y, const cs_film_lens *point
 }
 
 /* Depths along the first `count` rays: directions have a forward component of 1. */
-static void trace(const cs_accel *accel, struct RTCRayHit16 *query, int count, f32 *depth)
+static void trace(const cs_accel *accel, struct RTCRayHit16 *query, int count, cs_f32 *depth)
 {
     struct RTCIntersectContext context;
     int valid[WIDTH] __attribute__((aligned(64)));
@@ -56,11 +56,11 @@ static void trace(const cs_accel *accel, struct RTCRayHit16 *query, int count, f
 }
 
 /* By insertion: mostly there are 16, and many alike. */
-static void sort(f32 *values, u32 count)
+static void sort(cs_f32 *values, cs_u32 count)
 {
-    for (u32 i = 1; i < count; i++) {
-        const f32 value = values[i];
-        u32 place = i;
+    for (cs_u32 i = 1; i < count; i++) {
+        const cs_f32 value = values[i];
+        cs_u32 place = i;
         for (; place > 0 && values[place - 1] > value; place--)
             values[place] = values[place - 1];
         values[place] = value;
@@ -68,28 +68,28 @@ static void sort(f32 *values, u32 count)
 }
 
 /* Statistics of `count` depths, which are sorted. */
-static void summarise(f32 *all, u32 count, cs_depth *depth)
+static void summarise(cs_f32 *all, cs_u32 count, cs_depth *depth)
 {
-    u32 hits = 0;
+    cs_u32 hits = 0;
     sort(all, count);
     while (hits < count && isfinite(all[hits]))
         hits++;
-    depth->misses = (f32)(count - hits) / (f32)count;
+    depth->misses = (cs_f32)(count - hits) / (cs_f32)count;
     depth->near = all[0];
     depth->median = hits > 0 ? all[(hits - 1) / 2] : INFINITY;
     depth->far = hits > 0 ? all[hits - 1] : INFINITY;
 }
 
-static void depths_of_pixel(const prepass *work, u32 x, u32 y, struct RTCRayHit16 *query,
+static void depths_of_pixel(const prepass *work, cs_u32 x, cs_u32 y, struct RTCRayHit16 *query,
                             cs_depth *depth)
 {
-    f32 all[CS_MOST_LENS_RAYS];
-    const u32 set = cs_pattern_key(0, y << 16 ^ x, 0) % SETS;
-    const cs_film_lens *points = work->sets + (size_t)set * work->lens_rays;
-    for (u32 first = 0; first < work->lens_rays; first += WIDTH) {
-        const u32 left = work->lens_rays - first, count = left < WIDTH ? left : WIDTH;
-        for (u32 lane = 0; lane < count; lane++)
-            aim(work->camera, (f32)x, (f32)y, &points[first + lane], (int)lane, query);
+    cs_f32 all[CS_MOST_LENS_RAYS];
+    const cs_u32 set = cs_pattern_key(0, y << 16 ^ x, 0) % SETS;
+    const cs_camera_sample *points = work->sets + (size_t)set * work->lens_rays;
+    for (cs_u32 first = 0; first < work->lens_rays; first += WIDTH) {
+        const cs_u32 left = work->lens_rays - first, count = left < WIDTH ? left : WIDTH;
+        for (cs_u32 lane = 0; lane < count; lane++)
+            aim(work->camera, (cs_f32)x, (cs_f32)y, &points[first + lane], (int)lane, query);
         trace(work->accel, query, (int)count, all + first);
     }
     if (work->lens_rays > 0) {
@@ -104,19 +104,19 @@ static void depths_of_pixel(const prepass *work, u32 x, u32 y, struct RTCRayHit1
 static void depths_of_range(void *user, size_t begin, size_t end)
 {
     const prepass *work = user;
-    const cs_film_lens middle = {.x = 0.5f, .y = 0.5f};
+    const cs_camera_sample middle = {.x = 0.5f, .y = 0.5f};
     const size_t width = (size_t)(work->window[1] - work->window[0]);
     struct RTCRayHit16 query = {0};
     for (int lane = 0; lane < WIDTH; lane++)
         query.ray.mask[lane] = ~0u;
     for (size_t first = begin; first < end; first += WIDTH) {
         const int count = end - first < WIDTH ? (int)(end - first) : WIDTH;
-        f32 centre[WIDTH];
-        u32 x[WIDTH], y[WIDTH];
+        cs_f32 centre[WIDTH];
+        cs_u32 x[WIDTH], y[WIDTH];
         for (int i = 0; i < count; i++) {
-            x[i] = (u32)work->window[0] + (u32)((first + (size_t)i) % width);
-            y[i] = (u32)work->window[2] + (u32)((first + (size_t)i) / width);
-            aim(work->camera, (f32)x[i], (f32)y[i], &middle, i, &query);
+            x[i] = (cs_u32)work->window[0] + (cs_u32)((first + (size_t)i) % width);
+            y[i] = (cs_u32)work->window[2] + (cs_u32)((first + (size_t)i) / width);
+            aim(work->camera, (cs_f32)x[i], (cs_f32)y[i], &middle, i, &query);
         }
         trace(work->accel, &query, count, centre);
         for (int i = 0; i < count; i++) {
@@ -128,17 +128,17 @@ static void depths_of_range(void *user, size_t begin, size_t end)
 }
 
 /* Sets of points all over pixel and lens: patterns of `lens_rays` tuples. */
-static clshear_status make_sets(const cs_camera *camera, const f32 *optics, u32 lens_rays,
-                                cs_film_lens **sets, cs_error *error)
+static clshear_status make_sets(const cs_camera *camera, const cs_f32 *optics, cs_u32 lens_rays,
+                                cs_camera_sample **sets, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_array rows = {0};
     const cs_pattern pattern = cs_pattern_of(CS_SAMPLER_SZ, 0, lens_rays);
-    CS_TRY(cs_rows_make(&pattern, CS_ORDER_SEQUENCE, &rows, error));
+    CS_TRY(cs_sample_table_make(&pattern, CS_ORDER_SEQUENCE, &rows, error));
     *sets = malloc(SETS * lens_rays * sizeof **sets);
     CS_REQUIRE(*sets != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    for (u32 i = 0; i < SETS * lens_rays; i++) {
-        f32 t[CS_DIMENSIONS] = {0};
+    for (cs_u32 i = 0; i < SETS * lens_rays; i++) {
+        cs_f32 t[CS_DIMENSIONS] = {0};
         cs_draw(&pattern, rows.items, cs_pattern_key(0, i / lens_rays, 0), i % lens_rays, 2, t);
         (*sets)[i] = cs_unsheared(t[0], t[1], t[2], t[3], &camera->optics, optics);
     }
@@ -147,21 +147,21 @@ done:
     return status;
 }
 
-clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const f32 *optics,
+clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const cs_f32 *optics,
                               const int *window, int lens_rays, cs_depth *depth, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_film_lens *sets = NULL;
+    cs_camera_sample *sets = NULL;
     const size_t count = (size_t)(window[1] - window[0]) * (size_t)(window[3] - window[2]);
     CS_REQUIRE(lens_rays >= 0 && lens_rays <= CS_MOST_LENS_RAYS, CLSHEAR_BAD_ARGUMENT,
                "%d lens rays for the depth of a pixel: must be 0 to %d", lens_rays,
                CS_MOST_LENS_RAYS);
-    if (lens_rays > 0) CS_TRY(make_sets(camera, optics, (u32)lens_rays, &sets, error));
+    if (lens_rays > 0) CS_TRY(make_sets(camera, optics, (cs_u32)lens_rays, &sets, error));
     prepass work = {.accel = accel,
                     .camera = camera,
                     .window = window,
                     .sets = sets,
-                    .lens_rays = (u32)lens_rays,
+                    .lens_rays = (cs_u32)lens_rays,
                     .depth = depth};
     cs_parallel(accel->threads, count, depths_of_range, &work);
 done:

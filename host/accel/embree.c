@@ -5,7 +5,7 @@
 
 #include "accel/embree.h"
 #include "base/parallel.h"
-#include "lens.h"
+#include "clshear/device/lens.h"
 
 static void note_failure(void *user, enum RTCError code, const char *text)
 {

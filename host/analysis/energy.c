@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "analysis/fourier.h"
-#include "hash.h"
+#include "clshear/device/hash.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -22,7 +22,7 @@ enum {
 };
 
 typedef struct accumulation {
-    const cs_marginal *marginal;
+    const cs_part_marginal *marginal;
     clshear_function function;
     void *user;
     size_t cells;
@@ -38,14 +38,14 @@ typedef struct accumulation {
 
 /* The coordinates of point number `index` of a group. The lattice's steps are powers of an odd
  * number over that of the samples, a power of two: each coordinate by itself is spread evenly. */
-static void place(const accumulation *a, u32 key, size_t index, float *point)
+static void place(const accumulation *a, cs_u32 key, size_t index, float *point)
 {
-    const cs_marginal *m = a->marginal;
-    const u32 odd = (u32)(0.382 * (double)m->samples) | 1u;
-    u32 step = m->samples > 1 ? (u32)(0x1p32 / (double)m->samples) : 0;
+    const cs_part_marginal *m = a->marginal;
+    const cs_u32 odd = (cs_u32)(0.382 * (double)m->samples) | 1u;
+    cs_u32 step = m->samples > 1 ? (cs_u32)(0x1p32 / (double)m->samples) : 0;
     size_t cell = index / m->samples;
-    const u32 own = cs_key(key, (u32)cell), number = (u32)(index % m->samples);
-    for (u32 d = 0; d < 4; d++, step *= odd)
+    const cs_u32 own = cs_key(key, (cs_u32)cell), number = (cs_u32)(index % m->samples);
+    for (cs_u32 d = 0; d < 4; d++, step *= odd)
         point[d] = (float)((cs_key(own, d) + number * step) >> 8) * 0x1p-24f;
     for (int d = m->rank - 1; d >= 0; d--, cell /= m->side)
         point[m->coordinate[d]] =
@@ -53,7 +53,7 @@ static void place(const accumulation *a, u32 key, size_t index, float *point)
 }
 
 /* Fills the grid of one group with means. */
-static clshear_status sample(accumulation *a, u32 key)
+static clshear_status sample(accumulation *a, cs_u32 key)
 {
     const size_t samples = a->marginal->samples, all = a->cells * samples;
     memset(a->grid, 0, a->cells * sizeof *a->grid);
@@ -72,7 +72,7 @@ static clshear_status sample(accumulation *a, u32 key)
 /* Half turns that the group's shift turns coefficient number `index` by. */
 static double phase_of(const accumulation *a, size_t index)
 {
-    const cs_marginal *m = a->marginal;
+    const cs_part_marginal *m = a->marginal;
     const size_t half = m->side / 2 + 1;
     double turns = (double)(index % half) * a->shift[m->rank - 1];
     index /= half;
@@ -101,7 +101,7 @@ static void add_group(accumulation *a, cs_energy *energy)
 static clshear_status reserve(accumulation *a, cs_energy *energy, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    const cs_marginal *m = a->marginal;
+    const cs_part_marginal *m = a->marginal;
     const int sides[4] = {(int)m->side, (int)m->side, (int)m->side, (int)m->side};
     a->cells = 1;
     for (int d = 0; d < m->rank; d++)
@@ -123,19 +123,19 @@ done:
     return status;
 }
 
-clshear_status cs_energy_measure(const cs_marginal *marginal, clshear_function function, void *user,
-                                 cs_energy *result, cs_error *error)
+clshear_status cs_energy_measure(const cs_part_marginal *marginal, clshear_function function,
+                                 void *user, cs_energy *result, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     accumulation a = {.marginal = marginal, .function = function, .user = user};
     cs_energy energy = {.side = marginal->side, .rank = marginal->rank};
-    u32 key = cs_key(0x656e6572u, (u32)marginal->rank);
+    cs_u32 key = cs_key(0x656e6572u, (cs_u32)marginal->rank);
     for (int d = 0; d < marginal->rank; d++)
-        key = cs_key(key, (u32)marginal->coordinate[d]);
+        key = cs_key(key, (cs_u32)marginal->coordinate[d]);
     CS_TRY(reserve(&a, &energy, error));
-    for (u32 group = 0; group < CS_ENERGY_GROUPS; group++) {
-        const u32 own = cs_key(key, group);
-        for (u32 d = 0; d < 4; d++)
+    for (cs_u32 group = 0; group < CS_ENERGY_GROUPS; group++) {
+        const cs_u32 own = cs_key(key, group);
+        for (cs_u32 d = 0; d < 4; d++)
             a.shift[d] = (double)cs_key(own ^ 0x73686966u, d) * 0x1p-32;
         CS_TRY(sample(&a, own));
         add_group(&a, &energy);

@@ -7,12 +7,12 @@
 
 /* What is asked of a function: its mean over all other coordinates, on a grid of side^rank cells.
  */
-typedef struct cs_marginal {
+typedef struct cs_part_marginal {
     int rank;          /* 1, 2 or 4 */
     int coordinate[4]; /* which, rising */
     size_t side;       /* even */
     size_t samples;    /* of each cell, in each of CS_ENERGY_GROUPS grids: a power of two */
-} cs_marginal;
+} cs_part_marginal;
 
 enum {
     CS_ENERGY_GROUPS = 8
@@ -28,8 +28,8 @@ typedef struct cs_energy {
 
 /* Calls `function` for CS_ENERGY_GROUPS * samples * side^rank points. Start from zeros; freed by
  * cs_energy_free. */
-clshear_status cs_energy_measure(const cs_marginal *marginal, clshear_function function, void *user,
-                                 cs_energy *energy, cs_error *error);
+clshear_status cs_energy_measure(const cs_part_marginal *marginal, clshear_function function,
+                                 void *user, cs_energy *energy, cs_error *error);
 
 /* At frequency k, of as many coordinates as the rank; each above -side / 2 and at most side / 2,
  * the last not negative. Unbiased, and so below 0 at times. */

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "base/status.h"
-#include "hash.h"
+#include "clshear/device/hash.h"
 
 enum {
     RESAMPLES = 1000
@@ -46,12 +46,12 @@ static int by_value(const void *a, const void *b)
 
 /* The slope of one bootstrap sample. `chosen`, `errors`: room for replicates and sizes. */
 static double resampled_slope(const uint32_t *counts, size_t sizes, const double *means,
-                              size_t replicates, const double *reference, u32 number,
+                              size_t replicates, const double *reference, cs_u32 number,
                               uint32_t *chosen, double *errors)
 {
     for (size_t k = 0; k < sizes; k++) {
-        const u32 key = cs_key(cs_key(0x626f6f74u, number), (u32)k);
-        for (u32 r = 0; r < replicates; r++)
+        const cs_u32 key = cs_key(cs_key(0x626f6f74u, number), (cs_u32)k);
+        for (cs_u32 r = 0; r < replicates; r++)
             chosen[r] = (uint32_t)((uint64_t)cs_key(key, r) * replicates >> 32);
         errors[k] = error_of(means + k * replicates, chosen, replicates, reference);
     }
@@ -95,7 +95,7 @@ clshear_status clshear_fit_slope(const uint32_t *counts, size_t sizes, const dou
                "out of memory");
     for (size_t k = 0; k < sizes; k++)
         errors[k] = error_of(means + k * replicates, NULL, replicates, reference);
-    for (u32 s = 0; s < RESAMPLES; s++) {
+    for (cs_u32 s = 0; s < RESAMPLES; s++) {
         const double slope =
             resampled_slope(counts, sizes, means, replicates, reference, s, chosen, drawn);
         if (isfinite(slope)) slopes[found++] = slope;
@@ -117,11 +117,11 @@ clshear_status clshear_fit_slope_of_parts(const uint32_t *counts, size_t sizes, 
     size_t found = 0;
     CS_TRY(check(counts, sizes, count, error));
     CS_REQUIRE(slopes != NULL && sums != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    for (u32 s = 0; s < RESAMPLES; s++) {
-        const u32 key = cs_key(0x70617274u, s);
+    for (cs_u32 s = 0; s < RESAMPLES; s++) {
+        const cs_u32 key = cs_key(0x70617274u, s);
         for (size_t k = 0; k < sizes; k++)
             sums[k] = 0.0;
-        for (u32 i = 0; i < count; i++) {
+        for (cs_u32 i = 0; i < count; i++) {
             const size_t part = (size_t)((uint64_t)cs_key(key, i) * count >> 32);
             for (size_t k = 0; k < sizes; k++)
                 sums[k] += parts[k * count + part];

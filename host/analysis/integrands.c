@@ -5,7 +5,7 @@
 
 #include "base/parallel.h"
 #include "base/status.h"
-#include "hash.h"
+#include "clshear/device/hash.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -109,7 +109,7 @@ static void integrate_sets(void *user, size_t begin, size_t end)
     const integration *job = user;
     const clshear_points *points = job->points;
     for (size_t set = begin; set < end; set++) {
-        const u32 key = cs_key(job->seed ^ 0x746f7275u, (u32)set);
+        const cs_u32 key = cs_key(job->seed ^ 0x746f7275u, (cs_u32)set);
         const double scale = job->homogenise ? 0x1p-32 : 0.0;
         const double shift[2] = {scale * cs_key(key, 0), scale * cs_key(key, 1)};
         double sum = 0.0;
@@ -138,8 +138,8 @@ void clshear_points_integrate(const clshear_points *points, const clshear_integr
 static void shifted(const clshear_points *points, size_t index, int homogenise, uint32_t seed,
                     float *place)
 {
-    const u32 key = cs_key(seed ^ 0x746f7275u, (u32)(index / points->count));
-    for (u32 d = 0; d < 4; d++) {
+    const cs_u32 key = cs_key(seed ^ 0x746f7275u, (cs_u32)(index / points->count));
+    for (cs_u32 d = 0; d < 4; d++) {
         const double shift = homogenise ? 0x1p-32 * cs_key(key, d) : 0.0;
         const double x = (double)points->values[index * points->dimensions + d] + shift;
         place[d] = fminf((float)(x - floor(x)), 0.99999994f);

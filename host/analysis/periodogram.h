@@ -5,7 +5,7 @@
 #include "base/status.h"
 #include "clshear.h"
 #include "device/device.h"
-#include "frequencies.h"
+#include "kernels/frequencies.h"
 
 /* What columns and rows stand for: the frequency of a cell is the sum of both. */
 typedef struct cs_lattice {

@@ -48,9 +48,9 @@ static int reach_of(const clshear_reach *reach, int rank)
  * their mirror images. An axis is folded into rows of FOLD. */
 static cs_lattice lattice_of(int part, int reach)
 {
-    const u32 whole = 2 * (u32)reach + 1, half = (u32)reach + 1, last = (u32)reach + 1;
+    const cs_u32 whole = 2 * (cs_u32)reach + 1, half = (cs_u32)reach + 1, last = (cs_u32)reach + 1;
     const int *c = parts[part].coordinate;
-    const u32 d[4] = {(u32)c[0], (u32)c[1], (u32)c[2], (u32)c[3]};
+    const cs_u32 d[4] = {(cs_u32)c[0], (cs_u32)c[1], (cs_u32)c[2], (cs_u32)c[3]};
     if (parts[part].rank == 1)
         return (cs_lattice){
             .sets = {{{d[0], d[0]}, {0, 0}, {1, 0}, FOLD}, {{d[0], d[0]}, {0, 0}, {FOLD, 0}, last}},
@@ -109,9 +109,9 @@ static void add_up(int part, int reach, const cs_lattice *lattice, const float *
         }
 }
 
-static cs_marginal marginal_of(int part, int reach)
+static cs_part_marginal marginal_of(int part, int reach)
 {
-    cs_marginal m = {.rank = parts[part].rank, .side = 2 * (size_t)reach + 2, .samples = 1};
+    cs_part_marginal m = {.rank = parts[part].rank, .side = 2 * (size_t)reach + 2, .samples = 1};
     memcpy(m.coordinate, parts[part].coordinate, sizeof m.coordinate);
     size_t cells = 1;
     for (int d = 0; d < m.rank; d++)
@@ -128,7 +128,7 @@ static clshear_status predict_part(clshear_context *context, const clshear_point
     clshear_status status = CLSHEAR_OK;
     cs_error *error = &context->error;
     const cs_lattice lattice = lattice_of(part, reach);
-    const cs_marginal marginal = marginal_of(part, reach);
+    const cs_part_marginal marginal = marginal_of(part, reach);
     cs_energy energy = {0};
     float *power = malloc((size_t)lattice.counts[0] * lattice.counts[1] * sizeof *power);
     CS_REQUIRE(power != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for a spectrum");

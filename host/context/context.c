@@ -41,7 +41,7 @@ done:
 void clshear_context_free(clshear_context *context)
 {
     if (context == NULL) return;
-    cs_tables_free(&context->tables);
+    cs_table_cache_free(&context->tables);
     cs_device_close(context->device);
     free(context);
 }

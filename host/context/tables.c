@@ -10,7 +10,7 @@ static int is_same(const cs_pattern *a, const cs_pattern *b)
 }
 
 /* Takes an entry out and closes the gap. */
-static void remove_entry(cs_tables *tables, int index)
+static void remove_entry(cs_table_cache *tables, int index)
 {
     tables->count--;
     for (int i = index; i < tables->count; i++) {
@@ -19,21 +19,22 @@ static void remove_entry(cs_tables *tables, int index)
     }
 }
 
-static void drop(cs_tables *tables, int index)
+static void drop(cs_table_cache *tables, int index)
 {
     cs_buffer_free(tables->rows[index]);
     remove_entry(tables, index);
 }
 
-static const cs_buffer *append(cs_tables *tables, const cs_pattern *pattern, cs_buffer *rows)
+static const cs_buffer *append(cs_table_cache *tables, const cs_pattern *pattern, cs_buffer *rows)
 {
     tables->pattern[tables->count] = *pattern;
     tables->rows[tables->count++] = rows;
     return rows;
 }
 
-clshear_status cs_tables_find(cs_tables *tables, cs_device *device, const cs_pattern *pattern,
-                              const cs_buffer **found, cs_error *error)
+clshear_status cs_table_cache_find(cs_table_cache *tables, cs_device *device,
+                                   const cs_pattern *pattern, const cs_buffer **found,
+                                   cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_array rows = {0};
@@ -45,7 +46,7 @@ clshear_status cs_tables_find(cs_tables *tables, cs_device *device, const cs_pat
             *found = append(tables, pattern, buffer);
             return CLSHEAR_OK;
         }
-    CS_TRY(cs_rows_make(pattern, CS_ORDER_COHERENT, &rows, error));
+    CS_TRY(cs_sample_table_make(pattern, CS_ORDER_COHERENT, &rows, error));
     CS_TRY(cs_buffer_create(device, rows.count * rows.item_size, rows.items, &buffer, error));
     if (tables->count == CS_TABLES) drop(tables, 0);
     *found = append(tables, pattern, buffer);
@@ -54,7 +55,7 @@ done:
     return status;
 }
 
-void cs_tables_free(cs_tables *tables)
+void cs_table_cache_free(cs_table_cache *tables)
 {
     while (tables->count > 0)
         drop(tables, tables->count - 1);

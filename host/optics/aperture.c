@@ -2,9 +2,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "clshear/device/marginal.h"
 #include "image/image_io.h"
-#include "optics/parts.h"
-#include "profile.h"
+#include "optics/aperture_kinds.h"
 
 enum {
     MOST_TEXELS = 256 /* along a side */
@@ -14,37 +14,37 @@ enum {
 typedef struct strip {
     const float *first;
     size_t stride;
-    u32 count;
+    cs_u32 count;
     double reach;
 } strip;
 
 static double strip_sum(const strip *texels)
 {
     double sum = 0.0;
-    for (u32 i = 0; i < texels->count; i++)
+    for (cs_u32 i = 0; i < texels->count; i++)
         sum += (double)texels->first[i * texels->stride];
     return sum;
 }
 
 /* An even strip where all is dark: it is never chosen, but must not divide by zero. */
-static double share_of(const strip *texels, u32 i, double sum)
+static double share_of(const strip *texels, cs_u32 i, double sum)
 {
     return sum > 0.0 ? (double)texels->first[i * texels->stride] / sum : 1.0 / texels->count;
 }
 
 /* Fills count + 1 rows; returns the variance. */
-static double fill_rows(const strip *texels, f32 *rows)
+static double fill_rows(const strip *texels, cs_f32 *rows)
 {
     const double width = 2.0 * texels->reach / texels->count, sum = strip_sum(texels);
     double mass = 0.0, integral = 0.0, mean = 0.0, square = 0.0;
-    for (u32 i = 0; i <= texels->count; i++) {
-        f32 *row = rows + (size_t)i * CS_PROFILE_COLUMNS;
+    for (cs_u32 i = 0; i <= texels->count; i++) {
+        cs_f32 *row = rows + (size_t)i * CS_MARGINAL_COLUMNS;
         const double share = i < texels->count ? share_of(texels, i, sum) : 0.0;
         const double start = i * width - texels->reach, middle = start + 0.5 * width;
-        row[CS_ROW_START] = (f32)start;
-        row[CS_ROW_MASS] = i < texels->count ? (f32)mass : 1.0f;
-        row[CS_ROW_INTEGRAL] = (f32)integral;
-        row[CS_ROW_DENSITY] = (f32)(share / width);
+        row[CS_MARGINAL_START] = (cs_f32)start;
+        row[CS_MARGINAL_CDF] = i < texels->count ? (cs_f32)mass : 1.0f;
+        row[CS_MARGINAL_INTEGRAL] = (cs_f32)integral;
+        row[CS_MARGINAL_DENSITY] = (cs_f32)(share / width);
         integral += width * (mass + 0.5 * share);
         mass += share;
         mean += share * middle;
@@ -81,30 +81,30 @@ clshear_status cs_aperture_image_make(const clshear_aperture_image *image, cs_op
     float columns[MOST_TEXELS] = {0};
     clshear_status status = check(image, error);
     if (status != CLSHEAR_OK) return status;
-    const u32 width = (u32)image->width, height = (u32)image->height;
+    const cs_u32 width = (cs_u32)image->width, height = (cs_u32)image->height;
     const double longer = width > height ? width : height;
     const double reach[2] = {0.5 * width / longer, 0.5 * height / longer};
     const size_t rows = width + 1 + (size_t)width * (height + 1);
-    f32 *row = cs_array_extend(&tables->table, rows * CS_PROFILE_COLUMNS);
+    cs_f32 *row = cs_array_extend(&tables->table, rows * CS_MARGINAL_COLUMNS);
     if (row == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     double most = 0.0;
-    for (u32 i = 0; i < width * height; i++)
+    for (cs_u32 i = 0; i < width * height; i++)
         most = fmax(most, (double)image->luminance[i]);
-    for (u32 i = 0; i < width; i++)
+    for (cs_u32 i = 0; i < width; i++)
         columns[i] =
             (float)(strip_sum(&(strip){image->luminance + i, width, height, reach[1]}) / most);
     double variance[2] = {fill_rows(&(strip){columns, 1, width, reach[0]}, row), 0.0};
-    row += (size_t)(width + 1) * CS_PROFILE_COLUMNS;
-    for (u32 i = 0; i < width; i++) {
+    row += (size_t)(width + 1) * CS_MARGINAL_COLUMNS;
+    for (cs_u32 i = 0; i < width; i++) {
         variance[1] +=
             fill_rows(&(strip){image->luminance + i, width, height, reach[1]}, row) / width;
-        row += (size_t)(height + 1) * CS_PROFILE_COLUMNS;
+        row += (size_t)(height + 1) * CS_MARGINAL_COLUMNS;
     }
     optics->segments[0] = width;
     optics->segments[1] = height;
     for (int axis = 0; axis < 2; axis++) {
-        optics->reach[axis] = (f32)reach[axis];
-        optics->deviation[axis] = (f32)sqrt(variance[axis]);
+        optics->half_width[axis] = (cs_f32)reach[axis];
+        optics->deviation[axis] = (cs_f32)sqrt(variance[axis]);
     }
     return CLSHEAR_OK;
 }

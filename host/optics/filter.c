@@ -1,14 +1,14 @@
 /* Pixel filters as steps of equal width. */
 #include <math.h>
 
-#include "optics/parts.h"
+#include "optics/aperture_kinds.h"
 
 static const char *const names[] = {"box", "tent", "gaussian", "blackman-harris"};
 static const float usual_width_px[] = {1.0f, 2.0f, 3.0f, 3.0f};
 
 const char *cs_filter_name(clshear_filter filter)
 {
-    return (u32)filter <= CLSHEAR_FILTER_BLACKMAN_HARRIS ? names[filter] : NULL;
+    return (cs_u32)filter <= CLSHEAR_FILTER_BLACKMAN_HARRIS ? names[filter] : NULL;
 }
 
 /* Height at `place`, 0 at the centre and +-1/2 at the ends; not normalised. */
@@ -29,7 +29,7 @@ static double height(clshear_filter filter, double place)
 }
 
 /* Mean height on step `k` of `steps`. */
-static double mean_height(clshear_filter filter, u32 k, u32 steps)
+static double mean_height(clshear_filter filter, cs_u32 k, cs_u32 steps)
 {
     enum {
         PARTS = 64
@@ -50,22 +50,22 @@ clshear_status cs_filter_make(clshear_filter filter, float width_px, cs_optics_t
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "filter width %g px: must be 0.01 to 64, or 0 for the usual",
                        (double)width_px);
-    f32 *table = cs_array_extend(&tables->table, CS_FILTER_STEPS);
+    cs_f32 *table = cs_array_extend(&tables->table, CS_FILTER_STEPS);
     if (table == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     const float width = width_px > 0.0f ? width_px : usual_width_px[filter];
-    const u32 steps = filter == CLSHEAR_FILTER_BOX ? 1 : CS_FILTER_STEPS;
+    const cs_u32 steps = filter == CLSHEAR_FILTER_BOX ? 1 : CS_FILTER_STEPS;
     const double step = (double)width / steps;
     double sum = 0.0, square = 0.0;
-    for (u32 k = 0; k < steps; k++)
+    for (cs_u32 k = 0; k < steps; k++)
         sum += mean_height(filter, k, steps) * step;
-    for (u32 k = 0; k < steps; k++) {
+    for (cs_u32 k = 0; k < steps; k++) {
         const double density = mean_height(filter, k, steps) / sum;
         const double place = (k + 0.5) * step - 0.5 * (double)width;
-        table[k] = (f32)density;
+        table[k] = (cs_f32)density;
         square += density * step * (place * place + step * step / 12.0);
     }
     optics->filter_steps = steps;
     optics->filter_width = width;
-    optics->filter_deviation = (f32)sqrt(square);
+    optics->filter_deviation = (cs_f32)sqrt(square);
     return CLSHEAR_OK;
 }

@@ -2,14 +2,14 @@
 
 #include <math.h>
 
-#include "disk.h"
-#include "optics/parts.h"
+#include "clshear/device/disk.h"
+#include "optics/aperture_kinds.h"
 
 static const char *const names[] = {"disk", "square", "polygon", "image"};
 
 const char *cs_aperture_name(clshear_aperture aperture)
 {
-    return (u32)aperture <= CLSHEAR_APERTURE_IMAGE ? names[aperture] : NULL;
+    return (cs_u32)aperture <= CLSHEAR_APERTURE_IMAGE ? names[aperture] : NULL;
 }
 
 float cs_optics_unit(const clshear_camera *camera)
@@ -31,10 +31,10 @@ float clshear_lens_extent(const clshear_camera *camera)
 }
 
 /* Reach and deviation of a disk of area 1 or a square. */
-static void set_extent(cs_optics *optics, f32 reach, f32 deviation)
+static void set_extent(cs_optics *optics, cs_f32 reach, cs_f32 deviation)
 {
     for (int axis = 0; axis < 2; axis++) {
-        optics->reach[axis] = reach;
+        optics->half_width[axis] = reach;
         optics->deviation[axis] = deviation;
     }
 }
@@ -65,12 +65,12 @@ clshear_status cs_optics_make(const clshear_camera *camera, clshear_filter filte
     clshear_status status = CLSHEAR_OK;
     cs_optics *optics = &tables->optics;
     const float anamorphic = camera->anamorphic != 0.0f ? camera->anamorphic : 1.0f;
-    tables->table = (cs_array){.item_size = sizeof(f32)};
+    tables->table = (cs_array){.item_size = sizeof(cs_f32)};
     CS_REQUIRE(anamorphic >= 0.01f && anamorphic <= 100.0f, CLSHEAR_BAD_ARGUMENT,
                "anamorphic ratio %g: must be 0.01 to 100", (double)anamorphic);
     CS_TRY(cs_filter_make(filter, width_px, tables, error));
     CS_TRY(make_aperture(camera, tables, error));
-    optics->aperture = (u32)camera->aperture;
+    optics->aperture = (cs_u32)camera->aperture;
     optics->squeeze = 1.0f / anamorphic;
     optics->closed =
         filter == CLSHEAR_FILTER_BOX && optics->filter_width == 1.0f &&

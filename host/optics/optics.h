@@ -5,11 +5,11 @@
 #include "base/array.h"
 #include "base/status.h"
 #include "clshear.h"
-#include "shared.h"
+#include "clshear/device/camera.h"
 
 typedef struct cs_optics_tables {
     cs_optics optics;
-    cs_array table; /* f32: filter, then profiles (cl/profile.h) */
+    cs_array table; /* cs_f32: filter, then profiles (cl/clshear/device/marginal.h) */
 } cs_optics_tables;
 
 /* Filter of `width_px` (0: its usual width) and the camera's aperture. Start from zeros. */

@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "optics/parts.h"
-#include "profile.h"
+#include "clshear/device/marginal.h"
+#include "optics/aperture_kinds.h"
 
 enum {
     MOST_BLADES = 32
@@ -38,10 +38,10 @@ static void chord_near(const corner *corners, int blades, double u, double towar
 }
 
 /* Different values of u among the corners, in order; those closer than 1e-6 are one. */
-static u32 knots_of(const corner *corners, int blades, double *knots)
+static cs_u32 knots_of(const corner *corners, int blades, double *knots)
 {
     double all[MOST_BLADES];
-    u32 count = 0;
+    cs_u32 count = 0;
     for (int i = 0; i < blades; i++)
         all[i] = corners[i].u;
     qsort(all, (size_t)blades, sizeof *all, by_u);
@@ -61,35 +61,35 @@ static void place_corners(corner *corners, int blades, double rotation_deg)
 }
 
 /* The rows of the polygon; returns the second moment of u. */
-static double fill_rows(const corner *corners, int blades, const double *knots, u32 segments,
-                        f32 *rows)
+static double fill_rows(const corner *corners, int blades, const double *knots, cs_u32 segments,
+                        cs_f32 *rows)
 {
     double mass = 0.0, integral = 0.0, moment = 0.0;
-    for (u32 i = 0; i < segments; i++) {
-        f32 *row = rows + (size_t)i * CS_PROFILE_COLUMNS;
+    for (cs_u32 i = 0; i < segments; i++) {
+        cs_f32 *row = rows + (size_t)i * CS_MARGINAL_COLUMNS;
         const double width = knots[i + 1] - knots[i];
         double low[2], high[2];
         chord_near(corners, blades, knots[i], knots[i + 1], &low[0], &high[0]);
         chord_near(corners, blades, knots[i + 1], knots[i], &low[1], &high[1]);
         const double density = high[0] - low[0];
         const double slope = (high[1] - low[1] - density) / width;
-        row[CS_ROW_START] = (f32)knots[i];
-        row[CS_ROW_MASS] = (f32)mass;
-        row[CS_ROW_INTEGRAL] = (f32)integral;
-        row[CS_ROW_DENSITY] = (f32)density;
-        row[CS_ROW_SLOPE] = (f32)slope;
-        row[CS_ROW_LOW] = (f32)low[0];
-        row[CS_ROW_LOW_SLOPE] = (f32)((low[1] - low[0]) / width);
+        row[CS_MARGINAL_START] = (cs_f32)knots[i];
+        row[CS_MARGINAL_CDF] = (cs_f32)mass;
+        row[CS_MARGINAL_INTEGRAL] = (cs_f32)integral;
+        row[CS_MARGINAL_DENSITY] = (cs_f32)density;
+        row[CS_MARGINAL_SLOPE] = (cs_f32)slope;
+        row[CS_MARGINAL_LOW] = (cs_f32)low[0];
+        row[CS_MARGINAL_LOW_SLOPE] = (cs_f32)((low[1] - low[0]) / width);
         integral += width * (mass + width * (0.5 * density + slope * width / 6.0));
         const double piece = width * (density + 0.5 * slope * width);
         const double middle = 0.5 * (knots[i] + knots[i + 1]);
         moment += piece * (middle * middle + width * width / 12.0);
         mass += piece;
     }
-    f32 *end = rows + (size_t)segments * CS_PROFILE_COLUMNS;
-    end[CS_ROW_START] = (f32)knots[segments];
-    end[CS_ROW_MASS] = 1.0f;
-    end[CS_ROW_INTEGRAL] = (f32)integral;
+    cs_f32 *end = rows + (size_t)segments * CS_MARGINAL_COLUMNS;
+    end[CS_MARGINAL_START] = (cs_f32)knots[segments];
+    end[CS_MARGINAL_CDF] = 1.0f;
+    end[CS_MARGINAL_INTEGRAL] = (cs_f32)integral;
     return moment;
 }
 
@@ -105,15 +105,15 @@ clshear_status cs_polygon_make(int blades, float rotation_deg, cs_optics_tables 
     if (!isfinite(rotation_deg))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "blade rotation: must be finite");
     place_corners(corners, blades, fmod((double)rotation_deg, 360.0));
-    const u32 segments = knots_of(corners, blades, knots) - 1;
-    f32 *rows = cs_array_extend(&tables->table, (size_t)(segments + 1) * CS_PROFILE_COLUMNS);
+    const cs_u32 segments = knots_of(corners, blades, knots) - 1;
+    cs_f32 *rows = cs_array_extend(&tables->table, (size_t)(segments + 1) * CS_MARGINAL_COLUMNS);
     if (rows == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     const double moment = fill_rows(corners, blades, knots, segments, rows);
     const double reach = hypot(corners[0].u, corners[0].v);
     optics->segments[0] = segments;
     for (int axis = 0; axis < 2; axis++) {
-        optics->reach[axis] = (f32)reach;
-        optics->deviation[axis] = (f32)sqrt(moment);
+        optics->half_width[axis] = (cs_f32)reach;
+        optics->deviation[axis] = (cs_f32)sqrt(moment);
     }
     return CLSHEAR_OK;
 }

@@ -2,11 +2,11 @@
 
 #include <math.h>
 
-#include "lens.h"
+#include "clshear/device/lens.h"
 
-f32 cs_oracle_shear(const cs_camera *camera, const cs_depth *depth, cs_rule rule)
+cs_f32 cs_oracle_shear(const cs_camera *camera, const cs_depth *depth, cs_rule rule)
 {
-    f32 z = INFINITY;
+    cs_f32 z = INFINITY;
     if (rule == CS_RULE_CENTRE) z = isfinite(depth->centre) ? depth->centre : depth->median;
     if (rule == CS_RULE_MEDIAN) z = depth->median;
     if (rule == CS_RULE_NEAR) z = depth->near;

@@ -17,6 +17,6 @@ typedef enum cs_rule {
 
 /* The signed circle of confusion, in pixels, of the depth that the rule takes. Centres that see
  * nothing take the median of what the rest of the pixel and lens sees; 0 where that is nothing. */
-f32 cs_oracle_shear(const cs_camera *camera, const cs_depth *depth, cs_rule rule);
+cs_f32 cs_oracle_shear(const cs_camera *camera, const cs_depth *depth, cs_rule rule);
 
 #endif

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pattern/rows.h"
-#include "sampler/net.h"
+#include "clshear/device/sampler/net.h"
+#include "pattern/table_makers.h"
 
 enum {
     PIXELS = 10,     /* of the raster, along a point's mean region */
@@ -18,16 +18,16 @@ enum {
 };
 
 typedef struct raster {
-    i32 side;
-    i32 reach; /* a region lies within this many pixels of its point */
-    u32 count;
-    f32 *x, *y, *weight; /* of points; pixels, and their squares */
-    f32 *distance;       /* of a pixel to its owner */
-    u32 *owner;
-    f32 *sums; /* of pixels, x and y of a region relative to its point: 3 for each */
+    cs_i32 side;
+    cs_i32 reach; /* a region lies within this many pixels of its point */
+    cs_u32 count;
+    cs_f32 *x, *y, *weight; /* of points; pixels, and their squares */
+    cs_f32 *distance;       /* of a pixel to its owner */
+    cs_u32 *owner;
+    cs_f32 *sums; /* of pixels, x and y of a region relative to its point: 3 for each */
 } raster;
 
-static i32 wrap(i32 at, i32 side)
+static cs_i32 wrap(cs_i32 at, cs_i32 side)
 {
     return at < 0 ? at + side : at >= side ? at - side : at;
 }
@@ -35,17 +35,17 @@ static i32 wrap(i32 at, i32 side)
 /* Lets every point claim what is nearer to it than to those before it. */
 static void assign(raster *r)
 {
-    const i32 side = r->side, reach = r->reach;
-    for (i32 i = 0; i < side * side; i++)
+    const cs_i32 side = r->side, reach = r->reach;
+    for (cs_i32 i = 0; i < side * side; i++)
         r->distance[i] = INFINITY;
-    for (u32 k = 0; k < r->count; k++) {
-        const i32 column = (i32)r->x[k], row = (i32)r->y[k];
-        for (i32 j = -reach; j <= reach; j++) {
-            const f32 dy = (f32)(row + j) + 0.5f - r->y[k];
-            const f32 base = dy * dy - r->weight[k];
+    for (cs_u32 k = 0; k < r->count; k++) {
+        const cs_i32 column = (cs_i32)r->x[k], row = (cs_i32)r->y[k];
+        for (cs_i32 j = -reach; j <= reach; j++) {
+            const cs_f32 dy = (cs_f32)(row + j) + 0.5f - r->y[k];
+            const cs_f32 base = dy * dy - r->weight[k];
             const size_t line = (size_t)wrap(row + j, side) * (size_t)side;
-            for (i32 i = -reach; i <= reach; i++) {
-                const f32 dx = (f32)(column + i) + 0.5f - r->x[k];
+            for (cs_i32 i = -reach; i <= reach; i++) {
+                const cs_f32 dx = (cs_f32)(column + i) + 0.5f - r->x[k];
                 const size_t at = line + (size_t)wrap(column + i, side);
                 if (base + dx * dx >= r->distance[at]) continue;
                 r->distance[at] = base + dx * dx;
@@ -56,28 +56,28 @@ static void assign(raster *r)
 }
 
 /* The way from b to a that does not leave the torus's half. */
-static f32 towards(f32 a, f32 b, f32 side)
+static cs_f32 towards(cs_f32 a, cs_f32 b, cs_f32 side)
 {
-    const f32 way = a - b;
+    const cs_f32 way = a - b;
     return way > 0.5f * side ? way - side : way < -0.5f * side ? way + side : way;
 }
 
 static void gather(raster *r)
 {
-    const f32 side = (f32)r->side;
+    const cs_f32 side = (cs_f32)r->side;
     memset(r->sums, 0, 3 * (size_t)r->count * sizeof *r->sums);
-    for (i32 j = 0; j < r->side; j++)
-        for (i32 i = 0; i < r->side; i++) {
+    for (cs_i32 j = 0; j < r->side; j++)
+        for (cs_i32 i = 0; i < r->side; i++) {
             const size_t at = (size_t)j * (size_t)r->side + (size_t)i;
             if (isinf(r->distance[at])) continue;
-            const u32 k = r->owner[at];
+            const cs_u32 k = r->owner[at];
             r->sums[3 * k] += 1.0f;
-            r->sums[3 * k + 1] += towards((f32)i + 0.5f, r->x[k], side);
-            r->sums[3 * k + 2] += towards((f32)j + 0.5f, r->y[k], side);
+            r->sums[3 * k + 1] += towards((cs_f32)i + 0.5f, r->x[k], side);
+            r->sums[3 * k + 2] += towards((cs_f32)j + 0.5f, r->y[k], side);
         }
 }
 
-static f32 on_torus(f32 at, f32 side)
+static cs_f32 on_torus(cs_f32 at, cs_f32 side)
 {
     at -= side * floorf(at / side);
     return at < side ? at : 0.0f;
@@ -87,9 +87,9 @@ static f32 on_torus(f32 at, f32 side)
  * stable. */
 static void improve(raster *r)
 {
-    const f32 side = (f32)r->side, capacity = side * side / (f32)r->count;
-    for (u32 k = 0; k < r->count; k++) {
-        const f32 *sum = r->sums + 3 * (size_t)k;
+    const cs_f32 side = (cs_f32)r->side, capacity = side * side / (cs_f32)r->count;
+    for (cs_u32 k = 0; k < r->count; k++) {
+        const cs_f32 *sum = r->sums + 3 * (size_t)k;
         r->weight[k] += 0.3f * (capacity - sum[0]);
         if (sum[0] < 1.0f) continue;
         r->x[k] = on_torus(r->x[k] + sum[1] / sum[0], side);
@@ -109,20 +109,20 @@ static int reserve(raster *r)
 
 static void relax(raster *r)
 {
-    const f32 side = (f32)r->side;
-    for (u32 k = 0; k < r->count; k++)
+    const cs_f32 side = (cs_f32)r->side;
+    for (cs_u32 k = 0; k < r->count; k++)
         r->x[k] *= side, r->y[k] *= side;
     for (int step = 0; step < STEPS; step++) {
         assign(r);
         gather(r);
         improve(r);
     }
-    for (u32 k = 0; k < r->count; k++)
+    for (cs_u32 k = 0; k < r->count; k++)
         r->x[k] /= side, r->y[k] /= side;
 }
 
 /* exp(2 pi i a x) for a = 0 ... most, real and imaginary parts. */
-static void harmonics(f32 x, int most, double (*power)[2])
+static void harmonics(cs_f32 x, int most, double (*power)[2])
 {
     const double c = cos(6.283185307179586 * (double)x), s = sin(6.283185307179586 * (double)x);
     power[0][0] = 1.0, power[0][1] = 0.0;
@@ -143,12 +143,12 @@ static void mode(double (*px)[2], double (*py)[2], int a, int b, double *value)
 /* Moves the points by the gradient field that cancels, to first order, what their density has at
  * frequencies up to `most` along each axis: div u = density. Weights even out what is near, this
  * what is far. */
-static void flow(u32 count, int most, f32 *x, f32 *y, double (*density)[2])
+static void flow(cs_u32 count, int most, cs_f32 *x, cs_f32 *y, double (*density)[2])
 {
     double px[FREQUENCIES + 1][2], py[FREQUENCIES + 1][2], value[2];
     const int span = 2 * most + 1;
     memset(density, 0, (size_t)((most + 1) * span) * sizeof *density);
-    for (u32 k = 0; k < count; k++) {
+    for (cs_u32 k = 0; k < count; k++) {
         harmonics(x[k], most, px), harmonics(y[k], most, py);
         for (int a = 0; a <= most; a++)
             for (int b = -most; b <= most; b++) {
@@ -157,7 +157,7 @@ static void flow(u32 count, int most, f32 *x, f32 *y, double (*density)[2])
                 density[a * span + b + most][1] -= value[1] / count;
             }
     }
-    for (u32 k = 0; k < count; k++) {
+    for (cs_u32 k = 0; k < count; k++) {
         double way[2] = {0.0, 0.0};
         harmonics(x[k], most, px), harmonics(y[k], most, py);
         for (int a = 0; a <= most; a++)
@@ -170,22 +170,22 @@ static void flow(u32 count, int most, f32 *x, f32 *y, double (*density)[2])
                 way[0] += a * part;
                 way[1] += b * part;
             }
-        x[k] = on_torus(x[k] + (f32)way[0], 1.0f);
-        y[k] = on_torus(y[k] + (f32)way[1], 1.0f);
+        x[k] = on_torus(x[k] + (cs_f32)way[0], 1.0f);
+        y[k] = on_torus(y[k] + (cs_f32)way[1], 1.0f);
     }
 }
 
 /* Begins with a scrambled (0,2)-sequence, which leaves little to be moved far. */
-int cs_ccvt_points(u32 count, u32 seed, f32 *x, f32 *y)
+int cs_ccvt_points(cs_u32 count, cs_u32 seed, cs_f32 *x, cs_f32 *y)
 {
     raster r = {.count = count, .x = x, .y = y};
     const int third = (int)(0.3 * sqrt((double)count));
     const int most = third < FREQUENCIES ? third : FREQUENCIES;
     double(*density)[2] = malloc((size_t)((most + 1) * (2 * most + 1)) * sizeof *density);
-    r.side = (i32)ceil(PIXELS * sqrt((double)count));
+    r.side = (cs_i32)ceil(PIXELS * sqrt((double)count));
     r.reach = 2 * PIXELS < (r.side - 1) / 2 ? 2 * PIXELS : (r.side - 1) / 2;
     const int good = reserve(&r) && density != NULL;
-    for (u32 k = 0; good && k < count; k++) {
+    for (cs_u32 k = 0; good && k < count; k++) {
         x[k] = cs_scrambled(k, seed, 0u);
         y[k] = cs_scrambled(cs_pascal(k), seed, 1u);
     }

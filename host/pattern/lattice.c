@@ -2,33 +2,33 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "pattern/rows.h"
+#include "pattern/table_makers.h"
 
-int cs_rows_none(cs_table *table)
+int cs_table_none(cs_table *table)
 {
     (void)table;
     return 1;
 }
 
-/* Boxes of about CS_BOX points of any planar set. */
+/* Boxes of about CS_GROUP points of any planar set. */
 static void cut_evenly(cs_table *table)
 {
-    const u32 boxes = table->pattern->grid.count / CS_BOX;
-    table->boxes[0] = (u32)lround(sqrt((double)boxes));
+    const cs_u32 boxes = table->pattern->grid.count / CS_GROUP;
+    table->boxes[0] = (cs_u32)lround(sqrt((double)boxes));
     if (table->boxes[0] == 0) table->boxes[0] = 1;
     table->boxes[1] = boxes / table->boxes[0] > 0 ? boxes / table->boxes[0] : 1;
 }
 
 /* value / count in units of 2^-32. */
-static u32 fraction(uint64_t value, u32 count)
+static cs_u32 fraction(uint64_t value, cs_u32 count)
 {
-    return (u32)((value << 32) / count);
+    return (cs_u32)((value << 32) / count);
 }
 
-static u32 common_divisor(u32 a, u32 b)
+static cs_u32 common_divisor(cs_u32 a, cs_u32 b)
 {
     while (b != 0) {
-        const u32 rest = a % b;
+        const cs_u32 rest = a % b;
         a = b;
         b = rest;
     }
@@ -38,11 +38,11 @@ static u32 common_divisor(u32 a, u32 b)
 /* Worst-case error in the space of functions with Fourier coefficients below |h|^-2 in each
  * coordinate, squared and up to a constant: P_2 of Sloan & Joe 1994, section 4.2. `until`: give up
  * above this. */
-static double figure_of_merit(u32 count, u32 multiplier, double until)
+static double figure_of_merit(cs_u32 count, cs_u32 multiplier, double until)
 {
     const double two_pi_squared = 19.739208802178716, scale = 1.0 / count;
     double sum = 0.0;
-    for (u32 i = 0; i < count && sum - count < until * count; i++) {
+    for (cs_u32 i = 0; i < count && sum - count < until * count; i++) {
         double term = 1.0;
         uint64_t at = i;
         for (int d = 0; d < 4; d++) {
@@ -57,16 +57,16 @@ static double figure_of_merit(u32 count, u32 multiplier, double until)
 
 /* The best multiplier a of the lattice (1, a, a^2, a^3) / N among some that are spread over
  * [1, N) and prime to it. */
-static u32 korobov_multiplier(u32 count)
+static cs_u32 korobov_multiplier(cs_u32 count)
 {
-    const u32 effort = 1u << 22;
-    const u32 candidates = count < 512 ? count : effort / count > 8 ? effort / count : 8;
-    u32 best = 1;
+    const cs_u32 effort = 1u << 22;
+    const cs_u32 candidates = count < 512 ? count : effort / count > 8 ? effort / count : 8;
+    cs_u32 best = 1;
     double least = INFINITY;
-    for (u32 i = 1; i <= candidates; i++) {
-        u32 a = candidates == count
-                    ? i
-                    : (u32)(((uint64_t)i * 0x9e3779b9u & 0xffffffffu) * count >> 32);
+    for (cs_u32 i = 1; i <= candidates; i++) {
+        cs_u32 a = candidates == count
+                       ? i
+                       : (cs_u32)(((uint64_t)i * 0x9e3779b9u & 0xffffffffu) * count >> 32);
         while (common_divisor(a, count) != 1) /* ends at a multiple of N plus 1 */
             a++;
         const double merit = figure_of_merit(count, a, least);
@@ -75,11 +75,11 @@ static u32 korobov_multiplier(u32 count)
     return best;
 }
 
-int cs_rows_rank1(cs_table *table)
+int cs_table_rank1(cs_table *table)
 {
-    const u32 count = table->pattern->grid.count;
-    const u32 multiplier = korobov_multiplier(count);
-    for (u32 row = 0; row < count; row++) {
+    const cs_u32 count = table->pattern->grid.count;
+    const cs_u32 multiplier = korobov_multiplier(count);
+    for (cs_u32 row = 0; row < count; row++) {
         uint64_t at = row;
         for (int d = 0; d < 4; d++) {
             table->word[d][row] = fraction(at, count);
@@ -93,14 +93,15 @@ int cs_rows_rank1(cs_table *table)
     return 1;
 }
 
-static int rows_of_points(cs_table *table, int (*points)(u32 count, u32 seed, f32 *x, f32 *y))
+static int rows_of_points(cs_table *table,
+                          int (*points)(cs_u32 count, cs_u32 seed, cs_f32 *x, cs_f32 *y))
 {
-    const u32 count = table->pattern->grid.count;
-    f32 *x = malloc(2 * (size_t)count * sizeof *x);
+    const cs_u32 count = table->pattern->grid.count;
+    cs_f32 *x = malloc(2 * (size_t)count * sizeof *x);
     const int good = x != NULL && points(count, 1u, x, x + count);
-    for (u32 row = 0; good && row < count; row++)
-        for (u32 d = 0; d < 2; d++) {
-            table->word[d][row] = (u32)((double)x[d * count + row] * 0x1p32);
+    for (cs_u32 row = 0; good && row < count; row++)
+        for (cs_u32 d = 0; d < 2; d++) {
+            table->word[d][row] = (cs_u32)((double)x[d * count + row] * 0x1p32);
             table->place[d][row] = table->word[d][row];
         }
     free(x);
@@ -109,12 +110,12 @@ static int rows_of_points(cs_table *table, int (*points)(u32 count, u32 seed, f3
     return good;
 }
 
-int cs_rows_poisson(cs_table *table)
+int cs_table_poisson(cs_table *table)
 {
     return rows_of_points(table, cs_poisson_points);
 }
 
-int cs_rows_ccvt(cs_table *table)
+int cs_table_ccvt(cs_table *table)
 {
     return rows_of_points(table, cs_ccvt_points);
 }

@@ -1,10 +1,10 @@
 /* Tables of the progressive samplers: Sobol', the binary (0,4)-sequence, Halton. */
-#include "sampler/net.h"
-#include "sampler/halton.h"
+#include "clshear/device/sampler/net.h"
+#include "clshear/device/sampler/halton.h"
 
 #include <math.h>
 
-#include "pattern/rows.h"
+#include "pattern/table_makers.h"
 
 enum {
     BITS = 32
@@ -13,22 +13,22 @@ enum {
 /* Columns of a binary generator matrix. Bit r of a column is row r: row 0 makes the most
  * significant digit, so that products are coordinates in reverse. */
 typedef struct generator {
-    u32 column[BITS];
+    cs_u32 column[BITS];
 } generator;
 
-static u32 product(const generator *matrix, u32 element)
+static cs_u32 product(const generator *matrix, cs_u32 element)
 {
-    u32 digits = 0;
+    cs_u32 digits = 0;
     for (int c = 0; element != 0; c++, element >>= 1)
         if (element & 1u) digits ^= matrix->column[c];
     return digits;
 }
 
-/* Boxes of CS_BOX samples, or what comes near: elementary intervals of base 2. */
+/* Boxes of CS_GROUP samples, or what comes near: elementary intervals of base 2. */
 static void cut_binary(cs_table *table)
 {
-    u32 boxes = 1, columns = 1;
-    while (2 * boxes * CS_BOX <= table->pattern->grid.count)
+    cs_u32 boxes = 1, columns = 1;
+    while (2 * boxes * CS_GROUP <= table->pattern->grid.count)
         boxes *= 2;
     while (2 * columns * columns <= boxes) /* a box is square or twice as wide as high */
         columns *= 2;
@@ -37,7 +37,7 @@ static void cut_binary(cs_table *table)
     table->boxes[1] = boxes / columns;
 }
 
-static void place(cs_table *table, u32 row, u32 x_reversed, u32 y_reversed)
+static void place(cs_table *table, cs_u32 row, cs_u32 x_reversed, cs_u32 y_reversed)
 {
     table->place[0][row] = cs_reverse_bits(x_reversed);
     table->place[1][row] = cs_reverse_bits(y_reversed);
@@ -45,9 +45,9 @@ static void place(cs_table *table, u32 row, u32 x_reversed, u32 y_reversed)
 
 static int rows_of_net(cs_table *table, const generator *matrices)
 {
-    for (u32 row = 0; row < table->pattern->grid.count; row++) {
-        const u32 element = table->pattern->first + row;
-        for (u32 d = 0; d < 4; d++)
+    for (cs_u32 row = 0; row < table->pattern->grid.count; row++) {
+        const cs_u32 element = table->pattern->first + row;
+        for (cs_u32 d = 0; d < 4; d++)
             table->word[d][row] = product(&matrices[d], element);
         place(table, row, table->word[0][row], table->word[1][row]);
     }
@@ -58,25 +58,26 @@ static int rows_of_net(cs_table *table, const generator *matrices)
 
 /* Sobol' 1967 from primitive polynomials and initial numbers m of Joe & Kuo 2008 (their dimensions
  * 1 to 4): v_c = v_{c-s} ^ v_{c-s} >> s ^ a_1 v_{c-1} ^ ... with v_c = m_c 2^(31-c). */
-static void sobol_matrix(u32 degree, u32 coefficients, const u32 *initial, generator *matrix)
+static void sobol_matrix(cs_u32 degree, cs_u32 coefficients, const cs_u32 *initial,
+                         generator *matrix)
 {
-    u32 direction[BITS] = {0};
-    for (u32 c = 0; c < BITS; c++) {
+    cs_u32 direction[BITS] = {0};
+    for (cs_u32 c = 0; c < BITS; c++) {
         if (c < degree) {
             direction[c] = initial[c] << (BITS - 1 - c);
         } else {
             direction[c] = direction[c - degree] ^ direction[c - degree] >> degree;
-            for (u32 k = 1; k < degree; k++)
+            for (cs_u32 k = 1; k < degree; k++)
                 if (coefficients >> (degree - 1 - k) & 1u) direction[c] ^= direction[c - k];
         }
         matrix->column[c] = cs_reverse_bits(direction[c]);
     }
 }
 
-int cs_rows_sobol(cs_table *table)
+int cs_table_sobol(cs_table *table)
 {
-    static const u32 initial[4][3] = {{1, 1, 1}, {1}, {1, 3}, {1, 3, 1}};
-    static const u32 degree[4] = {0, 1, 2, 3}, coefficients[4] = {0, 0, 1, 1};
+    static const cs_u32 initial[4][3] = {{1, 1, 1}, {1}, {1, 3}, {1, 3, 1}};
+    static const cs_u32 degree[4] = {0, 1, 2, 3}, coefficients[4] = {0, 0, 1, 1};
     generator matrices[4];
     for (int c = 0; c < BITS; c++)
         matrices[0].column[c] = 1u << c;
@@ -90,35 +91,35 @@ int cs_rows_sobol(cs_table *table)
  * 2 x 2 binary blocks, powers of a = ((0, 1), (1, 1)), as in Ahmed et al. 2025; and the digits of
  * dimensions 1 and 3 are mapped by ((1, 1), (0, 1)), a bijection of each digit, which makes (x, y)
  * and (u, v) binary (0,2)-sequences besides (tests/test_strata.c looks at all of this). */
-static void sz_matrix(u32 dimension, generator *matrix)
+static void sz_matrix(cs_u32 dimension, generator *matrix)
 {
     /* Columns of the powers of a: bit 0 is the upper row. */
-    static const u32 power[3][2] = {{1, 2}, {2, 3}, {3, 1}};
-    static const u32 exponent[4] = {0, 0, 1, 2};
-    for (u32 c = 0; c < BITS; c++)
+    static const cs_u32 power[3][2] = {{1, 2}, {2, 3}, {3, 1}};
+    static const cs_u32 exponent[4] = {0, 0, 1, 2};
+    for (cs_u32 c = 0; c < BITS; c++)
         matrix->column[c] = 0;
-    for (u32 j = 0; j < BITS / 2; j++)
-        for (u32 i = 0; i <= j; i++) {
+    for (cs_u32 j = 0; j < BITS / 2; j++)
+        for (cs_u32 i = 0; i <= j; i++) {
             if ((i & ~j) != 0 || (dimension == 0 && i != j)) continue; /* even, or a power of 0 */
-            for (u32 c = 0; c < 2; c++) {
-                u32 block = power[exponent[dimension] * (j - i) % 3][c];
+            for (cs_u32 c = 0; c < 2; c++) {
+                cs_u32 block = power[exponent[dimension] * (j - i) % 3][c];
                 if (dimension % 2 == 1) block ^= block >> 1;
                 matrix->column[2 * j + c] |= block << (2 * i);
             }
         }
 }
 
-int cs_rows_sz(cs_table *table)
+int cs_table_sz(cs_table *table)
 {
     generator matrices[4];
-    for (u32 d = 0; d < 4; d++)
+    for (cs_u32 d = 0; d < 4; d++)
         sz_matrix(d, &matrices[d]);
     return rows_of_net(table, matrices);
 }
 
-int cs_rows_index(cs_table *table)
+int cs_table_index(cs_table *table)
 {
-    for (u32 row = 0; row < table->pattern->grid.count; row++) {
+    for (cs_u32 row = 0; row < table->pattern->grid.count; row++) {
         table->word[0][row] = table->pattern->first + row;
         place(table, row, table->word[0][row], cs_pascal(table->word[0][row]));
     }
@@ -127,36 +128,36 @@ int cs_rows_index(cs_table *table)
     return 1;
 }
 
-static u32 digits_packed(u32 element, u32 base, u32 bits)
+static cs_u32 digits_packed(cs_u32 element, cs_u32 base, cs_u32 bits)
 {
-    u32 packed = 0;
-    for (u32 at = 0; element != 0; at += bits, element /= base)
+    cs_u32 packed = 0;
+    for (cs_u32 at = 0; element != 0; at += bits, element /= base)
         packed |= element % base << at;
     return packed;
 }
 
-int cs_rows_halton(cs_table *table)
+int cs_table_halton(cs_table *table)
 {
-    const u32 count = table->pattern->grid.count;
-    for (u32 row = 0; row < count; row++) {
-        const u32 element = table->pattern->first + row;
+    const cs_u32 count = table->pattern->grid.count;
+    for (cs_u32 row = 0; row < count; row++) {
+        const cs_u32 element = table->pattern->first + row;
         table->word[0][row] = element;
         table->word[1][row] = digits_packed(element, 3, CS_HALTON_BITS3);
         table->word[2][row] = digits_packed(element, 5, CS_HALTON_BITS5);
         table->word[3][row] = digits_packed(element, 7, CS_HALTON_BITS7);
         double thirds = 0.0, scale = 1.0 / 3.0;
-        for (u32 rest = element; rest != 0; rest /= 3, scale /= 3.0)
+        for (cs_u32 rest = element; rest != 0; rest /= 3, scale /= 3.0)
             thirds += rest % 3 * scale;
         table->place[0][row] = cs_reverse_bits(element);
-        table->place[1][row] = (u32)(thirds * 0x1p32);
+        table->place[1][row] = (cs_u32)(thirds * 0x1p32);
     }
     table->words = 4;
-    /* Elementary boxes of about CS_BOX samples: 2^a x 3^b, as square as they come. */
-    u32 columns = 1, bands = 1;
-    while (columns * bands * 2 * CS_BOX <= count)
+    /* Elementary boxes of about CS_GROUP samples: 2^a x 3^b, as square as they come. */
+    cs_u32 columns = 1, bands = 1;
+    while (columns * bands * 2 * CS_GROUP <= count)
         if (columns <= bands)
             columns *= 2;
-        else if (columns * bands * 3 * CS_BOX <= count)
+        else if (columns * bands * 3 * CS_GROUP <= count)
             bands *= 3;
         else
             break;

@@ -4,50 +4,50 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pattern/rows.h"
+#include "pattern/table_makers.h"
 
-/* Which numbers of samples there are: the `counts` column of cl/sampler/list.h. */
-typedef int (*count_rule)(u32 count);
+/* Which numbers of samples there are: the `counts` column of cl/clshear/device/sampler/list.h. */
+typedef int (*count_rule)(cs_u32 count);
 
-static int counts_any(u32 count)
+static int counts_any(cs_u32 count)
 {
     (void)count;
     return 1;
 }
 
 /* Sets that take long to make. */
-static int counts_modest(u32 count)
+static int counts_modest(cs_u32 count)
 {
     return count <= 1u << 18;
 }
 
-static int counts_few(u32 count)
+static int counts_few(cs_u32 count)
 {
     return count <= 1u << 16;
 }
 
 /* A grid without a partial row. */
-static int counts_grid(u32 count)
+static int counts_grid(cs_u32 count)
 {
     return cs_grid_of(count).extra == 0;
 }
 
 /* Sides of a 4D grid, as equal as they come: shape[0] >= ... >= shape[3], at most twice as large.
  * Returns 0 if there is none. */
-static int hypergrid(u32 count, u32 shape[4])
+static int hypergrid(cs_u32 count, cs_u32 shape[4])
 {
-    u32 best = 0;
-    for (u32 d = 1; d * d * d * d <= count; d++) {
+    cs_u32 best = 0;
+    for (cs_u32 d = 1; d * d * d * d <= count; d++) {
         if (count % d != 0) continue;
-        const u32 without_d = count / d;
-        for (u32 c = d; c * c * c <= without_d && c <= 2 * d; c++) {
+        const cs_u32 without_d = count / d;
+        for (cs_u32 c = d; c * c * c <= without_d && c <= 2 * d; c++) {
             if (without_d % c != 0) continue;
-            const u32 pair = without_d / c;
-            for (u32 b = c; b * b <= pair; b++) {
+            const cs_u32 pair = without_d / c;
+            for (cs_u32 b = c; b * b <= pair; b++) {
                 if (pair % b != 0 || pair / b > 2 * d) continue;
                 if (d < best) continue;
                 best = d;
-                const u32 sides[4] = {pair / b, b, c, d};
+                const cs_u32 sides[4] = {pair / b, b, c, d};
                 memcpy(shape, sides, sizeof sides);
             }
         }
@@ -55,15 +55,15 @@ static int hypergrid(u32 count, u32 shape[4])
     return best > 0;
 }
 
-static int counts_hypergrid(u32 count)
+static int counts_hypergrid(cs_u32 count)
 {
-    u32 shape[4];
+    cs_u32 shape[4];
     return hypergrid(count, shape);
 }
 
-static u32 root_of(u32 count, int power)
+static cs_u32 root_of(cs_u32 count, int power)
 {
-    u32 root = 1;
+    cs_u32 root = 1;
     for (;; root++) {
         uint64_t next = 1;
         for (int i = 0; i < power; i++)
@@ -73,21 +73,21 @@ static u32 root_of(u32 count, int power)
 }
 
 /* Levels of an orthogonal array of four columns. */
-static int is_array(u32 count, int power)
+static int is_array(cs_u32 count, int power)
 {
-    const u32 q = root_of(count, power);
-    u32 runs = 1;
+    const cs_u32 q = root_of(count, power);
+    cs_u32 runs = 1;
     for (int i = 0; i < power; i++)
         runs *= q;
     return runs == count && q >= 3 && cs_is_prime_power(q);
 }
 
-static int counts_square(u32 count)
+static int counts_square(cs_u32 count)
 {
     return is_array(count, 2);
 }
 
-static int counts_cube(u32 count)
+static int counts_cube(cs_u32 count)
 {
     return is_array(count, 3);
 }
@@ -101,33 +101,33 @@ typedef struct sampler {
 } sampler;
 
 #define CS_SAMPLER_ENTRY(identifier, name, draw, counts, rows, progressive, about) \
-    {name, about, counts_##counts, cs_rows_##rows, progressive},
+    {name, about, counts_##counts, cs_table_##rows, progressive},
 
 static const sampler samplers[CS_SAMPLER_COUNT] = {CS_SAMPLER_LIST(CS_SAMPLER_ENTRY)};
 
-static const u32 default_sampler = CS_SAMPLER_SZ;
+static const cs_u32 default_sampler = CS_SAMPLER_SZ;
 
-const char *cs_sampler_name(u32 number)
+const char *cs_sampler_name(cs_u32 number)
 {
     return samplers[number].name;
 }
 
-const char *cs_sampler_about(u32 number)
+const char *cs_sampler_about(cs_u32 number)
 {
     return samplers[number].about;
 }
 
-int cs_sampler_is_progressive(u32 number)
+int cs_sampler_is_progressive(cs_u32 number)
 {
     return samplers[number].progressive;
 }
 
-clshear_status cs_sampler_find(const char *name, u32 *number, cs_error *error)
+clshear_status cs_sampler_find(const char *name, cs_u32 *number, cs_error *error)
 {
     char names[256] = "";
     *number = default_sampler;
     if (name == NULL) return CLSHEAR_OK;
-    for (u32 i = 0; i < CS_SAMPLER_COUNT; i++) {
+    for (cs_u32 i = 0; i < CS_SAMPLER_COUNT; i++) {
         const size_t used = strlen(names);
         if (strcmp(name, samplers[i].name) == 0) {
             *number = i;
@@ -139,31 +139,31 @@ clshear_status cs_sampler_find(const char *name, u32 *number, cs_error *error)
                    names);
 }
 
-u32 cs_sampler_count(u32 number, u32 wanted)
+cs_u32 cs_sampler_count(cs_u32 number, cs_u32 wanted)
 {
-    for (u32 count = wanted; count <= CS_MAX_PATTERN; count++)
+    for (cs_u32 count = wanted; count <= CS_MAX_PATTERN; count++)
         if (samplers[number].counts(count)) return count;
     return 0;
 }
 
-u32 cs_sampler_most(u32 number)
+cs_u32 cs_sampler_most(cs_u32 number)
 {
-    u32 count = CS_MAX_PATTERN;
+    cs_u32 count = CS_MAX_PATTERN;
     while (!samplers[number].counts(count))
         count--;
     return count;
 }
 
 /* Digits of base `base` that number the elements below `end`. */
-static u32 digits_of(u32 end, u32 base)
+static cs_u32 digits_of(cs_u32 end, cs_u32 base)
 {
-    u32 digits = 0;
+    cs_u32 digits = 0;
     for (uint64_t power = 1; power < end; power *= base)
         digits++;
     return digits;
 }
 
-cs_pattern cs_pattern_of(u32 number, u32 first, u32 count)
+cs_pattern cs_pattern_of(cs_u32 number, cs_u32 first, cs_u32 count)
 {
     cs_pattern pattern = {.sampler = number, .first = first};
     pattern.blocks = (count + CS_BLOCK - 1) / CS_BLOCK;
@@ -174,7 +174,7 @@ cs_pattern cs_pattern_of(u32 number, u32 first, u32 count)
     if (number == CS_SAMPLER_JITTERED4D && hypergrid(count, pattern.shape))
         pattern.grid = cs_grid_on(count, pattern.shape[0] * pattern.shape[1]);
     if (number == CS_SAMPLER_HALTON) {
-        const u32 bases[4] = {2, 3, 5, 7};
+        const cs_u32 bases[4] = {2, 3, 5, 7};
         for (int d = 0; d < 4; d++)
             pattern.shape[d] = digits_of(first + count, bases[d]);
     }
@@ -183,8 +183,8 @@ cs_pattern cs_pattern_of(u32 number, u32 first, u32 count)
 
 /* A row's place in the coherent order: the box of the first pair's plane it lies in. */
 typedef struct ticket {
-    u32 box;
-    u32 row;
+    cs_u32 box;
+    cs_u32 row;
 } ticket;
 
 static int by_box(const void *a, const void *b)
@@ -198,23 +198,23 @@ static int by_box(const void *a, const void *b)
  * are neighbours in the plane. Returns 0 when out of memory. */
 static int sort_rows(cs_table *table)
 {
-    const u32 count = table->pattern->grid.count;
+    const cs_u32 count = table->pattern->grid.count;
     ticket *tickets = malloc(count * sizeof *tickets);
-    u32 *sorted = malloc(count * sizeof *sorted);
+    cs_u32 *sorted = malloc(count * sizeof *sorted);
     if (tickets == NULL || sorted == NULL) {
         free(tickets);
         free(sorted);
         return 0;
     }
-    for (u32 i = 0; i < count; i++) {
-        const u32 column = (u32)((uint64_t)table->place[0][i] * table->boxes[0] >> 32);
-        const u32 band = (u32)((uint64_t)table->place[1][i] * table->boxes[1] >> 32);
-        const u32 along = band % 2 == 0 ? column : table->boxes[0] - 1 - column;
+    for (cs_u32 i = 0; i < count; i++) {
+        const cs_u32 column = (cs_u32)((uint64_t)table->place[0][i] * table->boxes[0] >> 32);
+        const cs_u32 band = (cs_u32)((uint64_t)table->place[1][i] * table->boxes[1] >> 32);
+        const cs_u32 along = band % 2 == 0 ? column : table->boxes[0] - 1 - column;
         tickets[i] = (ticket){band * table->boxes[0] + along, i};
     }
     qsort(tickets, count, sizeof *tickets, by_box);
-    for (u32 w = 0; w < table->words; w++) {
-        for (u32 i = 0; i < count; i++)
+    for (cs_u32 w = 0; w < table->words; w++) {
+        for (cs_u32 i = 0; i < count; i++)
             sorted[i] = table->word[w][tickets[i].row];
         memcpy(table->word[w], sorted, count * sizeof *sorted);
     }
@@ -227,25 +227,25 @@ static int sort_rows(cs_table *table)
 static int pack(const cs_table *table, cs_array *rows)
 {
     const size_t stride = (size_t)table->pattern->blocks * CS_BLOCK;
-    u32 *words = cs_array_extend(rows, stride * table->words);
+    cs_u32 *words = cs_array_extend(rows, stride * table->words);
     if (words == NULL) return 0;
-    for (u32 w = 0; w < table->words; w++)
+    for (cs_u32 w = 0; w < table->words; w++)
         memcpy(words + w * stride, table->word[w], table->pattern->grid.count * sizeof *words);
     return 1;
 }
 
-clshear_status cs_rows_make(const cs_pattern *pattern, cs_row_order order, cs_array *rows,
-                            cs_error *error)
+clshear_status cs_sample_table_make(const cs_pattern *pattern, cs_sample_order order,
+                                    cs_array *rows, cs_error *error)
 {
-    const u32 count = pattern->grid.count;
+    const cs_u32 count = pattern->grid.count;
     cs_table table = {.pattern = pattern};
-    u32 *memory = calloc((size_t)count * (CS_MOST_WORDS + 2), sizeof *memory);
+    cs_u32 *memory = calloc((size_t)count * (CS_MOST_WORDS + 2), sizeof *memory);
     int good = memory != NULL;
-    for (u32 w = 0; good && w < CS_MOST_WORDS; w++)
+    for (cs_u32 w = 0; good && w < CS_MOST_WORDS; w++)
         table.word[w] = memory + (size_t)w * count;
-    for (u32 d = 0; good && d < 2; d++)
+    for (cs_u32 d = 0; good && d < 2; d++)
         table.place[d] = memory + (size_t)(CS_MOST_WORDS + d) * count;
-    *rows = (cs_array){.item_size = sizeof(u32)};
+    *rows = (cs_array){.item_size = sizeof(cs_u32)};
     good = good && samplers[pattern->sampler].rows(&table);
     if (good && table.words > 0) {
         if (order == CS_ORDER_COHERENT && table.boxes[0] > 0) good = sort_rows(&table);

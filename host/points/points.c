@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "clshear/device/sampler/sampler.h"
+#include "clshear/device/shear.h"
 #include "optics/optics.h"
 #include "pattern/pattern.h"
 #include "points/points.h"
-#include "sampler/sampler.h"
-#include "shear.h"
 
 clshear_status cs_points_reserve(clshear_points *points, cs_error *error)
 {
@@ -28,8 +28,8 @@ clshear_status cs_points_reserve(clshear_points *points, cs_error *error)
 
 typedef struct draw_job {
     cs_pattern pattern;
-    const u32 *rows;
-    u32 seed;
+    const cs_u32 *rows;
+    cs_u32 seed;
     clshear_points *points;
 } draw_job;
 
@@ -38,9 +38,9 @@ static void draw_sets(void *user, size_t begin, size_t end)
     const draw_job *job = user;
     const size_t count = job->points->count;
     for (size_t set = begin; set < end; set++) {
-        const u32 key = cs_pattern_key(job->seed, (u32)set, 0);
+        const cs_u32 key = cs_pattern_key(job->seed, (cs_u32)set, 0);
         for (size_t i = 0; i < count; i++)
-            cs_draw(&job->pattern, job->rows, key, (u32)i, CS_DIMENSIONS / 2,
+            cs_draw(&job->pattern, job->rows, key, (cs_u32)i, CS_DIMENSIONS / 2,
                     job->points->values + (set * count + i) * CS_DIMENSIONS);
     }
 }
@@ -51,16 +51,16 @@ clshear_status clshear_points_draw(const char *name, size_t wanted, size_t sets,
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
     cs_array rows = {0};
-    u32 sampler;
+    cs_u32 sampler;
     CS_TRY(cs_sampler_find(name, &sampler, error));
-    const u32 most = cs_sampler_most(sampler);
+    const cs_u32 most = cs_sampler_most(sampler);
     CS_REQUIRE(wanted >= 1 && wanted <= most, CLSHEAR_BAD_ARGUMENT,
                "%zu points of sampler %s: must be 1 to %u", wanted, cs_sampler_name(sampler), most);
-    const u32 count = cs_sampler_count(sampler, (u32)wanted);
+    const cs_u32 count = cs_sampler_count(sampler, (cs_u32)wanted);
     clshear_points made = {
         .sets = sets, .count = count, .dimensions = CS_DIMENSIONS, .names = "xyuvpq"};
     draw_job job = {.pattern = cs_pattern_of(sampler, 0, count), .seed = seed, .points = &made};
-    CS_TRY(cs_rows_make(&job.pattern, CS_ORDER_SEQUENCE, &rows, error));
+    CS_TRY(cs_sample_table_make(&job.pattern, CS_ORDER_SEQUENCE, &rows, error));
     CS_TRY(cs_points_reserve(&made, error));
     job.rows = rows.items;
     cs_parallel(0, sets, draw_sets, &job);
@@ -78,7 +78,7 @@ clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear,
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "points of %s cannot be sheared: they must begin with x, y, u, v",
                        points->names);
-    if (!isfinite(shear_px) || (u32)shear > CLSHEAR_SHEAR_EQUAL_AREA)
+    if (!isfinite(shear_px) || (cs_u32)shear > CLSHEAR_SHEAR_EQUAL_AREA)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "shear %d by %g pixels is not possible",
                        (int)shear, (double)shear_px);
     const clshear_camera square = {.aperture = CLSHEAR_APERTURE_SQUARE};
@@ -87,8 +87,8 @@ clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear,
     if (status != CLSHEAR_OK) return status;
     for (size_t i = 0; i < points->sets * points->count; i++) {
         float *p = points->values + i * stride;
-        const cs_film_lens sheared = cs_shear(p[0], p[1], p[2], p[3], (u32)shear, &optics.optics,
-                                              optics.table.items, shear_px);
+        const cs_camera_sample sheared = cs_shear(p[0], p[1], p[2], p[3], (cs_u32)shear,
+                                                  &optics.optics, optics.table.items, shear_px);
         const float place[4] = {sheared.x, sheared.y, sheared.u + 0.5f, sheared.v + 0.5f};
         for (int d = 0; d < 4; d++)
             p[d] = cs_clamp(place[d], 0.0f, 0.99999994f);

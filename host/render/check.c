@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "pattern/pattern.h"
-#include "render/job.h"
+#include "render/render_job.h"
 #include "scene/camera.h"
 
 static clshear_status check_window(cs_job *job, cs_error *error)
@@ -61,13 +61,13 @@ static clshear_status choose_pattern(cs_job *job, cs_error *error)
 {
     clshear_options *options = &job->options;
     const cs_log *log = &job->scene->context->log;
-    u32 sampler;
+    cs_u32 sampler;
     clshear_status status = cs_sampler_find(options->sampler, &sampler, error);
     if (status != CLSHEAR_OK) return status;
-    const u32 wanted = (options->spp - 1) / options->replicates + 1;
-    const u32 count = cs_sampler_count(sampler, wanted);
+    const cs_u32 wanted = (options->spp - 1) / options->replicates + 1;
+    const cs_u32 count = cs_sampler_count(sampler, wanted);
     if (count == 0) {
-        const u32 most = cs_sampler_most(sampler);
+        const cs_u32 most = cs_sampler_most(sampler);
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "%u samples in one pattern of %s: at most %u; use %u replicates or more",
                        wanted, cs_sampler_name(sampler), most, (options->spp - 1) / most + 1);

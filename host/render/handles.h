@@ -7,41 +7,41 @@
 #include "scene/scene.h"
 
 /* The scene's buffers on the device, in the order of the kernel's arguments. */
-typedef enum cs_world_buffer {
-    CS_WORLD_NODES,
-    CS_WORLD_TRIANGLES,
-    CS_WORLD_FACES,
-    CS_WORLD_VERTICES,
-    CS_WORLD_MATERIALS,
-    CS_WORLD_TEXTURES,
-    CS_WORLD_TEXELS,
-    CS_WORLD_LIGHTS,
-    CS_WORLD_EMITTERS,
-    CS_WORLD_BUFFERS
-} cs_world_buffer;
+typedef enum cs_scene_buffer {
+    CS_SCENE_NODES,
+    CS_SCENE_TRIANGLES,
+    CS_SCENE_FACES,
+    CS_SCENE_VERTICES,
+    CS_SCENE_MATERIALS,
+    CS_SCENE_TEXTURES,
+    CS_SCENE_TEXELS,
+    CS_SCENE_LIGHTS,
+    CS_SCENE_EMITTERS,
+    CS_SCENE_BUFFERS
+} cs_scene_buffer;
 
-typedef struct cs_device_world {
-    cs_buffer *buffers[CS_WORLD_BUFFERS];
+typedef struct cs_device_scene {
+    cs_buffer *buffers[CS_SCENE_BUFFERS];
     uint32_t lights;
     uint32_t emitters;
     size_t geometry_bytes;
-} cs_device_world;
+} cs_device_scene;
 
 struct clshear_scene {
     clshear_context *context;
     cs_scene scene;
     cs_accel *accel;
-    cs_device_world world;
+    cs_device_scene world;
     clshear_scene_info info;
 };
 
 /* Puts geometry, materials and textures on the device. `bvh` is not needed afterwards. */
-clshear_status cs_world_upload(cs_device_world *world, cs_device *device, const cs_scene *scene,
+clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const cs_scene *scene,
                                const cs_flat_bvh *bvh, cs_error *error);
 
 /* Puts the lights there, again after each change; the default light where there is none. */
-clshear_status cs_world_upload_lights(cs_device_world *world, cs_device *device,
+clshear_status cs_scene_upload_lights(cs_device_scene *world, cs_device *device,
                                       const cs_scene *scene, cs_error *error);
-void cs_world_free(cs_device_world *world);
+void cs_device_scene_free(cs_device_scene *world);
 
 #endif

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "oracle/pilot.h"
+#include "oracle/choose_rule.h"
 #include "pattern/pattern.h"
 
 enum {
@@ -18,12 +18,12 @@ enum {
 
 /* Where a pilot's results go, for each pixel of the window: negative where it did not look. */
 typedef struct outcome {
-    f32 *variance; /* of a pattern's mean, averaged over colours */
-    f32 *intensity;
+    cs_f32 *variance; /* of a pattern's mean, averaged over colours */
+    cs_f32 *intensity;
 } outcome;
 
 /* Of the pixels in `list`; NULL: of all. */
-static clshear_status read_outcome(const cs_job *job, const cs_pixels *pixels, const u32 *list,
+static clshear_status read_outcome(const cs_job *job, const cs_pixels *pixels, const cs_u32 *list,
                                    const outcome *result, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
@@ -37,12 +37,12 @@ static clshear_status read_outcome(const cs_job *job, const cs_pixels *pixels, c
         for (size_t i = 0; i < count; i++) {
             const cs_pixel *p = &slice[i];
             const size_t number = list != NULL ? list[first + i] : first + i;
-            f32 m2 = 0.0f, sum = 0.0f;
+            cs_f32 m2 = 0.0f, sum = 0.0f;
             for (int c = 0; c < 3; c++)
                 m2 += p->pattern_m2[c], sum += p->pattern_sum[c];
-            result->variance[number] = m2 / (3.0f * (f32)(p->patterns - 1));
+            result->variance[number] = m2 / (3.0f * (cs_f32)(p->patterns - 1));
             if (result->intensity != NULL)
-                result->intensity[number] = sum / (3.0f * (f32)p->patterns);
+                result->intensity[number] = sum / (3.0f * (cs_f32)p->patterns);
         }
     }
 done:
@@ -52,33 +52,33 @@ done:
 
 /* Renders `replicates` patterns of `samples` for the listed pixels (NULL: all) with given shears.
  */
-static clshear_status run(cs_job *job, const f32 *shears, const u32 *list, size_t count,
-                          u32 samples, u32 replicates, const outcome *result, cs_error *error)
+static clshear_status run(cs_job *job, const cs_f32 *shears, const cs_u32 *list, size_t count,
+                          cs_u32 samples, cs_u32 replicates, const outcome *result, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     clshear_context *context = job->scene->context;
     cs_buffer *shear_buffer = NULL;
     cs_pixels pixels = {0};
     cs_batch batch = {0};
-    const u32 sampler = job->pattern.sampler, width = (u32)(job->window[1] - job->window[0]);
+    const cs_u32 sampler = job->pattern.sampler, width = (cs_u32)(job->window[1] - job->window[0]);
     const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, samples));
-    cs_sweep sweep = cs_job_sweep(job);
+    cs_pass pass = cs_job_pass(job);
     if (count > 0) {
         CS_TRY(cs_pixels_create(context, count, width, &pixels, error));
         CS_TRY(cs_buffer_create(context->device, job->pixel_count * sizeof *shears, shears,
                                 &shear_buffer, error));
         CS_TRY(cs_batch_create(context, &pattern, list, count, width, list != NULL, &batch, error));
-        sweep.frame.seed = cs_key(job->options.seed, 0x70696c6fu); /* its own random numbers */
-        sweep.shears = shear_buffer;
-        sweep.pixels = &pixels;
-        sweep.options = &job->options;
-        for (u32 replicate = 0; replicate < replicates; replicate++)
-            CS_TRY(cs_sweep_replicate(&sweep, &batch, 1, replicate, error));
-        job->pilot_samples += sweep.done;
+        pass.frame.seed = cs_key(job->options.seed, 0x70696c6fu); /* its own random numbers */
+        pass.shears = shear_buffer;
+        pass.pixels = &pixels;
+        pass.options = &job->options;
+        for (cs_u32 replicate = 0; replicate < replicates; replicate++)
+            CS_TRY(cs_pass_replicate(&pass, &batch, 1, replicate, error));
+        job->pilot_samples += pass.done;
     }
     CS_TRY(read_outcome(job, &pixels, list, result, error));
 done:
-    job->kernel_s += sweep.kernel_s;
+    job->kernel_s += pass.kernel_s;
     cs_batch_free(&batch);
     cs_buffer_free(shear_buffer);
     cs_pixels_free(&pixels);
@@ -86,15 +86,15 @@ done:
 }
 
 /* Whether two shears make a difference that a pixel could notice. */
-static int differ(f32 a, f32 b)
+static int differ(cs_f32 a, cs_f32 b)
 {
     return fabsf(a - b) > 0.01f * (1.0f + fabsf(a));
 }
 
 typedef struct choice {
-    f32 *shears[CS_RULE_COUNT];
-    f32 *variance[CS_RULE_COUNT];
-    u32 *list;
+    cs_f32 *shears[CS_RULE_COUNT];
+    cs_f32 *variance[CS_RULE_COUNT];
+    cs_u32 *list;
     uint8_t *rules;
 } choice;
 
@@ -105,8 +105,8 @@ static int reserve(choice *c, size_t pixels)
     int good = (c->list = malloc(pixels * sizeof *c->list)) != NULL;
     good &= (c->rules = malloc(pixels)) != NULL;
     for (int r = 0; r < CS_RULE_COUNT; r++) {
-        good &= (c->shears[r] = malloc(pixels * sizeof(f32))) != NULL;
-        good &= (c->variance[r] = malloc(pixels * sizeof(f32))) != NULL;
+        good &= (c->shears[r] = malloc(pixels * sizeof(cs_f32))) != NULL;
+        good &= (c->variance[r] = malloc(pixels * sizeof(cs_f32))) != NULL;
     }
     return good;
 }
@@ -148,15 +148,15 @@ static size_t list_pixels(const cs_job *job, choice *c, int rule, double part)
 {
     size_t count = 0;
     for (size_t i = 0; i < job->pixel_count; i++) {
-        const u32 width = (u32)(job->window[1] - job->window[0]);
-        const u32 x = (u32)job->window[0] + (u32)i % width,
-                  y = (u32)job->window[2] + (u32)i / width;
+        const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
+        const cs_u32 x = (cs_u32)job->window[0] + (cs_u32)i % width,
+                     y = (cs_u32)job->window[2] + (cs_u32)i / width;
         const double lot = (double)cs_hash((y << 16 ^ x) + 1u) * 0x1p-32;
         int wanted = 0;
         for (int r = 0; r < CS_RULE_COUNT; r++)
             wanted |= is_candidate(r) && (r == rule || rule == (int)prior_rule) &&
                       differ(c->shears[prior_rule][i], c->shears[r][i]);
-        if (wanted && lot < part) c->list[count++] = (u32)i;
+        if (wanted && lot < part) c->list[count++] = (cs_u32)i;
     }
     return count;
 }
@@ -201,20 +201,20 @@ done:
     return status;
 }
 
-clshear_status cs_pilot_samples(cs_job *job, u32 *samples, cs_error *error)
+clshear_status cs_pilot_samples(cs_job *job, cs_u32 *samples, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const int width = job->window[1] - job->window[0], height = job->window[3] - job->window[2];
-    outcome result = {.variance = malloc(job->pixel_count * sizeof(f32)),
-                      .intensity = malloc(job->pixel_count * sizeof(f32))};
+    outcome result = {.variance = malloc(job->pixel_count * sizeof(cs_f32)),
+                      .intensity = malloc(job->pixel_count * sizeof(cs_f32))};
     CS_REQUIRE(result.variance != NULL && result.intensity != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory for the pilot of %zu pixels", job->pixel_count);
     /* A sixteenth of the samples, but two patterns at least that say something: smaller ones rank
      * pixels worse, and where packets have 16 lanes they cost as much. */
-    const u32 sampler = job->pattern.sampler;
-    const u32 size = cs_sampler_count(sampler, job->options.spp < 256 ? 8 : 16);
-    const u32 patterns = job->options.spp / 16 / size;
-    const u32 replicates = patterns < 2 ? 2 : patterns > 4 ? 4 : patterns;
+    const cs_u32 sampler = job->pattern.sampler;
+    const cs_u32 size = cs_sampler_count(sampler, job->options.spp < 256 ? 8 : 16);
+    const cs_u32 patterns = job->options.spp / 16 / size;
+    const cs_u32 replicates = patterns < 2 ? 2 : patterns > 4 ? 4 : patterns;
     CS_TRY(run(job, job->shear_px, NULL, job->pixel_count, size, replicates, &result, error));
     const cs_pilot_picture picture = {.variance = result.variance,
                                       .intensity = result.intensity,
@@ -222,10 +222,10 @@ clshear_status cs_pilot_samples(cs_job *job, u32 *samples, cs_error *error)
                                       .height = height,
                                       .pattern = size,
                                       .replicates = replicates};
-    u32 limit = CS_MAX_PATTERN; /* a power of two for which the sampler has a pattern */
+    cs_u32 limit = CS_MAX_PATTERN; /* a power of two for which the sampler has a pattern */
     while (cs_sampler_count(sampler, limit) == 0)
         limit /= 2;
-    CS_TRY(cs_share_samples(&picture, job->pattern.grid.count, limit, samples, error));
+    CS_TRY(cs_allocate_samples(&picture, job->pattern.grid.count, limit, samples, error));
 done:
     free(result.variance);
     free(result.intensity);
@@ -233,7 +233,7 @@ done:
 }
 
 /* Mean over 5 x 5 pixels, at the border over fewer. */
-static double smoothed(const f32 *values, int width, int height, int x, int y)
+static double smoothed(const cs_f32 *values, int width, int height, int x, int y)
 {
     double sum = 0.0, count = 0.0;
     for (int j = y - 2; j <= y + 2; j++)
@@ -245,12 +245,12 @@ static double smoothed(const f32 *values, int width, int height, int x, int y)
     return sum / count;
 }
 
-clshear_status cs_pilot_gain(cs_job *job, f32 *gain, cs_error *error)
+clshear_status cs_pilot_gain(cs_job *job, cs_f32 *gain, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const size_t pixels = job->pixel_count;
     const int width = job->window[1] - job->window[0], height = job->window[3] - job->window[2];
-    f32 *memory = calloc(3 * pixels, sizeof *memory);
+    cs_f32 *memory = calloc(3 * pixels, sizeof *memory);
     CS_REQUIRE(memory != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for the gain of %zu pixels",
                pixels);
     const outcome without = {.variance = memory + pixels}, with = {.variance = memory + 2 * pixels};
@@ -260,7 +260,7 @@ clshear_status cs_pilot_gain(cs_job *job, f32 *gain, cs_error *error)
         const int x = (int)(i % (size_t)width), y = (int)(i / (size_t)width);
         const double before = smoothed(without.variance, width, height, x, y);
         const double after = smoothed(with.variance, width, height, x, y);
-        gain[i] = after > 0.0 ? (f32)(before / after) : 1.0f;
+        gain[i] = after > 0.0 ? (cs_f32)(before / after) : 1.0f;
     }
 done:
     free(memory);

@@ -2,7 +2,7 @@
 #ifndef CS_RENDER_PILOT_H
 #define CS_RENDER_PILOT_H
 
-#include "render/job.h"
+#include "render/render_job.h"
 
 /* Fills the job's rules and shears by trying candidates on part of the pixels: at most 7 % of the
  * render's samples. */
@@ -10,15 +10,15 @@ clshear_status cs_pilot_shears(cs_job *job, cs_error *error);
 
 /* Shares the replicate's samples out among the pixels: `samples`, one for each, powers of two whose
  * mean is at most that of the job's pattern. Costs a sixteenth of the render's (an eighth of less
- * than 512), of which there must be CS_LEAST_SPP_TO_SHARE a pixel. */
+ * than 512), of which there must be CS_LEAST_SPP_TO_ALLOCATE a pixel. */
 enum {
-    CS_LEAST_SPP_TO_SHARE = 128
+    CS_LEAST_SPP_TO_ALLOCATE = 128
 };
-clshear_status cs_pilot_samples(cs_job *job, u32 *samples, cs_error *error);
+clshear_status cs_pilot_samples(cs_job *job, cs_u32 *samples, cs_error *error);
 
 /* Variance without shear over variance with the job's shears, of small patterns with the same
  * random numbers, each averaged over 5 x 5 pixels; a value for each pixel. Costs 256 samples a
  * pixel. */
-clshear_status cs_pilot_gain(cs_job *job, f32 *gain, cs_error *error);
+clshear_status cs_pilot_gain(cs_job *job, cs_f32 *gain, cs_error *error);
 
 #endif

@@ -6,7 +6,7 @@ enum {
     BAND = 8 /* rows of a tile, as in cs_tiled_pixel */
 };
 
-size_t cs_page_pixels(const clshear_context *context, u32 width)
+size_t cs_page_pixels(const clshear_context *context, cs_u32 width)
 {
     const size_t band = (size_t)BAND * width,
                  bands = context->page_bytes / (band * sizeof(cs_pixel));
@@ -19,7 +19,7 @@ static size_t pixels_of_page(const cs_pixels *pixels, size_t page)
     return left < pixels->page_pixels ? left : pixels->page_pixels;
 }
 
-clshear_status cs_pixels_create(clshear_context *context, size_t count, u32 width,
+clshear_status cs_pixels_create(clshear_context *context, size_t count, cs_u32 width,
                                 cs_pixels *pixels, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;

@@ -3,6 +3,7 @@
 #ifndef CS_RENDER_PIXELS_H
 #define CS_RENDER_PIXELS_H
 
+#include "kernels/pixel.h"
 #include "render/handles.h"
 
 /* Pages are whole bands of tiles, so that a walk through tiles (cs_tiled_pixel) does not come back
@@ -15,10 +16,10 @@ typedef struct cs_pixels {
 } cs_pixels;
 
 /* Pixels in a page of a window of this width. */
-size_t cs_page_pixels(const clshear_context *context, u32 width);
+size_t cs_page_pixels(const clshear_context *context, cs_u32 width);
 
 /* `count` pixels of a window, all zero. */
-clshear_status cs_pixels_create(clshear_context *context, size_t count, u32 width,
+clshear_status cs_pixels_create(clshear_context *context, size_t count, cs_u32 width,
                                 cs_pixels *pixels, cs_error *error);
 void cs_pixels_free(cs_pixels *pixels);
 

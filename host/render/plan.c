@@ -5,11 +5,11 @@
 
 #include "oracle/oracle.h"
 #include "pattern/pattern.h"
-#include "render/extend.h"
 #include "render/pilot.h"
+#include "render/resume.h"
 
 /* Fewer samples than this leave a pilot nothing to find out with. */
-static const u32 least_spp_for_pilot = 64;
+static const cs_u32 least_spp_for_pilot = 64;
 
 static clshear_status reserve(cs_job *job, cs_error *error)
 {
@@ -21,11 +21,11 @@ static clshear_status reserve(cs_job *job, cs_error *error)
     CS_REQUIRE(job->depth != NULL && job->shear_px != NULL && job->rule != NULL,
                CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", job->pixel_count);
     CS_TRY(cs_pixels_create(job->scene->context, job->pixel_count,
-                            (u32)(job->window[1] - job->window[0]), &job->pixels, error));
+                            (cs_u32)(job->window[1] - job->window[0]), &job->pixels, error));
     const cs_array *table = &job->optics.table;
     CS_TRY(cs_buffer_create(device, table->count * table->item_size, table->items,
                             &job->optics_table, error));
-    CS_TRY(cs_extend_prepare(job, error));
+    CS_TRY(cs_resume_prepare(job, error));
 done:
     return status;
 }
@@ -55,15 +55,15 @@ static clshear_status choose_shears(cs_job *job, cs_error *error)
 static clshear_status batch_by_samples(cs_job *job, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    const u32 width = (u32)(job->window[1] - job->window[0]);
-    const u32 height = (u32)(job->pixel_count / width), sampler = job->pattern.sampler;
-    u32 *list = malloc(job->pixel_count * sizeof *list);
+    const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
+    const cs_u32 height = (cs_u32)(job->pixel_count / width), sampler = job->pattern.sampler;
+    cs_u32 *list = malloc(job->pixel_count * sizeof *list);
     CS_REQUIRE(list != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
                job->pixel_count);
-    for (u32 wanted = 1; wanted <= CS_MAX_PATTERN; wanted *= 2) {
+    for (cs_u32 wanted = 1; wanted <= CS_MAX_PATTERN; wanted *= 2) {
         size_t count = 0;
         for (size_t i = 0; i < job->pixel_count; i++) {
-            const u32 pixel = cs_tiled_pixel((u32)i, width, height);
+            const cs_u32 pixel = cs_tiled_pixel((cs_u32)i, width, height);
             if (job->samples[pixel] == wanted) list[count++] = pixel;
         }
         if (count == 0) continue;
@@ -81,12 +81,12 @@ done:
 
 static clshear_status plan_batches(cs_job *job, cs_error *error)
 {
-    const u32 width = (u32)(job->window[1] - job->window[0]);
-    const int shared = job->options.adaptive && job->options.spp >= CS_LEAST_SPP_TO_SHARE;
+    const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
+    const int shared = job->options.adaptive && job->options.spp >= CS_LEAST_SPP_TO_ALLOCATE;
     if (job->options.adaptive && !shared)
         cs_warn(&job->scene->context->log,
                 "%u samples per pixel are too few to share out adaptively (from %d on)",
-                job->options.spp, CS_LEAST_SPP_TO_SHARE);
+                job->options.spp, CS_LEAST_SPP_TO_ALLOCATE);
     if (!shared) {
         job->batch_count = 1;
         return cs_batch_create(job->scene->context, &job->pattern, NULL, job->pixel_count, width, 0,
@@ -135,7 +135,7 @@ void cs_job_free(cs_job *job)
     free(job->rule);
     free(job->gain);
     free(job->samples);
-    cs_extend_free(job);
+    cs_resume_free(job);
     for (size_t b = 0; b < job->batch_count; b++)
         cs_batch_free(&job->batches[b]);
     cs_pixels_free(&job->pixels);

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "render/handles.h"
-#include "render/sweep.h"
+#include "render/pass.h"
 #include "scene/import.h"
 
 /* From triangles to something that can be rendered. Uses up clock time since `start_s`. */
@@ -15,12 +15,12 @@ static clshear_status prepare(clshear_scene *scene, double start_s, cs_error *er
     clshear_scene_info *info = &scene->info;
     cs_flat_bvh bvh = {0};
     const double loaded_s = cs_now_s();
-    CS_TRY(cs_sweep_wake(context->device, error));
+    CS_TRY(cs_pass_warm_up(context->device, error));
     const double compiled_s = cs_now_s();
     CS_TRY(cs_accel_create(&scene->scene, context->threads, &scene->accel, error));
     CS_TRY(cs_accel_build_bvh(scene->accel, &bvh, error));
-    CS_TRY(cs_world_upload(&scene->world, context->device, &scene->scene, &bvh, error));
-    CS_TRY(cs_world_upload_lights(&scene->world, context->device, &scene->scene, error));
+    CS_TRY(cs_scene_upload(&scene->world, context->device, &scene->scene, &bvh, error));
+    CS_TRY(cs_scene_upload_lights(&scene->world, context->device, &scene->scene, error));
     info->triangles = cs_scene_triangle_count(&scene->scene);
     info->degenerate = scene->scene.degenerate;
     info->nodes = bvh.nodes.count;
@@ -98,7 +98,7 @@ clshear_status clshear_scene_add_light(clshear_scene *scene, const clshear_light
     cs_error *error = &scene->context->error;
     clshear_status status = cs_scene_add_light(&scene->scene, light, error);
     if (status != CLSHEAR_OK) return status;
-    return cs_world_upload_lights(&scene->world, scene->context->device, &scene->scene, error);
+    return cs_scene_upload_lights(&scene->world, scene->context->device, &scene->scene, error);
 }
 
 clshear_scene_info clshear_scene_describe(const clshear_scene *scene)
@@ -112,7 +112,7 @@ clshear_scene_info clshear_scene_describe(const clshear_scene *scene)
 void clshear_scene_free(clshear_scene *scene)
 {
     if (scene == NULL) return;
-    cs_world_free(&scene->world);
+    cs_device_scene_free(&scene->world);
     cs_accel_free(scene->accel);
     cs_scene_free(&scene->scene);
     free(scene);

@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame.h"
+#include "kernels/launch.h"
 #include "optics/optics.h"
 #include "render/handles.h"
-#include "render/job.h"
+#include "render/render_job.h"
 
 enum {
     LANES = 16,     /* the widest packet */
@@ -16,12 +16,12 @@ enum {
 
 typedef struct evaluation {
     clshear_scene *scene;
-    cs_frame frame;
-    u32 pixel[2]; /* x, y */
-    u32 tuples;   /* not 0: points are what a sampler draws */
-    f32 shear_px;
-    f32 lens_offset; /* of points that are places: to the centre of the square around the */
-    f32 lens_scale;  /* aperture, and from that square to aperture widths */
+    cs_launch frame;
+    cs_u32 pixel[2]; /* x, y */
+    cs_u32 tuples;   /* not 0: points are what a sampler draws */
+    cs_f32 shear_px;
+    cs_f32 lens_offset; /* of points that are places: to the centre of the square around the */
+    cs_f32 lens_scale;  /* aperture, and from that square to aperture widths */
     cs_optics_tables optics;
     cs_buffer *table;
     cs_buffer *points;
@@ -30,12 +30,12 @@ typedef struct evaluation {
     float *planes; /* PLANES * chunk */
 } evaluation;
 
-static clshear_status launch(const evaluation *e, u32 count, cs_error *error)
+static clshear_status launch(const evaluation *e, cs_u32 count, cs_error *error)
 {
     enum {
         BEFORE_WORLD = 9
     };
-    cs_argument arguments[BEFORE_WORLD + CS_WORLD_BUFFERS] = {
+    cs_argument arguments[BEFORE_WORLD + CS_SCENE_BUFFERS] = {
         {.value = &e->frame, .size = sizeof e->frame},
         {.value = &e->pixel[0], .size = sizeof e->pixel[0]},
         {.value = &e->pixel[1], .size = sizeof e->pixel[1]},
@@ -45,11 +45,11 @@ static clshear_status launch(const evaluation *e, u32 count, cs_error *error)
         {.buffer = e->table},
         {.buffer = e->points},
         {.buffer = e->radiance}};
-    for (int i = 0; i < CS_WORLD_BUFFERS; i++)
+    for (int i = 0; i < CS_SCENE_BUFFERS; i++)
         arguments[BEFORE_WORLD + i].buffer = e->scene->world.buffers[i];
     cs_device *device = e->scene->context->device;
-    return cs_device_run(device, CS_KERNEL_RADIANCE, count / (u32)cs_device_packet(device),
-                         arguments, BEFORE_WORLD + CS_WORLD_BUFFERS, error);
+    return cs_device_run(device, CS_KERNEL_RADIANCE, count / (cs_u32)cs_device_packet(device),
+                         arguments, BEFORE_WORLD + CS_SCENE_BUFFERS, error);
 }
 
 /* Up to `chunk` points; the last packet is filled up with the last point. */
@@ -67,7 +67,7 @@ static clshear_status evaluate(evaluation *e, const float *points, size_t count,
         e->planes[4 * all + i] = e->planes[5 * all + i] = 0.5f;
     }
     CS_TRY(cs_buffer_write(e->points, 0, PLANES * all * sizeof(float), e->planes, error));
-    CS_TRY(launch(e, (u32)all, error));
+    CS_TRY(launch(e, (cs_u32)all, error));
     CS_TRY(cs_buffer_read(e->radiance, 0, 3 * all * sizeof(float), e->planes, error));
     for (size_t i = 0; i < count; i++)
         for (size_t c = 0; c < 3; c++)
@@ -89,16 +89,16 @@ static clshear_status prepare(evaluation *e, const clshear_camera *camera,
     if (status != CLSHEAR_OK) goto done;
     CS_REQUIRE(x >= 0 && x < options->width && y >= 0 && y < options->height, CLSHEAR_BAD_ARGUMENT,
                "pixel %d,%d is outside the %d x %d image", x, y, options->width, options->height);
-    e->pixel[0] = (u32)x;
-    e->pixel[1] = (u32)y;
+    e->pixel[0] = (cs_u32)x;
+    e->pixel[1] = (cs_u32)y;
     e->frame.camera = job.camera;
-    e->frame.shear_mode = (u32)options->shear;
+    e->frame.shear_mode = (cs_u32)options->shear;
     e->frame.lights = e->scene->world.lights;
     e->frame.emitters = e->scene->world.emitters;
     e->chunk = count < MOST ? (count / LANES + 1) * LANES : MOST;
     e->planes = malloc((size_t)PLANES * e->chunk * sizeof *e->planes);
     CS_REQUIRE(e->planes != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    CS_TRY(cs_buffer_create(device, e->optics.table.count * sizeof(f32), e->optics.table.items,
+    CS_TRY(cs_buffer_create(device, e->optics.table.count * sizeof(cs_f32), e->optics.table.items,
                             &e->table, error));
     CS_TRY(cs_buffer_create(device, (size_t)PLANES * e->chunk * sizeof(float), NULL, &e->points,
                             error));

@@ -1,7 +1,7 @@
 /* clshear_render: options -> camera -> plan -> passes -> film. */
-#include "render/job.h"
+#include "render/render_job.h"
 
-#include "render/extend.h"
+#include "render/resume.h"
 
 clshear_options clshear_options_defaults(void)
 {
@@ -22,7 +22,7 @@ clshear_status clshear_render(clshear_scene *scene, const clshear_camera *camera
     cs_job job = {.scene = scene, .options = *options, .lens = *camera};
     clshear_film *film = NULL;
     CS_TRY(cs_job_check(&job, error));
-    CS_TRY(cs_extend_check(&job, error));
+    CS_TRY(cs_resume_check(&job, error));
     passes = cs_job_plan(&job, error);
     if (passes == CLSHEAR_OK) passes = cs_job_run_passes(&job, error);
     if (passes != CLSHEAR_CANCELLED) CS_TRY(passes);

@@ -6,7 +6,7 @@
 
 #include "oracle/oracle.h"
 #include "pattern/pattern.h"
-#include "render/extend.h"
+#include "render/resume.h"
 
 enum {
     SLICE = 1 << 16 /* pixels read back at once */
@@ -64,7 +64,7 @@ static void resolve_pixel(const cs_job *job, const cs_pixel *pixel, size_t index
     for (int c = 0; c < 3; c++) {
         double finished = (double)pixel->pattern_sum[c] + (double)pixel->pattern_carry[c];
         double pending = (double)pixel->sum[c] + (double)pixel->carry[c];
-        if (samples > 0.0) pending += cs_extend_missing(job, index, c);
+        if (samples > 0.0) pending += cs_resume_missing(job, index, c);
         if (samples > 0.0) all->mean[c][index] = (float)((finished * pattern + pending) / samples);
         if (patterns > 1.0)
             all->variance[c][index] =
@@ -181,7 +181,7 @@ clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *erro
     planes all;
     /* Cancelled before the first pass: what is extended must not be lost. */
     if (job->options.extend != NULL && job->replicates_begun == 0)
-        CS_TRY(cs_extend_begin(job, 0, error));
+        CS_TRY(cs_resume_begin(job, 0, error));
     CS_TRY(cs_film_create(job->window, job->options.width, job->options.height, error, &film));
     CS_TRY(add_planes(film, &all));
     CS_TRY(read_pixels(job, film, &all, error));
@@ -191,7 +191,7 @@ clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *erro
         memcpy(gain, job->gain, job->pixel_count * sizeof *gain);
     }
     CS_TRY(describe(job, film));
-    CS_TRY(cs_extend_describe(job, film));
+    CS_TRY(cs_resume_describe(job, film));
     film->info.prepass_s = job->prepass_s;
     film->info.pilot_s = job->pilot_s;
     film->info.pilot_samples = (uint64_t)job->pilot_samples;

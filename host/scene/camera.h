@@ -2,6 +2,7 @@
 #ifndef CS_SCENE_CAMERA_H
 #define CS_SCENE_CAMERA_H
 
+#include "clshear/device/camera.h"
 #include "scene/scene.h"
 
 struct aiScene;

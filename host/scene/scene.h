@@ -4,7 +4,7 @@
 
 #include "base/array.h"
 #include "base/status.h"
-#include "shared.h"
+#include "kernels/scene.h"
 
 enum {
     CS_TEXTURE_NAME = 512

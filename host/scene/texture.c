@@ -49,16 +49,16 @@ static void decode_percent(char *name)
 }
 
 /* The texture that was read under this name before, or CS_NO_TEXTURE. */
-static i32 known_texture(const cs_scene *scene, const char *name)
+static cs_i32 known_texture(const cs_scene *scene, const char *name)
 {
     const char(*names)[CS_TEXTURE_NAME] = scene->texture_names.items;
     for (size_t i = 0; i < scene->texture_names.count; i++)
-        if (strncmp(names[i], name, CS_TEXTURE_NAME - 1) == 0) return (i32)i;
+        if (strncmp(names[i], name, CS_TEXTURE_NAME - 1) == 0) return (cs_i32)i;
     return CS_NO_TEXTURE;
 }
 
 static clshear_status append(cs_scene *scene, const char *name, const cs_texels *image,
-                             i32 *texture, cs_error *error)
+                             cs_i32 *texture, cs_error *error)
 {
     size_t count = (size_t)image->width * image->height, first = scene->texels.count;
     if (first + count > UINT32_MAX)
@@ -72,12 +72,12 @@ static clshear_status append(cs_scene *scene, const char *name, const cs_texels 
     memcpy(texels, image->halves, count * scene->texels.item_size);
     *added = (cs_texture){.first = (uint32_t)first, .width = image->width, .height = image->height};
     snprintf(kept_name, CS_TEXTURE_NAME, "%.*s", CS_TEXTURE_NAME - 1, name);
-    *texture = (i32)(scene->textures.count - 1);
+    *texture = (cs_i32)(scene->textures.count - 1);
     return CLSHEAR_OK;
 }
 
 clshear_status cs_texture_add(cs_scene *scene, const struct aiScene *file, const char *path,
-                              const char *name, i32 *texture, const cs_log *log, cs_error *error)
+                              const char *name, cs_i32 *texture, const cs_log *log, cs_error *error)
 {
     char resolved[4096];
     const void *memory = NULL;

@@ -10,6 +10,7 @@ struct aiScene;
  * relative to the scene file, or "*N" for an image inside it. An image that cannot be read is
  * reported to `log` and leaves CS_NO_TEXTURE. */
 clshear_status cs_texture_add(cs_scene *scene, const struct aiScene *file, const char *path,
-                              const char *name, i32 *texture, const cs_log *log, cs_error *error);
+                              const char *name, cs_i32 *texture, const cs_log *log,
+                              cs_error *error);
 
 #endif

@@ -1,0 +1,94 @@
+/* Integer hashing and keyed permutations: everything random in a sample comes from here. Shared. */
+#ifndef CS_HASH_H
+#define CS_HASH_H
+
+#include "packet.h"
+
+/* A bijective mixer of 32 bits with low bias: two rounds of xor-shift and odd multiplication, with
+ * multipliers found by C. Wellons' search ("Prospecting for Hash Functions", 2018). */
+#define CS_DEFINE_HASH(name, type)  \
+    static inline type name(type x) \
+    {                               \
+        x ^= x >> 16;               \
+        x *= 0x7feb352du;           \
+        x ^= x >> 15;               \
+        x *= 0x846ca68bu;           \
+        x ^= x >> 16;               \
+        return x;                   \
+    }
+
+CS_DEFINE_HASH(cs_hash, cs_u32)
+CS_DEFINE_HASH(cs_hash_lanes, cs_vuint)
+
+/* Key number `index` of the family `seed`; distinct indices give distinct keys. */
+static inline cs_u32 cs_key(cs_u32 seed, cs_u32 index)
+{
+    return cs_hash(seed + 0x9e3779b9u * (index + 1u));
+}
+static inline cs_vuint cs_key_lanes(cs_u32 seed, cs_vuint index)
+{
+    return cs_hash_lanes(seed + 0x9e3779b9u * (index + 1u));
+}
+
+/* The power-of-two box in which cs_permute works: for every size up to `mask` + 1. */
+typedef struct cs_domain {
+    cs_u32 mask;
+    cs_u32 shift;
+} cs_domain;
+
+static inline cs_domain cs_domain_of(cs_u32 size)
+{
+    cs_domain domain;
+    domain.mask = 0u;
+    cs_u32 bits = 0u;
+    while (domain.mask + 1u < size) {
+        domain.mask = 2u * domain.mask + 1u;
+        bits++;
+    }
+    domain.shift = (bits + 1u) / 2u;
+    if (domain.shift == 0u) domain.shift = 1u;
+    return domain;
+}
+
+/* One keyed bijection of the box [0, mask]. Six multiplications: with four, pairs of a permutation
+ * of 64 were so unevenly likely that single frequencies of its spectrum had half more power than
+ * they should (tests/test_analysis.c). */
+static inline cs_vuint cs_permute_round(cs_vuint x, cs_domain domain, cs_vuint key, cs_vuint step)
+{
+    cs_vuint third = step * 0x85ebca6bu;
+    third ^= third >> 13;
+    x = (x + key) & domain.mask;
+    x = (x * (key >> 7 | 1u)) & domain.mask;
+    x ^= x >> domain.shift;
+    x = (x * (step >> 3 | 1u) + (step >> 17)) & domain.mask;
+    x ^= x >> domain.shift;
+    x = (x * (step >> 11 | 1u) + (key >> 23)) & domain.mask;
+    x ^= x >> domain.shift;
+    x = (x * (key >> 15 | 1u) + (step >> 25)) & domain.mask;
+    x ^= x >> domain.shift;
+    x = (x * (third | 1u) + (third >> 20)) & domain.mask;
+    x ^= x >> domain.shift;
+    x = (x * (third >> 8 | 1u) + (third >> 14)) & domain.mask;
+    return x ^ (x >> domain.shift);
+}
+
+/* Image of `index` under a random permutation of [0, size) chosen by `key`, a hash. Needs
+ * index < size (in every lane, or the walk does not end) and size <= domain.mask + 1.
+ *
+ * Keyed addition, keyed odd multiplication and xor-shift are bijections of the power-of-two box;
+ * walking the cycle until it is back inside [0, size) restricts them to it (Black & Rogaway 2002,
+ * section 3; Kensler 2013 for sampling). The last rotation makes every image equally likely for
+ * every index, which is what unbiased estimates need. */
+static inline cs_vuint cs_permute(cs_vuint index, cs_vuint size, cs_domain domain, cs_vuint key)
+{
+    cs_vuint step = key * 0x9e3779b1u;
+    cs_vuint x = cs_permute_round(index, domain, key, step);
+    while (cs_any(x >= size)) {
+        cs_vuint next = cs_permute_round(x, domain, key, step);
+        x = x >= size ? next : x;
+    }
+    x += cs_mul_hi(step ^ (step >> 15), size);
+    return x >= size ? x - size : x;
+}
+
+#endif

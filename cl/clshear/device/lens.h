@@ -1,0 +1,42 @@
+/* From a point of the film and a point of the lens to a ray: the thin lens. Shared. */
+#ifndef CS_LENS_H
+#define CS_LENS_H
+
+#include "camera.h"
+#include "packet.h"
+
+typedef struct cs_ray {
+    cs_vfloat origin[3];
+    cs_vfloat direction[3]; /* its component along the camera's forward axis is 1 */
+} cs_ray;
+
+/* The ray through raster position (x, y), in pixels from the image's top left corner, and through
+ * the lens point (u, v), in aperture widths from the lens centre, u squeezed. All rays through (x,
+ * y) meet on the focal plane; a distance along the ray is a camera depth. */
+static inline cs_ray cs_lens_ray(cs_camera camera, cs_vfloat x, cs_vfloat y, cs_vfloat u,
+                                 cs_vfloat v)
+{
+    cs_vfloat lens_right = u * (camera.aperture_width * camera.optics.squeeze);
+    cs_vfloat lens_down = v * camera.aperture_width;
+    cs_f32 inverse_focus = 1.0f / camera.focal_distance;
+    cs_vfloat right = ((x - camera.centre_px[0]) * camera.pixel_width - lens_right) * inverse_focus;
+    cs_vfloat down = ((y - camera.centre_px[1]) * camera.pixel_width - lens_down) * inverse_focus;
+    cs_ray ray;
+    for (int axis = 0; axis < 3; axis++) {
+        ray.origin[axis] =
+            camera.eye[axis] + lens_right * camera.right[axis] + lens_down * camera.down[axis];
+        ray.direction[axis] =
+            camera.forward[axis] + right * camera.right[axis] + down * camera.down[axis];
+    }
+    return ray;
+}
+
+/* The shear of a surface at camera depth `depth` > 0: the signed circle of confusion, in pixels per
+ * aperture width. A point seen through (x, u) projects, through the lens centre, to raster
+ * x + shear * squeeze * u, and y + shear * v. Positive in front of the focal plane. */
+static inline cs_f32 cs_shear_of_depth(cs_camera camera, cs_f32 depth)
+{
+    return camera.aperture_width / camera.pixel_width * (camera.focal_distance / depth - 1.0f);
+}
+
+#endif

@@ -1,0 +1,198 @@
+/* Lanes: cs_vfloat, cs_vint, cs_vuint hold one value for each of the CS_PACKET samples of a packet.
+ *
+ * Conditions are cs_vint "masks", made by comparisons only and used by cs_any and the ternary
+ * operator only: a true lane is 1 for one lane and -1 for several. Shared: at width 1 this is plain
+ * C. */
+#ifndef CS_PACKET_H
+#define CS_PACKET_H
+
+#include "constants.h"
+#include "dialect.h"
+
+#ifdef CS_DEVICE
+
+#if CS_PACKET == 1
+#define CS_VECTOR(scalar) scalar
+#define CS_LANE_INDEX ((cs_vuint)0u)
+#elif CS_PACKET == 4
+#define CS_VECTOR(scalar) scalar##4
+#define CS_LANE_INDEX ((cs_vuint)(0u, 1u, 2u, 3u))
+#elif CS_PACKET == 8
+#define CS_VECTOR(scalar) scalar##8
+#define CS_LANE_INDEX ((cs_vuint)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u))
+#elif CS_PACKET == 16
+#define CS_VECTOR(scalar) scalar##16
+#define CS_LANE_INDEX \
+    ((cs_vuint)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u, 10u, 11u, 12u, 13u, 14u, 15u))
+#else
+#error "CS_PACKET must be 1, 4, 8 or 16"
+#endif
+
+typedef CS_VECTOR(float) cs_vfloat;
+typedef CS_VECTOR(int) cs_vint;
+typedef CS_VECTOR(uint) cs_vuint;
+
+#define CS_OVER_LANES(function) CS_VECTOR(function)
+#define cs_as_vint(x) CS_OVER_LANES(as_int)(x)
+#define cs_as_vuint(x) CS_OVER_LANES(as_uint)(x)
+#define cs_as_vfloat(x) CS_OVER_LANES(as_float)(x)
+/* Value of an unsigned integer below 2^31; the signed conversion is one instruction on x86. */
+#define cs_to_vfloat(x) CS_OVER_LANES(convert_float)(cs_as_vint(x))
+/* Integer part of a float in [0, 2^31). */
+#define cs_to_vuint(x) cs_as_vuint(CS_OVER_LANES(convert_int)(x))
+#define cs_mul_hi(a, b) mul_hi((cs_vuint)(a), (cs_vuint)(b))
+#define cs_sqrt(x) sqrt(x)
+#define cs_abs(x) fabs(x)
+#define cs_floor(x) floor(x)
+
+#else /* C17, one lane */
+
+typedef cs_f32 cs_vfloat;
+typedef cs_i32 cs_vint;
+typedef cs_u32 cs_vuint;
+
+#define CS_LANE_INDEX ((cs_vuint)0u)
+static inline cs_i32 cs_as_vint(cs_u32 x)
+{
+    cs_i32 y;
+    memcpy(&y, &x, sizeof y);
+    return y;
+}
+static inline cs_u32 cs_float_bits(cs_f32 x)
+{
+    cs_u32 y;
+    memcpy(&y, &x, sizeof y);
+    return y;
+}
+static inline cs_f32 cs_as_vfloat(cs_u32 x)
+{
+    cs_f32 y;
+    memcpy(&y, &x, sizeof y);
+    return y;
+}
+#define cs_as_vuint(x) cs_float_bits(x)
+#define cs_to_vfloat(x) ((cs_f32)(cs_i32)(x))
+#define cs_to_vuint(x) ((cs_u32)(cs_i32)(x))
+#define cs_mul_hi(a, b) ((cs_u32)(((uint64_t)(a) * (uint64_t)(b)) >> 32))
+#define cs_sqrt(x) sqrtf(x)
+#define cs_abs(x) fabsf(x)
+#define cs_floor(x) floorf(x)
+static inline int cs_any(cs_i32 mask)
+{
+    return mask != 0;
+}
+
+#endif
+
+/* Packets that are drawn together: as many as lie between two updates of a pixel. One lane keeps to
+ * registers. */
+#if CS_PACKET == 1
+#define CS_TOGETHER 1
+#else
+#define CS_TOGETHER (CS_FLUSH_BLOCKS * CS_BLOCK / CS_PACKET)
+#endif
+
+/* Not fmin and fmax: those must order NaN, which costs two more instructions. A NaN in the first
+ * argument gives the second. */
+#define cs_min(a, b) ((a) < (b) ? (a) : (b))
+#define cs_max(a, b) ((a) > (b) ? (a) : (b))
+
+static inline cs_vfloat cs_clamp(cs_vfloat value, cs_vfloat low, cs_vfloat high)
+{
+    return cs_min(cs_max(value, low), high);
+}
+
+#ifdef CS_DEVICE
+
+/* Compiled for the processor itself: translators of SPIR know no reductions. */
+#if defined(__x86_64__) || defined(__aarch64__)
+#define CS_NATIVE
+#endif
+#if defined(__has_builtin) && defined(CS_NATIVE)
+#if __has_builtin(__builtin_reduce_or)
+#define CS_REDUCE_OR(x) __builtin_reduce_or(x)
+#endif
+#endif
+
+/* Asks for the cache line at a global address. Packets are for CPUs, where all addresses are alike.
+ */
+#if CS_PACKET > 1 && defined(__has_builtin) && defined(CS_NATIVE)
+#if __has_builtin(__builtin_prefetch)
+#define CS_PREFETCH(address) __builtin_prefetch((const void *)(address))
+#endif
+#endif
+#ifndef CS_PREFETCH
+#define CS_PREFETCH(address) (void)(address)
+#endif
+
+typedef union cs_float_lanes {
+    cs_vfloat all;
+    cs_f32 lane[CS_PACKET];
+} cs_float_lanes;
+
+typedef union cs_int_lanes {
+    cs_vint all;
+    cs_i32 lane[CS_PACKET];
+} cs_int_lanes;
+
+typedef union cs_uint_lanes {
+    cs_vuint all;
+    cs_u32 lane[CS_PACKET];
+} cs_uint_lanes;
+
+/* Whether any lane of a mask is true. Compilers with the reduction test a mask register, or move a
+ * mask, by one instruction; narrowing does for others what any() makes a chain of extracts of. */
+static inline int cs_any(cs_vint mask)
+{
+#if CS_PACKET == 1
+    return mask != 0;
+#elif defined(CS_REDUCE_OR)
+    return CS_REDUCE_OR(mask) != 0;
+#elif CS_PACKET == 4
+    return as_uint(convert_char4(mask)) != 0u;
+#elif CS_PACKET == 8
+    return as_ulong(convert_char8(mask)) != 0ul;
+#else
+    return as_ulong(convert_char8(mask.lo | mask.hi)) != 0ul;
+#endif
+}
+
+static inline cs_f32 cs_reduce_add(cs_vfloat x)
+{
+#if CS_PACKET == 1
+    return x;
+#else
+#if CS_PACKET == 16
+    float8 eight = x.lo + x.hi;
+    float4 four = eight.lo + eight.hi;
+#elif CS_PACKET == 8
+    float4 four = x.lo + x.hi;
+#else
+    float4 four = x;
+#endif
+    float2 two = four.lo + four.hi;
+    return two.x + two.y;
+#endif
+}
+
+static inline cs_i32 cs_reduce_max(cs_vint x)
+{
+#if CS_PACKET == 1
+    return x;
+#else
+#if CS_PACKET == 16
+    int8 eight = max(x.lo, x.hi);
+    int4 four = max(eight.lo, eight.hi);
+#elif CS_PACKET == 8
+    int4 four = max(x.lo, x.hi);
+#else
+    int4 four = x;
+#endif
+    int2 two = max(four.lo, four.hi);
+    return max(two.x, two.y);
+#endif
+}
+
+#endif
+
+#endif

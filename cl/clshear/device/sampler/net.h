@@ -1,0 +1,85 @@
+/* Digital nets and sequences in base 2, scrambled. Shared.
+ *
+ * Rows hold coordinates as 32 bits in reverse, most significant digit lowest. In that form nested
+ * uniform (Owen) scrambling is a hash whose bits depend on lower bits only, and the element number
+ * is the van der Corput coordinate itself. */
+#ifndef CS_NET_H
+#define CS_NET_H
+
+#include "pattern.h"
+
+/* Nested uniform scrambling of reversed digits: the hash of Laine & Karras 2011 with constants by
+ * N. Vegdahl ("Building a Better LK Hash", 2021), as Burley 2020 uses it. `seed` is a hash. */
+static inline cs_vuint cs_scramble_reversed(cs_vuint digits, cs_u32 seed)
+{
+    digits ^= digits * 0x3d20adeau;
+    digits += seed;
+    digits *= seed >> 16 | 1u;
+    digits ^= digits * 0x05526c56u;
+    digits ^= digits * 0x53a22864u;
+    return digits;
+}
+
+static inline cs_vuint cs_reverse_bits(cs_vuint x)
+{
+    x = (x >> 16) | (x << 16);
+    x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);
+    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+    return ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+}
+
+/* The second coordinate, reversed, of element `index` of the (0,2)-sequence whose first is the
+ * element number reversed: Pascal's matrix modulo 2, which is the fifth Kronecker power of
+ * ((1, 1), (0, 1)). */
+static inline cs_vuint cs_pascal(cs_vuint index)
+{
+    index ^= (index >> 1) & 0x55555555u;
+    index ^= (index >> 2) & 0x33333333u;
+    index ^= (index >> 4) & 0x0f0f0f0fu;
+    index ^= (index >> 8) & 0x00ff00ffu;
+    return index ^ (index >> 16);
+}
+
+static inline cs_vfloat cs_scrambled(cs_vuint digits, cs_u32 key, cs_u32 dimension)
+{
+    cs_u32 seed = cs_key(key, CS_KEY_DIMENSION + dimension);
+    return cs_unit(cs_reverse_bits(cs_scramble_reversed(digits, seed)));
+}
+
+/* A (0,2)-pair of an element: its place in the sequence is shuffled so that every aligned run of
+ * 2^k elements stays one. */
+static inline void cs_draw_shuffled_pair(cs_vuint element, cs_u32 key, cs_u32 pair,
+                                         cs_vfloat *tuple)
+{
+    cs_vuint reversed =
+        cs_scramble_reversed(cs_reverse_bits(element), cs_key(key, CS_KEY_PAIRING + pair));
+    cs_vuint shuffled = cs_reverse_bits(reversed);
+    tuple[2u * pair] = cs_scrambled(shuffled, key, 2u * pair);
+    tuple[2u * pair + 1u] = cs_scrambled(cs_pascal(shuffled), key, 2u * pair + 1u);
+}
+
+/* Four dimensions of one net: `sobol` and `sz`. The light gets a (0,2)-pair. */
+static inline void cs_draw_net(const cs_pattern *pattern, cs_sample_table rows, cs_u32 key,
+                               cs_vuint index, cs_u32 pairs, cs_vfloat *tuple)
+{
+    cs_vuint element = cs_sample_word(pattern, rows, 0u, index);
+    tuple[0] = cs_scrambled(element, key, 0u);
+    for (cs_u32 d = 1u; d < 4u; d++)
+        tuple[d] = cs_scrambled(cs_sample_word(pattern, rows, d, index), key, d);
+    if (pairs > CS_PAIR_EMITTER) cs_draw_shuffled_pair(element, key, CS_PAIR_EMITTER, tuple);
+}
+
+/* Pairs of (0,2)-sequences, each shuffled by itself (Kollig & Keller 2002, section 3; the shuffling
+ * of Burley 2020). */
+static inline void cs_draw_net_pairs(const cs_pattern *pattern, cs_sample_table rows, cs_u32 key,
+                                     cs_vuint index, cs_u32 pairs, cs_vfloat *tuple)
+{
+    cs_vuint element = cs_sample_word(pattern, rows, 0u, index);
+    tuple[0] = cs_scrambled(element, key, 0u);
+    tuple[1] = cs_scrambled(cs_pascal(element), key, 1u);
+    for (cs_u32 pair = 1u; pair < pairs; pair++)
+        cs_draw_shuffled_pair(element, key, pair, tuple);
+}
+
+#endif

@@ -1,0 +1,83 @@
+/* From places in a pixel's pattern to points of the pixel and the lens, a few packets at once.
+ * Device only. */
+#ifndef CS_DRAW_H
+#define CS_DRAW_H
+
+#include "clshear/device/shear.h"
+#include "launch.h"
+
+typedef struct cs_place {
+    cs_u32 x; /* raster coordinates in the whole image */
+    cs_u32 y;
+    cs_u32 state; /* index in the buffer of pixels */
+    cs_u32 key;   /* of the pixel's current pattern */
+    cs_f32 shear; /* of its tuples, pixels */
+} cs_place;
+
+/* Pixel `number` of the crop, row by row, which is the launch's pixel `index`. */
+static inline cs_place cs_place_of(const cs_launch *launch, cs_u32 index, cs_u32 number,
+                                   cs_f32 shear)
+{
+    cs_place place;
+    place.x = launch->crop_x + number % launch->crop_width;
+    place.y = launch->crop_y + number / launch->crop_width;
+    place.state = (launch->compact ? launch->first_pixel + index : number) - launch->page_first;
+    place.key =
+        cs_pattern_key(launch->seed, place.y * launch->image_width + place.x, launch->replicate);
+    place.shear = shear;
+    return place;
+}
+
+/* Packets that are drawn before any of them is traced. Their draws do not depend on each other and
+ * overlap in the processor; one by one they wait on their own latency. */
+typedef struct cs_drawn {
+    int count;              /* packets, at most CS_TOGETHER */
+    int place[CS_TOGETHER]; /* whose samples they are */
+    cs_f32 shear[CS_TOGETHER];
+    cs_vint active[CS_TOGETHER]; /* lanes that are samples of the pattern */
+    cs_camera_sample point[CS_TOGETHER];
+    cs_pair emitter[CS_TOGETHER];
+} cs_drawn;
+
+/* One packet of them, which begins at place `start` of the pixel's order, up to `end`. */
+static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table rows,
+                                  cs_optics_table table, const cs_place *places, int number,
+                                  cs_u32 start, cs_u32 end, cs_drawn *drawn)
+{
+    const cs_place *place = places + number;
+    int k = drawn->count++;
+    cs_vfloat tuple[CS_DIMENSIONS];
+    cs_vuint position = start + CS_LANE_INDEX;
+    cs_vint inside = position < end;
+    cs_vuint index =
+        cs_index_at(&launch->pattern, place->key, inside ? position : (cs_vuint)(start));
+    cs_vint active = inside & (index < launch->pattern.grid.count);
+    index = active ? index : (cs_vuint)(0u);
+    tuple[4] = (cs_vfloat)(0.0f);
+    tuple[5] = (cs_vfloat)(0.0f);
+    cs_draw(&launch->pattern, rows, place->key, index, launch->emitters > 0u ? 3u : 2u, tuple);
+    cs_camera_sample point = {tuple[0], tuple[1], tuple[2], tuple[3]};
+    drawn->place[k] = number;
+    drawn->shear[k] = place->shear;
+    drawn->active[k] = active;
+    drawn->point[k] =
+        cs_shear_alone(point, launch->shear_mode, &launch->camera.optics, table, place->shear);
+    drawn->emitter[k].x = tuple[4];
+    drawn->emitter[k].y = tuple[5];
+}
+
+/* Draws the next packets of a few pixels from place `start` of their order on, up to `end`: of one
+ * pixel as many as fit, of several all that there are. */
+static inline void cs_draw_packets(const cs_launch *launch, cs_sample_table rows,
+                                   cs_optics_table table, const cs_place *places, int count,
+                                   cs_u32 start, cs_u32 end, cs_drawn *drawn)
+{
+    drawn->count = 0;
+    for (int number = 0; number < count; number++)
+        for (cs_u32 at = start; drawn->count < CS_TOGETHER && at < end; at += (cs_u32)CS_PACKET)
+            cs_draw_packet(launch, rows, table, places, number, at, end, drawn);
+    cs_shear_together(drawn->point, drawn->shear, drawn->count, launch->shear_mode,
+                      &launch->camera.optics);
+}
+
+#endif

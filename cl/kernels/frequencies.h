@@ -1,0 +1,18 @@
+/* Which frequencies a table of exponentials has. Shared. */
+#ifndef CS_FREQUENCIES_H
+#define CS_FREQUENCIES_H
+
+#include "clshear/device/dialect.h"
+
+/* Column c is for frequency first[0] + step[0] * (c % wide) of coordinate number coordinate[0],
+ * together with first[1] + step[1] * (c / wide) of coordinate[1]; steps of 0 leave one out. Two
+ * such tables reach a plane of two coordinates, a block of four, or far out along one. */
+typedef struct cs_frequencies {
+    cs_u32 coordinate[2];
+    cs_i32 first[2];
+    cs_i32 step[2];
+    cs_u32 wide; /* 1 or more */
+} cs_frequencies;
+CS_SHARED_WORDS(cs_frequencies, 7);
+
+#endif

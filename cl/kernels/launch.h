@@ -1,0 +1,60 @@
+/* What one launch of the render kernel is told. Shared. */
+#ifndef CS_FRAME_H
+#define CS_FRAME_H
+
+#include "clshear/device/camera.h"
+#include "clshear/device/sampler/sampler.h"
+
+enum {
+    CS_POINT_VALUES = CS_DIMENSIONS + 4 /* that the points kernel writes for each sample */
+};
+
+typedef struct cs_launch {
+    cs_camera camera;
+    cs_pattern pattern;
+    cs_u32 seed;
+    cs_u32 replicate;
+    cs_u32 first_block; /* blocks of the pattern that this launch draws; a multiple of */
+    cs_u32 last_block;  /* CS_FLUSH_BLOCKS, or the pattern's end */
+    cs_u32 image_width; /* numbers pixels independently of the crop */
+    cs_u32 crop_x;
+    cs_u32 crop_y;
+    cs_u32 crop_width;
+    cs_u32 crop_height;
+    cs_u32 first_pixel; /* place in the order in which pixels are drawn */
+    cs_u32 pixel_count;
+    cs_u32 pixels_each; /* that a work-item draws together, see cs_pixels_together */
+    cs_u32 compact;     /* whether the buffer of pixels has them in that order, not row by row */
+    cs_u32 page_first;  /* number, in the buffer's order, of the pixel that it begins with */
+    cs_u32 shear_mode;  /* CS_SHEAR_ */
+    cs_u32 lights;
+    cs_u32 emitters;
+} cs_launch;
+CS_SHARED_WORDS(cs_launch, 69);
+
+/* How many pixels a work-item draws, so that their packets make CS_TOGETHER.
+ * blocks: of a pixel's pattern in the launch. packet: lanes. */
+static inline cs_u32 cs_pixels_together(cs_u32 blocks, cs_u32 packet)
+{
+    cs_u32 together = packet > 1u ? (cs_u32)(CS_FLUSH_BLOCKS * CS_BLOCK) / packet : 1u;
+    cs_u32 packets = (blocks * (cs_u32)CS_BLOCK + packet - 1u) / packet;
+    return packets > 0u && packets < together ? together / packets : 1u;
+}
+
+/* Raster index (row by row) of the pixel that is number `order` in a walk through tiles of 8 x 8
+ * pixels: neighbours in time are neighbours in both directions, and find their nodes in the cache.
+ * Tiles at the right and lower edge are narrower. */
+static inline cs_u32 cs_tiled_pixel(cs_u32 order, cs_u32 width, cs_u32 height)
+{
+    const cs_u32 side = 8u;
+    cs_u32 band = order / (side * width);
+    cs_u32 rows = height - band * side < side ? height - band * side : side;
+    cs_u32 within_band = order - band * side * width;
+    cs_u32 tile = within_band / (side * rows);
+    cs_u32 columns = width - tile * side < side ? width - tile * side : side;
+    cs_u32 within_tile = within_band - tile * side * rows;
+    cs_u32 row = band * side + within_tile / columns;
+    return row * width + tile * side + within_tile % columns;
+}
+
+#endif

@@ -1,0 +1,101 @@
+/* The structs and constants of a scene's buffers on the device. Shared.
+ *
+ * Structs hold 4-byte scalars and arrays of them only, so that both compilers agree on the layout;
+ * CS_SHARED_WORDS proves it. Arrays of them are padded to 4 words. */
+#ifndef CS_KERNELS_SCENE_H
+#define CS_KERNELS_SCENE_H
+
+#include "clshear/device/dialect.h"
+
+enum {
+    CS_STACK = 64,     /* entries of the traversal stack: the deepest hierarchy a device can walk */
+    CS_MAX_LEAF = 4,   /* triangles in a leaf */
+    CS_LEAF = 1 << 30, /* set in a child reference that names triangles; low bits: first */
+    CS_LEAF_SHIFT = 27, /* bits 27 to 29 of a leaf reference: number of triangles, less one */
+    CS_NO_TEXTURE = -1,
+    CS_NO_HIT = -1
+};
+
+enum {
+    CS_LIGHT_POINT = 0,      /* vector = position, colour = intensity */
+    CS_LIGHT_DIRECTIONAL = 1 /* vector = unit direction towards the light, colour = irradiance */
+};
+
+/* A node of the binary hierarchy: the boxes of both children, so that one fetch decides both. */
+typedef struct cs_node {
+    cs_f32 bounds[2][3][2]; /* child, axis, low and high */
+    cs_u32 child[2];        /* index of a node, or CS_LEAF | (count - 1) << CS_LEAF_SHIFT | first */
+    cs_u32 axis;            /* child 0 lies on the low side of this axis */
+    cs_u32 padding;
+} cs_node;
+CS_SHARED_WORDS(cs_node, 16);
+
+/* A triangle: corner, two edges, their cross product, and what flat shading needs besides. */
+typedef struct cs_triangle {
+    cs_f32 corner[3];
+    cs_u32 face; /* index into the array of cs_face */
+    cs_f32 edge1[3];
+    cs_u32 material;
+    cs_f32 edge2[3];
+    cs_u32 flags;     /* CS_FACE_ bits */
+    cs_f32 normal[3]; /* cross(edge1, edge2), not normalised */
+    cs_u32 padding;
+} cs_triangle;
+CS_SHARED_WORDS(cs_triangle, 16);
+
+enum {
+    CS_FACE_SMOOTH = 1,  /* its vertices have normals */
+    CS_FACE_TEXTURED = 2 /* its material has a texture */
+};
+
+/* The vertices of a smooth or textured triangle. */
+typedef struct cs_face {
+    cs_u32 vertex[3];
+} cs_face;
+CS_SHARED_WORDS(cs_face, 3);
+
+/* Shading data of a vertex. */
+typedef struct cs_vertex {
+    cs_f32 normal[3];
+    cs_f32 texture[2];
+} cs_vertex;
+CS_SHARED_WORDS(cs_vertex, 5);
+
+typedef struct cs_material {
+    cs_f32 diffuse[3];  /* albedo, linear Rec.709; multiplies the texture if there is one */
+    cs_i32 texture;     /* index, or CS_NO_TEXTURE */
+    cs_f32 emission[3]; /* radiance, both sides */
+    cs_u32 padding;
+} cs_material;
+CS_SHARED_WORDS(cs_material, 8);
+
+typedef struct cs_texture {
+    cs_u32 first; /* index of its top left texel; texels are 4 halves, linear Rec.709 */
+    cs_u32 width;
+    cs_u32 height;
+    cs_u32 padding;
+} cs_texture;
+CS_SHARED_WORDS(cs_texture, 4);
+
+typedef struct cs_light {
+    cs_f32 vector[3];
+    cs_u32 kind;
+    cs_f32 colour[3];
+    cs_u32 padding;
+} cs_light;
+CS_SHARED_WORDS(cs_light, 8);
+
+/* An emissive triangle in the table from which area-light samples are drawn. */
+typedef struct cs_emitter {
+    cs_f32 corner[3];
+    cs_f32 cumulative; /* probability of this emitter and all before it */
+    cs_f32 edge1[3];
+    cs_f32 probability;
+    cs_f32 edge2[3];
+    cs_f32 area;
+    cs_f32 radiance[3];
+    cs_f32 padding;
+} cs_emitter;
+CS_SHARED_WORDS(cs_emitter, 16);
+
+#endif

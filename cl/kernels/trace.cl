@@ -1,0 +1,35 @@
+/* Rays given by the caller, traced by the renderer's own traversal: for tests and benchmarks. */
+#include "kernels/traverse.h"
+
+/* One work-item traces CS_PACKET rays. Global size: rays / CS_PACKET; `rays` is a multiple of it.
+ *
+ * origins, directions: 3 planes of `rays` floats. distances: in, the ray's reach; out, the distance
+ * of the nearest hit (its reach if none), or for any hit -1 where something is in the way. hits:
+ * out, the face of the nearest hit or CS_NO_HIT; untouched for any hit. */
+__kernel void cs_trace(const uint rays, const int any_hit, __global const float *origins,
+                       __global const float *directions, __global float *distances,
+                       __global int *hits, __global const cs_node *nodes,
+                       __global const cs_triangle *triangles)
+{
+    size_t first = get_global_id(0) * CS_PACKET;
+    if (first >= rays) return;
+    cs_ray ray;
+    for (int axis = 0; axis < 3; axis++) {
+        ray.origin[axis] = *(__global const cs_vfloat *)(origins + (size_t)axis * rays + first);
+        ray.direction[axis] =
+            *(__global const cs_vfloat *)(directions + (size_t)axis * rays + first);
+    }
+    cs_hit hit;
+    hit.distance = *(__global const cs_vfloat *)(distances + first);
+    if (any_hit) {
+        cs_traverse(nodes, triangles, &ray, 1, &hit);
+    } else {
+        cs_traverse(nodes, triangles, &ray, 0, &hit);
+        cs_int_lanes index;
+        index.all = hit.triangle;
+        for (int lane = 0; lane < CS_PACKET; lane++)
+            hits[first + (size_t)lane] =
+                index.lane[lane] < 0 ? CS_NO_HIT : (int)triangles[index.lane[lane]].face;
+    }
+    *(__global cs_vfloat *)(distances + first) = hit.distance;
+}

@@ -1,0 +1,179 @@
+#include "render/pass.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double launch_s = 0.15; /* aim for one launch */
+
+clshear_status cs_batch_create(clshear_context *context, const cs_pattern *pattern,
+                               const cs_u32 *pixels, size_t count, cs_u32 width, int compact,
+                               cs_batch *batch, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_device *device = context->device;
+    const size_t page_pixels = cs_page_pixels(context, width);
+    cs_u32 *order = NULL;
+    batch->pattern = *pattern;
+    batch->pixel_count = count;
+    batch->compact = compact;
+    CS_TRY(cs_table_cache_find(&context->tables, device, pattern, &batch->rows, error));
+    if (pixels == NULL) {
+        order = malloc(count * sizeof *order);
+        CS_REQUIRE(order != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", count);
+        for (size_t i = 0; i < count; i++)
+            order[i] = cs_tiled_pixel((cs_u32)i, width, (cs_u32)(count / width));
+        pixels = order;
+    }
+    batch->page_ends = calloc((compact ? count - 1 : pixels[count - 1]) / page_pixels + 1,
+                              sizeof *batch->page_ends);
+    CS_REQUIRE(batch->page_ends != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    for (size_t i = 0; i < count; i++)
+        batch->page_ends[(compact ? i : pixels[i]) / page_pixels] = i + 1;
+    CS_TRY(cs_buffer_create(device, count * sizeof *pixels, pixels, &batch->order, error));
+done:
+    free(order);
+    return status;
+}
+
+void cs_batch_free(cs_batch *batch)
+{
+    cs_buffer_free(batch->order);
+    free(batch->page_ends);
+    *batch = (cs_batch){0};
+}
+
+enum {
+    BEFORE_WORLD = 6 /* arguments of the kernel that are not the scene's */
+};
+
+clshear_status cs_pass_warm_up(cs_device *device, cs_error *error)
+{
+    const cs_launch frame = {.pixel_count = 0};
+    const cs_argument arguments[BEFORE_WORLD + CS_SCENE_BUFFERS] = {
+        {.value = &frame, .size = sizeof frame}}; /* and no buffers */
+    return cs_device_run(device, CS_KERNEL_RENDER, 1, arguments, BEFORE_WORLD + CS_SCENE_BUFFERS,
+                         error);
+}
+
+static clshear_status launch(const cs_pass *pass, const cs_batch *batch, const cs_launch *frame,
+                             cs_error *error)
+{
+    cs_argument arguments[BEFORE_WORLD + CS_SCENE_BUFFERS] = {
+        {.value = frame, .size = sizeof *frame},
+        {.buffer = pass->pixels->pages[frame->page_first / pass->pixels->page_pixels]},
+        {.buffer = batch->order},
+        {.buffer = pass->shears},
+        {.buffer = batch->rows},
+        {.buffer = pass->optics}};
+    for (int i = 0; i < CS_SCENE_BUFFERS; i++)
+        arguments[BEFORE_WORLD + i].buffer = pass->scene->world.buffers[i];
+    return cs_device_run(pass->scene->context->device, CS_KERNEL_RENDER,
+                         (frame->pixel_count + frame->pixels_each - 1) / frame->pixels_each,
+                         arguments, BEFORE_WORLD + CS_SCENE_BUFFERS, error);
+}
+
+/* Tells the caller how far it is, and asks whether to go on. */
+static clshear_status report(const cs_pass *pass, double now_s, cs_error *error)
+{
+    const clshear_options *options = pass->options;
+    if (options == NULL || options->progress == NULL) return CLSHEAR_OK;
+    const double mean_rate = pass->done / (now_s - pass->start_s);
+    const clshear_progress progress = {
+        .fraction = pass->total > 0.0 ? pass->done / pass->total : 0.0,
+        .samples_per_s = mean_rate,
+        .remaining_s = pass->total > 0.0 ? (pass->total - pass->done) / mean_rate : 0.0,
+    };
+    if (options->progress(options->progress_user, &progress) != 0)
+        return cs_fail(error, CLSHEAR_CANCELLED, "cancelled");
+    return CLSHEAR_OK;
+}
+
+static clshear_status timed_launch(cs_pass *pass, const cs_batch *batch, const cs_launch *frame,
+                                   cs_error *error)
+{
+    const double before_s = cs_now_s();
+    clshear_status status = launch(pass, batch, frame, error);
+    if (status != CLSHEAR_OK) return status;
+    const double now_s = cs_now_s(), took_s = now_s - before_s + 1e-6;
+    uint32_t last = frame->last_block * CS_BLOCK;
+    if (last > frame->pattern.grid.count) last = frame->pattern.grid.count;
+    const double samples =
+        (double)(last - frame->first_block * CS_BLOCK) * (double)frame->pixel_count;
+    pass->kernel_s += took_s;
+    pass->done += samples;
+    pass->rate = 0.5 * (pass->rate + samples / took_s);
+    return report(pass, now_s, error);
+}
+
+/* Draws blocks [first, last) of the patterns of a batch, some pixels at a time. */
+static clshear_status pass_batch(cs_pass *pass, const cs_batch *batch, cs_u32 first, cs_u32 last,
+                                 cs_error *error)
+{
+    const size_t least = 64;
+    cs_launch frame = pass->frame;
+    frame.pattern = batch->pattern;
+    frame.first_block = first;
+    frame.last_block = last;
+    frame.compact = (cs_u32)batch->compact;
+    frame.pixels_each =
+        cs_pixels_together(last - first, (cs_u32)cs_device_packet(pass->scene->context->device));
+    size_t page = 0;
+    for (size_t pixel = 0; pixel < batch->pixel_count; pixel += frame.pixel_count) {
+        while (batch->page_ends[page] <= pixel) /* 0 for pages without pixels of the batch */
+            page++;
+        const double samples_each = (double)(last - first) * CS_BLOCK;
+        const double affordable = pass->rate * launch_s / samples_each;
+        const size_t left = batch->page_ends[page] - pixel;
+        size_t count = affordable >= (double)left   ? left
+                       : affordable < (double)least ? least
+                                                    : (size_t)affordable;
+        if (count > left) count = left;
+        frame.page_first = (cs_u32)(page * pass->pixels->page_pixels);
+        frame.first_pixel = (cs_u32)pixel;
+        frame.pixel_count = (cs_u32)count;
+        clshear_status status = timed_launch(pass, batch, &frame, error);
+        if (status != CLSHEAR_OK) return status;
+    }
+    return CLSHEAR_OK;
+}
+
+static cs_u32 flushes_of(const cs_batch *batch)
+{
+    return (batch->pattern.blocks + CS_FLUSH_BLOCKS - 1) / CS_FLUSH_BLOCKS;
+}
+
+/* Blocks of a batch that are drawn when `part` of the replicate is: whole flushes, rounded up so
+ * that the first step leaves no pixel without samples. */
+static cs_u32 blocks_at(const cs_batch *batch, double part)
+{
+    const cs_u32 blocks = (cs_u32)ceil(part * flushes_of(batch)) * CS_FLUSH_BLOCKS;
+    return blocks < batch->pattern.blocks ? blocks : batch->pattern.blocks;
+}
+
+clshear_status cs_pass_replicate(cs_pass *pass, const cs_batch *batches, size_t batch_count,
+                                 cs_u32 replicate, cs_error *error)
+{
+    double samples = 0.0;
+    cs_u32 most = 1;
+    for (size_t b = 0; b < batch_count; b++) {
+        samples += (double)batches[b].pixel_count * batches[b].pattern.grid.count;
+        if (flushes_of(&batches[b]) > most) most = flushes_of(&batches[b]);
+    }
+    pass->frame.replicate = replicate;
+    double part = 0.0;
+    while (part < 1.0) {
+        /* As little as a launch affords, but a flush of the largest pattern at least. */
+        const double step = pass->rate * launch_s / samples;
+        double next = part + (step > 1.0 / most ? step : 1.0 / most);
+        if (next > 1.0 - 0.5 / most) next = 1.0;
+        for (size_t b = 0; b < batch_count; b++) {
+            const cs_u32 first = blocks_at(&batches[b], part), last = blocks_at(&batches[b], next);
+            if (first == last) continue;
+            clshear_status status = pass_batch(pass, &batches[b], first, last, error);
+            if (status != CLSHEAR_OK) return status;
+        }
+        part = next;
+    }
+    return CLSHEAR_OK;
+}

@@ -1,0 +1,49 @@
+/* Launches of the render kernel: patterns of one kind for some pixels, in pieces. */
+#ifndef CS_RENDER_SWEEP_H
+#define CS_RENDER_SWEEP_H
+
+#include "kernels/launch.h"
+#include "render/pixels.h"
+
+/* Pixels that draw patterns of the same size. */
+typedef struct cs_batch {
+    cs_pattern pattern;
+    const cs_buffer *rows; /* the pattern's table; of the context */
+    cs_buffer *order;      /* cs_u32: the pixels, numbered in the window row by row; owned */
+    size_t pixel_count;
+    int compact;       /* whether states lie in this order, not in that of the window */
+    size_t *page_ends; /* of each page of pixels: where in the order the next begins; owned */
+} cs_batch;
+
+/* What all launches of a render have in common, and how far it is. */
+typedef struct cs_pass {
+    clshear_scene *scene;
+    cs_launch frame;         /* camera, seed, window, shear mode, lights */
+    const cs_buffer *optics; /* their table */
+    const cs_buffer *shears; /* of every pixel of the window */
+    const cs_pixels *pixels;
+    const clshear_options *options; /* whose callback is told; NULL: nobody */
+    double start_s;
+    double rate;  /* samples per second of the last launches */
+    double done;  /* samples */
+    double total; /* samples; 0: unknown */
+    double kernel_s;
+} cs_pass;
+
+/* A batch of the pixels listed in `pixels`, row by row or in a walk through tiles; all `count` of a
+ * window of this width where that is NULL. compact: their states are in the order of the list. */
+clshear_status cs_batch_create(clshear_context *context, const cs_pattern *pattern,
+                               const cs_u32 *pixels, size_t count, cs_u32 width, int compact,
+                               cs_batch *batch, cs_error *error);
+void cs_batch_free(cs_batch *batch);
+
+/* Draws one replicate of every batch's patterns: of all of them a part, then the next part, so that
+ * an interrupted picture is even. How the work is cut does not change a bit of the result. */
+clshear_status cs_pass_replicate(cs_pass *pass, const cs_batch *batches, size_t batch_count,
+                                 cs_u32 replicate, cs_error *error);
+
+/* Drivers finish compiling a kernel when it is first launched. Launches it without pixels, so that
+ * those whose time is taken do not wait for that. */
+clshear_status cs_pass_warm_up(cs_device *device, cs_error *error);
+
+#endif

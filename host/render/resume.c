@@ -1,0 +1,251 @@
+/* Going on with a render: more samples of the same patterns, without redoing those it has. */
+#include "render/resume.h"
+
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pattern/pattern.h"
+
+enum {
+    SLICE = 1 << 16 /* pixels on their way at once */
+};
+
+static void plane_name(char *name, size_t size, uint32_t replicate, int colour)
+{
+    snprintf(name, size, "Pattern%u.%c", replicate, "RGB"[colour]);
+}
+
+/* Adds bytes to a fingerprint, four at a time. */
+static void add_words(cs_u32 *fingerprint, const void *items, size_t size)
+{
+    for (size_t i = 0; i < size; i += 4) {
+        cs_u32 word = 0;
+        memcpy(&word, (const char *)items + i, size - i < 4 ? size - i : 4);
+        *fingerprint = cs_key(*fingerprint, word);
+    }
+}
+
+static void add_array(cs_u32 *fingerprint, const cs_array *array)
+{
+    add_words(fingerprint, array->items, array->count * array->item_size);
+}
+
+/* What fixes the samples and the picture, but for their number: "key=value;...". */
+static void recipe_of(const cs_job *job, char *text, size_t size)
+{
+    const clshear_options *o = &job->options;
+    const cs_scene *scene = &job->scene->scene;
+    cs_u32 camera = 0, lens = 0, light = 0, world = 0;
+    add_words(&camera, &job->camera, offsetof(cs_camera, optics));
+    add_words(&lens, &job->camera.optics, sizeof job->camera.optics);
+    add_array(&lens, &job->optics.table);
+    add_array(&light, &scene->lights);
+    add_array(&world, &scene->positions);
+    add_array(&world, &scene->vertices);
+    add_array(&world, &scene->indices);
+    add_array(&world, &scene->triangle_materials);
+    add_array(&world, &scene->triangle_flags);
+    add_array(&world, &scene->materials);
+    add_array(&world, &scene->textures);
+    add_array(&world, &scene->texels);
+    snprintf(text, size,
+             "sampler=%s;seed=%u;replicates=%u;shear=%d;oracle=%d;lens "
+             "rays=%u;size=%dx%d;camera=%08x;aperture or "
+             "filter=%08x;lights=%08x;"
+             "scene=%08x",
+             cs_sampler_name(job->pattern.sampler), o->seed, o->replicates, (int)o->shear,
+             (int)o->oracle, o->lens_rays, o->width, o->height, camera, lens, light, world);
+}
+
+/* Name of the first thing in which two recipes differ. */
+static void first_difference(const char *a, const char *b, char *name, size_t size)
+{
+    size_t start = 0, i = 0;
+    for (; a[i] == b[i] && a[i] != '\0'; i++)
+        if (a[i] == ';') start = i + 1;
+    snprintf(name, size, "%.*s", (int)strcspn(a + start, "="), a + start);
+}
+
+/* Whether a film has all the planes that load() reads, and counts of samples to go with them. */
+static int holds_state(const clshear_film *base, uint32_t replicates, int *samples)
+{
+    static const char *const needed[] = {
+        "R",     "G",     "B", "SampleVariance.R", "SampleVariance.G", "SampleVariance.B",
+        "Shear", "Oracle"};
+    char name[32];
+    int good = cs_film_int(base, "samplesPerPixel", samples) && *samples >= (int)replicates;
+    for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
+        good &= clshear_film_channel(base, needed[i]) != NULL;
+    for (uint32_t plane = 0; good && plane < 3 * replicates; plane++) {
+        plane_name(name, sizeof name, plane / 3, (int)(plane % 3));
+        good &= clshear_film_channel(base, name) != NULL;
+    }
+    return good;
+}
+
+clshear_status cs_resume_check(cs_job *job, cs_error *error)
+{
+    const clshear_film *base = job->options.extend;
+    char mine[512], name[32];
+    int samples = 0;
+    if ((base != NULL || job->options.extendable) && job->options.adaptive)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "a render that is shared out adaptively cannot be extended");
+    if (base == NULL && !job->options.extendable) return CLSHEAR_OK;
+    if (!cs_sampler_is_progressive(job->pattern.sampler))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "sampler %s cannot extend a render: its points depend on their number; "
+                       "progressive ones can",
+                       cs_sampler_name(job->pattern.sampler));
+    if (base == NULL) return CLSHEAR_OK;
+    recipe_of(job, mine, sizeof mine);
+    const char *theirs = cs_film_text(base, "clshear.recipe");
+    if (theirs == NULL ||
+        (strcmp(mine, theirs) == 0 && !holds_state(base, job->options.replicates, &samples)))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "the picture to extend does not hold what that takes; it must be a complete "
+                       "EXR rendered with --extendable");
+    if (strcmp(mine, theirs) != 0) {
+        first_difference(mine, theirs, name, sizeof name);
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "the picture to extend was made with another %s; give all flags as before, "
+                       "but for --spp",
+                       name);
+    }
+    if (memcmp(base->window, job->window, sizeof job->window) != 0)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "the picture to extend shows other pixels; give the same --crop");
+    const uint32_t had = (uint32_t)samples / job->options.replicates;
+    if (job->pattern.grid.count <= had)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "the picture to extend has %d samples per pixel already; ask for more",
+                       samples);
+    job->pattern = cs_pattern_of(job->pattern.sampler, had, job->pattern.grid.count - had);
+    return CLSHEAR_OK;
+}
+
+/* Calls `change` for every pixel's state on the device. */
+static clshear_status for_pixels(cs_job *job, uint32_t replicate,
+                                 void (*change)(cs_job *job, uint32_t replicate, size_t index,
+                                                cs_pixel *pixel),
+                                 int write_back, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_pixel *slice = malloc(SLICE * sizeof *slice);
+    CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    for (size_t first = 0; first < job->pixel_count; first += SLICE) {
+        const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
+        CS_TRY(cs_pixels_read(&job->pixels, first, count, slice, error));
+        for (size_t i = 0; i < count; i++)
+            change(job, replicate, first + i, &slice[i]);
+        if (write_back) CS_TRY(cs_pixels_write(&job->pixels, first, count, slice, error));
+    }
+done:
+    free(slice);
+    return status;
+}
+
+/* Puts the picture's samples of a replicate into the pixel; before the first, its moments too. */
+static void load(cs_job *job, uint32_t replicate, size_t index, cs_pixel *pixel)
+{
+    static const char *const mean[3] = {"R", "G", "B"};
+    static const char *const variance[3] = {"SampleVariance.R", "SampleVariance.G",
+                                            "SampleVariance.B"};
+    const clshear_film *base = job->options.extend;
+    const uint32_t had = job->pattern.first, all = had * job->options.replicates;
+    for (int c = 0; c < 3; c++) {
+        char name[32];
+        plane_name(name, sizeof name, replicate, c);
+        const double sum = (double)clshear_film_channel(base, name)[index] * had;
+        pixel->sum[c] = (cs_f32)sum;
+        pixel->carry[c] = (cs_f32)(sum - (double)pixel->sum[c]);
+        if (replicate > 0) continue;
+        pixel->sample_mean[c] = clshear_film_channel(base, mean[c])[index];
+        pixel->sample_m2[c] =
+            all > 1 ? clshear_film_channel(base, variance[c])[index] * (cs_f32)(all - 1) : 0.0f;
+    }
+    pixel->pending = had;
+    if (replicate == 0) pixel->samples = all;
+}
+
+/* The mean of the replicate that was finished last: what the sum of means has grown by. */
+static void keep(cs_job *job, uint32_t replicate, size_t index, cs_pixel *pixel)
+{
+    for (size_t c = 0; c < 3; c++) {
+        double *before = &job->pattern_sums[3 * index + c];
+        const double now = (double)pixel->pattern_sum[c] + (double)pixel->pattern_carry[c];
+        job->pattern_means[(3 * replicate + c) * job->pixel_count + index] = (float)(now - *before);
+        *before = now;
+    }
+}
+
+clshear_status cs_resume_prepare(cs_job *job, cs_error *error)
+{
+    const uint32_t most = 16;
+    const size_t planes = 3 * (size_t)job->options.replicates;
+    const int extends = job->options.extendable || job->options.extend != NULL;
+    if (!extends && !job->options.keep_patterns) return CLSHEAR_OK;
+    if (extends && job->options.replicates > most)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "%u replicates: a render that can be extended has at most %u",
+                       job->options.replicates, most);
+    job->pattern_means = malloc(planes * job->pixel_count * sizeof *job->pattern_means);
+    job->pattern_sums = calloc(3 * job->pixel_count, sizeof *job->pattern_sums);
+    if (job->pattern_means == NULL || job->pattern_sums == NULL)
+        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
+                       job->pixel_count);
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_resume_begin(cs_job *job, uint32_t replicate, cs_error *error)
+{
+    job->replicates_begun = replicate + 1;
+    if (job->options.extend == NULL) return CLSHEAR_OK;
+    return for_pixels(job, replicate, load, 1, error);
+}
+
+clshear_status cs_resume_end(cs_job *job, uint32_t replicate, cs_error *error)
+{
+    if (job->pattern_means == NULL) return CLSHEAR_OK;
+    clshear_status status = for_pixels(job, replicate, keep, 0, error);
+    if (status == CLSHEAR_OK) job->patterns_kept++;
+    return status;
+}
+
+double cs_resume_missing(const cs_job *job, size_t index, int colour)
+{
+    double sum = 0.0;
+    if (job->options.extend == NULL) return 0.0;
+    for (uint32_t r = job->replicates_begun; r < job->options.replicates; r++) {
+        char name[32];
+        plane_name(name, sizeof name, r, colour);
+        sum += (double)clshear_film_channel(job->options.extend, name)[index] * job->pattern.first;
+    }
+    return sum;
+}
+
+clshear_status cs_resume_describe(const cs_job *job, clshear_film *film)
+{
+    char text[512];
+    if (job->patterns_kept < job->options.replicates) return CLSHEAR_OK; /* interrupted */
+    for (uint32_t plane = 0; plane < 3 * job->options.replicates; plane++) {
+        char name[32];
+        plane_name(name, sizeof name, plane / 3, (int)(plane % 3));
+        float *pixels = cs_film_add_channel(film, name);
+        if (pixels == NULL)
+            return cs_fail(film->error, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
+        memcpy(pixels, job->pattern_means + (size_t)plane * job->pixel_count,
+               job->pixel_count * sizeof *pixels);
+    }
+    if (!job->options.extendable && job->options.extend == NULL) return CLSHEAR_OK;
+    recipe_of(job, text, sizeof text);
+    return clshear_film_annotate(film, "clshear.recipe", text);
+}
+
+void cs_resume_free(cs_job *job)
+{
+    free(job->pattern_means);
+    free(job->pattern_sums);
+}
