@@ -1,5 +1,5 @@
 /* The library in one page: a scene file in, a picture and a number out. */
-#include <clshear.h>
+#include <clshear/clshear.h>
 #include <stdio.h>
 
 static int show_progress(void *user, const clshear_progress *progress)

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "clshear.h"
+#include "clshear/clshear.h"
 #include "optics/optics.h"
 #include "pattern/pattern.h"
 

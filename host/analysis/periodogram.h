@@ -3,7 +3,7 @@
 #define CS_ANALYSIS_PERIODOGRAM_H
 
 #include "base/status.h"
-#include "clshear.h"
+#include "clshear/clshear.h"
 #include "device/device.h"
 #include "kernels/frequencies.h"
 

@@ -2,7 +2,7 @@
 #ifndef CS_BASE_STATUS_H
 #define CS_BASE_STATUS_H
 
-#include "clshear.h"
+#include "clshear/clshear.h"
 
 #ifdef __cplusplus
 extern "C" {

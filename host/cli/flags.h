@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "clshear.h"
+#include "clshear/clshear.h"
 
 typedef struct cli_flag {
     const char *names;    /* separated by spaces, the main one first, without dashes */

@@ -2,7 +2,7 @@
 #ifndef CS_CLI_JOB_H
 #define CS_CLI_JOB_H
 
-#include "clshear.h"
+#include "clshear/clshear.h"
 
 enum {
     CLI_MAX_OUTPUTS = 16,

@@ -2,7 +2,7 @@
 #ifndef CS_CLI_PROGRESS_H
 #define CS_CLI_PROGRESS_H
 
-#include "clshear.h"
+#include "clshear/clshear.h"
 
 typedef struct cli_progress {
     int quiet;

@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "cli/plot.h"
-#include "clshear.h"
+#include "clshear/clshear.h"
 
 enum {
     CLI_MOST_SIZES = 32,

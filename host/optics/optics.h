@@ -4,7 +4,7 @@
 
 #include "base/array.h"
 #include "base/status.h"
-#include "clshear.h"
+#include "clshear/clshear.h"
 #include "clshear/device/camera.h"
 
 typedef struct cs_optics_tables {

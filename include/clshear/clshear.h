@@ -1,7 +1,7 @@
 /* clshear: depth of field with sheared samples.
  *
  * The public interface of the library, in the order in which a program uses it: context, scene,
- * camera, render, film; the analysis is in clshear_analysis.h, which this file includes. It is
+ * camera, render, film; the analysis is in analysis.h, which this file includes. It is
  * plain C and every function is described where it is declared.
  *
  * Conventions
@@ -18,32 +18,11 @@
 #ifndef CLSHEAR_H
 #define CLSHEAR_H
 
-#include <stddef.h>
-#include <stdint.h>
-
-#if defined(__GNUC__)
-#define CLSHEAR_API __attribute__((visibility("default")))
-#else
-#define CLSHEAR_API
-#endif
+#include "common.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/* ------------------------------------------------------------------------------------------------
- * Status
- * --------------------------------------------------------------------------------------------- */
-
-typedef enum clshear_status {
-    CLSHEAR_OK = 0,
-    CLSHEAR_BAD_ARGUMENT,  /* a value is out of its range; the message names it */
-    CLSHEAR_BAD_FILE,      /* a file cannot be read, written or understood */
-    CLSHEAR_NO_DEVICE,     /* no OpenCL device, or none of that name */
-    CLSHEAR_DEVICE_FAILED, /* the OpenCL driver refused something */
-    CLSHEAR_OUT_OF_MEMORY,
-    CLSHEAR_CANCELLED /* the progress callback asked to stop; what was done is kept */
-} clshear_status;
 
 /* Version of the library, as "major.minor.patch". */
 CLSHEAR_API const char *clshear_version(void);
@@ -371,6 +350,6 @@ CLSHEAR_API void clshear_film_free(clshear_film *film);
 }
 #endif
 
-#include "clshear_analysis.h"
+#include "analysis.h"
 
 #endif
