@@ -1,7 +1,7 @@
 /* From places in a pixel's pattern to points of the pixel and the lens, a few packets at once.
  * Device only. */
-#ifndef CS_DRAW_H
-#define CS_DRAW_H
+#ifndef CS_KERNELS_DRAW_H
+#define CS_KERNELS_DRAW_H
 
 #include "clshear/device/shear.h"
 #include "launch.h"

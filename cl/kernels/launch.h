@@ -1,6 +1,6 @@
 /* What one launch of the render kernel is told. Shared. */
-#ifndef CS_FRAME_H
-#define CS_FRAME_H
+#ifndef CS_KERNELS_LAUNCH_H
+#define CS_KERNELS_LAUNCH_H
 
 #include "clshear/device/camera.h"
 #include "clshear/device/sampler/sampler.h"

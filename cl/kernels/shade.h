@@ -1,8 +1,8 @@
 /* What a packet of hits looks like, and the light it reflects. Device only.
  *
  * Lambertian surfaces, two-sided; direct light with shadow rays; emission seen directly counts. */
-#ifndef CS_SHADE_H
-#define CS_SHADE_H
+#ifndef CS_KERNELS_SHADE_H
+#define CS_KERNELS_SHADE_H
 
 #include "clshear/device/sampler/grid.h"
 #include "kernels/traverse.h"

@@ -30,6 +30,9 @@ typedef enum cs_program {
     CS_PROGRAM_COUNT
 } cs_program;
 
+/* The text of the public headers, cl/clshear/device, with which every program begins. */
+const char *cs_device_source(void);
+
 /* A kernel argument: a buffer (`buffer` not NULL), or `size` bytes by value. */
 typedef struct cs_argument {
     const cs_buffer *buffer;

@@ -1,9 +1,11 @@
-/* The thin-lens camera with its aperture and pixel filter, as samples see it. Shared. */
-#ifndef CS_CAMERA_H
-#define CS_CAMERA_H
+/* The thin-lens camera with its aperture and pixel filter, as samples see it. */
+#ifndef CLSHEAR_DEVICE_CAMERA_H
+#define CLSHEAR_DEVICE_CAMERA_H
 
 #include "constants.h"
 #include "dialect.h"
+
+#include "fp_contract_off.h"
 
 /* How (pixel, lens) tuples are slid along the fibres of the integrand. */
 enum {
@@ -48,5 +50,7 @@ typedef struct cs_camera {
     cs_optics optics;
 } cs_camera;
 CS_SHARED_WORDS(cs_camera, 29);
+
+#include "fp_contract_restore.h"
 
 #endif

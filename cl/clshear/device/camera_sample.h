@@ -1,8 +1,10 @@
-/* A point of the pixel and the lens, and the blur that a shear stands for. Shared. */
-#ifndef CS_FILM_LENS_H
-#define CS_FILM_LENS_H
+/* A point of the pixel and the lens, and the blur that a shear stands for. */
+#ifndef CLSHEAR_DEVICE_CAMERA_SAMPLE_H
+#define CLSHEAR_DEVICE_CAMERA_SAMPLE_H
 
 #include "packet.h"
+
+#include "fp_contract_off.h"
 
 /* Pixel coordinates in [0, 1), centred lens coordinates; or the tuple in [0, 1)^4 that they are
  * made from. */
@@ -32,5 +34,7 @@ static inline cs_blur cs_blur_of(cs_f32 shear, cs_f32 squeeze)
     blur.y = cs_max(blur.y, CS_LEAST_BLUR);
     return blur;
 }
+
+#include "fp_contract_restore.h"
 
 #endif

@@ -1,6 +1,6 @@
-/* Constants of the order in which samples are drawn, and the limits of a pattern. Shared. */
-#ifndef CS_CONSTANTS_H
-#define CS_CONSTANTS_H
+/* Constants of the order in which samples are drawn, and the limits of a pattern. */
+#ifndef CLSHEAR_DEVICE_CONSTANTS_H
+#define CLSHEAR_DEVICE_CONSTANTS_H
 
 enum {
     CS_GROUP = 8,        /* consecutive samples that are neighbours in their first pair */

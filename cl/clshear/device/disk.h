@@ -1,12 +1,14 @@
-/* The disk of area 1 and its marginal, for round apertures. Shared.
+/* The disk of area 1 and its marginal, for round apertures.
  *
  * The coordinate u of a uniform point of the disk of radius R = 1 / sqrt(pi) has the semicircle
  * distribution. Polynomials below are Chebyshev fits; their errors are absolute. The area of the
  * disk is the unit of areas. */
-#ifndef CS_DISK_H
-#define CS_DISK_H
+#ifndef CLSHEAR_DEVICE_DISK_H
+#define CLSHEAR_DEVICE_DISK_H
 
 #include "packet.h"
+
+#include "fp_contract_off.h"
 
 #define CS_DISK_RADIUS 0.564189584f
 
@@ -192,5 +194,7 @@ CS_INLINED void cs_disk_from_square(cs_vfloat *u, cs_vfloat *v)
     *u = radius * (wide ? cosine : sine);
     *v = radius * (wide ? sine : cosine);
 }
+
+#include "fp_contract_restore.h"
 
 #endif

@@ -1,14 +1,16 @@
-/* Fibres through a pixel and a round lens, for the equal-area shear of the disk. Shared.
+/* Fibres through a pixel and a round lens, for the equal-area shear of the disk.
  *
  * Fibre coordinates, centred, are t_x = X + blur * U and t_y = Y + blur * V with (X, Y) uniform on
  * the pixel [-1/2, 1/2]^2 and (U, V) on the disk of area 1. Given t, (U, V) is uniform on the part
  * of the disk inside the square of side 1 / blur about t / blur. All areas below are built from
  * trapezoids and segments of the circle no larger than themselves: differences of antiderivatives
  * would lose their digits when the blur is wide. */
-#ifndef CS_DISK_FIBRE_H
-#define CS_DISK_FIBRE_H
+#ifndef CLSHEAR_DEVICE_DISK_FIBRE_H
+#define CLSHEAR_DEVICE_DISK_FIBRE_H
 
 #include "disk.h"
+
+#include "fp_contract_off.h"
 
 /* Half the chord at distance `place` from the centre; 0 outside the disk. */
 CS_INLINED cs_vfloat cs_disk_chord(cs_vfloat place)
@@ -182,5 +184,7 @@ CS_INLINED cs_vfloat cs_disk_window_step(cs_vfloat u, cs_vfloat mass_root, cs_di
     *rough = step.rough;
     return cs_clamp(u - step.back, first, last);
 }
+
+#include "fp_contract_restore.h"
 
 #endif

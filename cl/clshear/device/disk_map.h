@@ -1,14 +1,16 @@
 /* The equal-area shear of the disk, which is not separable: Rosenblatt's transform in the order
- * t_x, t_y | t_x, u | t, v | t, u. Shared.
+ * t_x, t_y | t_x, u | t, v | t, u.
  *
  * Three of the four are solved for by Halley's steps, each waiting for the one before it. Packets
  * are mapped together, all of them a stage at a time: while one waits, the processor finds work in
  * the others. */
-#ifndef CS_DISK_MAP_H
-#define CS_DISK_MAP_H
+#ifndef CLSHEAR_DEVICE_DISK_MAP_H
+#define CLSHEAR_DEVICE_DISK_MAP_H
 
 #include "camera_sample.h"
 #include "disk_fibre.h"
+
+#include "fp_contract_off.h"
 
 enum {
     CS_DISK_STEPS = 2 /* of Halley's at most, for each unknown: hardly any wants a third */
@@ -150,5 +152,7 @@ static inline void cs_disk_map(cs_camera_sample *points, const cs_f32 *shears, i
     for (int k = 0; k < count; k++)
         points[k] = cs_disk_end(points + k, way + k);
 }
+
+#include "fp_contract_restore.h"
 
 #endif

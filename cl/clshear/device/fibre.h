@@ -1,14 +1,16 @@
-/* Fibres through any filter and any marginal of the lens: one axis of the equal-area shear. Shared.
+/* Fibres through any filter and any marginal of the lens: one axis of the equal-area shear.
  *
  * The fibre coordinate is t = X + blur * U, X distributed as the pixel filter, U as the marginal.
  * The filter is constant on steps [x_k, x_k+1] with density f_k, so with C the mass of the marginal
  * and H its integral P(T < t) = sum of f_k * blur * (H((t - x_k) / blur) - H((t - x_k+1) / blur)),
  * and what the steps have of the density at t are f_k * (C((t - x_k) / blur) - C((t - x_k+1) /
  * blur)). */
-#ifndef CS_FIBRE_H
-#define CS_FIBRE_H
+#ifndef CLSHEAR_DEVICE_FIBRE_H
+#define CLSHEAR_DEVICE_FIBRE_H
 
 #include "marginal.h"
+
+#include "fp_contract_off.h"
 
 /* The x with P(X < x) = mass, centred. */
 CS_INLINED cs_vfloat cs_filter_quantile(const cs_optics *optics, cs_optics_table table,
@@ -205,5 +207,7 @@ CS_INLINED cs_vfloat cs_fibre_map(cs_fibre_axis axis, cs_vfloat across, cs_vfloa
     if (negative) *x = -*x;
     return lens;
 }
+
+#include "fp_contract_restore.h"
 
 #endif

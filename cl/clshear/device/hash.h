@@ -1,8 +1,10 @@
-/* Integer hashing and keyed permutations: everything random in a sample comes from here. Shared. */
-#ifndef CS_HASH_H
-#define CS_HASH_H
+/* Integer hashing and keyed permutations: everything random in a sample comes from here. */
+#ifndef CLSHEAR_DEVICE_HASH_H
+#define CLSHEAR_DEVICE_HASH_H
 
 #include "packet.h"
+
+#include "fp_contract_off.h"
 
 /* A bijective mixer of 32 bits with low bias: two rounds of xor-shift and odd multiplication, with
  * multipliers found by C. Wellons' search ("Prospecting for Hash Functions", 2018). */
@@ -90,5 +92,7 @@ static inline cs_vuint cs_permute(cs_vuint index, cs_vuint size, cs_domain domai
     x += cs_mul_hi(step ^ (step >> 15), size);
     return x >= size ? x - size : x;
 }
+
+#include "fp_contract_restore.h"
 
 #endif

@@ -1,9 +1,11 @@
-/* From a point of the film and a point of the lens to a ray: the thin lens. Shared. */
-#ifndef CS_LENS_H
-#define CS_LENS_H
+/* From a point of the film and a point of the lens to a ray: the thin lens. */
+#ifndef CLSHEAR_DEVICE_LENS_H
+#define CLSHEAR_DEVICE_LENS_H
 
 #include "camera.h"
 #include "packet.h"
+
+#include "fp_contract_off.h"
 
 typedef struct cs_ray {
     cs_vfloat origin[3];
@@ -38,5 +40,7 @@ static inline cs_f32 cs_shear_of_depth(cs_camera camera, cs_f32 depth)
 {
     return camera.aperture_width / camera.pixel_width * (camera.focal_distance / depth - 1.0f);
 }
+
+#include "fp_contract_restore.h"
 
 #endif

@@ -1,14 +1,16 @@
-/* Distributions of one lens coordinate: their mass, its integral and its inverse. Shared.
+/* Distributions of one lens coordinate: their mass, its integral and its inverse.
  *
  * Uniform on [-1/2, 1/2]; the marginal of the disk of area 1; or tabulated, where a row has what
  * holds from the start of a segment on: the density is linear in a segment of a polygon and
  * constant in a texel of an image. */
-#ifndef CS_MARGINAL_H
-#define CS_MARGINAL_H
+#ifndef CLSHEAR_DEVICE_MARGINAL_H
+#define CLSHEAR_DEVICE_MARGINAL_H
 
 #include "camera.h"
 #include "disk.h"
 #include "packet.h"
+
+#include "fp_contract_off.h"
 
 /* The table of a cs_optics. */
 typedef CS_GLOBAL const cs_f32 *cs_optics_table;
@@ -276,5 +278,7 @@ static inline cs_chord cs_chord_at(const cs_optics *optics, cs_optics_table tabl
     }
     return chord;
 }
+
+#include "fp_contract_restore.h"
 
 #endif

@@ -1,13 +1,15 @@
 /* Lanes: cs_vfloat, cs_vint, cs_vuint hold one value for each of the CS_PACKET samples of a packet.
  *
  * Conditions are cs_vint "masks", made by comparisons only and used by cs_any and the ternary
- * operator only: a true lane is 1 for one lane and -1 for several. Shared: at width 1 this is plain
+ * operator only: a true lane is 1 for one lane and -1 for several. At width 1 this is plain
  * C. */
-#ifndef CS_PACKET_H
-#define CS_PACKET_H
+#ifndef CLSHEAR_DEVICE_PACKET_H
+#define CLSHEAR_DEVICE_PACKET_H
 
 #include "constants.h"
 #include "dialect.h"
+
+#include "fp_contract_off.h"
 
 #ifdef CS_DEVICE
 
@@ -194,5 +196,7 @@ static inline cs_i32 cs_reduce_max(cs_vint x)
 }
 
 #endif
+
+#include "fp_contract_restore.h"
 
 #endif

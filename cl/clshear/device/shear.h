@@ -1,5 +1,5 @@
 /* Shears: measure-preserving maps of a tuple ((a, b), (c, d)) in [0, 1)^4 to a point of the pixel
- * and a point of the lens. Shared.
+ * and a point of the lens.
  *
  * A surface at one depth shows the same point along the fibres x + s * u = const of the (pixel,
  * lens) domain, where s, in pixels per unit of aperture width, is the signed circle of confusion
@@ -10,14 +10,16 @@
  *
  * Pixel coordinates are in [0, 1). Lens coordinates are centred: the square [-1/2, 1/2]^2 or the
  * disk of area 1. */
-#ifndef CS_SHEAR_H
-#define CS_SHEAR_H
+#ifndef CLSHEAR_DEVICE_SHEAR_H
+#define CLSHEAR_DEVICE_SHEAR_H
 
 #include "camera.h"
 #include "camera_sample.h"
 #include "disk_map.h"
 #include "fibre.h"
 #include "packet.h"
+
+#include "fp_contract_off.h"
 
 /* One axis of the equal-area map for a pixel of width 1 and a blur of width `blur` > 0: `across` in
  * [0, 1) picks the fibre, `along` in [0, 1) the place on it; returns x in [0, 1] through `x` and
@@ -207,5 +209,7 @@ static inline cs_camera_sample cs_shear(cs_vfloat a, cs_vfloat b, cs_vfloat c, c
     cs_shear_together(&point, &shear, 1, mode, optics);
     return point;
 }
+
+#include "fp_contract_restore.h"
 
 #endif

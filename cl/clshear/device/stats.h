@@ -1,8 +1,10 @@
-/* Running moments: count, mean and sum of squared deviations. Shared. */
-#ifndef CS_STATS_H
-#define CS_STATS_H
+/* Running moments: count, mean and sum of squared deviations. */
+#ifndef CLSHEAR_DEVICE_STATS_H
+#define CLSHEAR_DEVICE_STATS_H
 
 #include "dialect.h"
+
+#include "fp_contract_off.h"
 
 typedef struct cs_moments {
     cs_f32 count;
@@ -52,5 +54,7 @@ static inline cs_exact_sum cs_exact_add(cs_exact_sum total, cs_f32 value)
     next.carry = carry - (next.sum - sum);
     return next;
 }
+
+#include "fp_contract_restore.h"
 
 #endif

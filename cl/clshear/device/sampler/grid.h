@@ -1,13 +1,15 @@
-/* The grid under a stratified pattern, and the orders in which its cells are walked. Shared.
+/* The grid under a stratified pattern, and the orders in which its cells are walked.
  *
  * A pattern of N points lies on a grid of `columns` columns; rows are bands of `columns` strata of
  * height 1/N. For N that is not columns * rows, the last row is partial: its `extra` points go to
  * columns spread evenly, which are one stratum wider. */
-#ifndef CS_GRID_H
-#define CS_GRID_H
+#ifndef CLSHEAR_DEVICE_SAMPLER_GRID_H
+#define CLSHEAR_DEVICE_SAMPLER_GRID_H
 
 #include "../hash.h"
 #include "../packet.h"
+
+#include "../fp_contract_off.h"
 
 /* The grid of a pattern: everything about N that need not be computed for each sample. */
 typedef struct cs_grid {
@@ -153,5 +155,7 @@ static inline cs_vfloat cs_in_stratum(const cs_grid *grid, cs_vuint stratum, cs_
     cs_vfloat jitter = (cs_to_vfloat(bits16 >> grid->jitter_shift) + 0.5f) * grid->jitter_scale;
     return (cs_to_vfloat(stratum) + jitter) * grid->inverse_count;
 }
+
+#include "../fp_contract_restore.h"
 
 #endif

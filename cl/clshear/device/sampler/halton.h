@@ -1,8 +1,10 @@
-/* The scrambled Halton sequence. Shared. */
-#ifndef CS_HALTON_H
-#define CS_HALTON_H
+/* The scrambled Halton sequence. */
+#ifndef CLSHEAR_DEVICE_SAMPLER_HALTON_H
+#define CLSHEAR_DEVICE_SAMPLER_HALTON_H
 
 #include "net.h"
+
+#include "../fp_contract_off.h"
 
 /* Digits of the bases 3, 5 and 7 that number CS_MAX_PATTERN elements, and bits for each in a row.
  */
@@ -61,5 +63,7 @@ static inline void cs_draw_halton(const cs_pattern *pattern, cs_sample_table row
                        7u, CS_HALTON_BITS7, used[3], CS_HALTON_DIGITS7);
     if (pairs > CS_PAIR_EMITTER) cs_draw_shuffled_pair(element, key, CS_PAIR_EMITTER, tuple);
 }
+
+#include "../fp_contract_restore.h"
 
 #endif

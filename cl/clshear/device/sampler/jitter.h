@@ -1,8 +1,10 @@
-/* Patterns with one random point in each stratum: 1D, 2D and 4D strata, and none. Shared. */
-#ifndef CS_JITTER_H
-#define CS_JITTER_H
+/* Patterns with one random point in each stratum: 1D, 2D and 4D strata, and none. */
+#ifndef CLSHEAR_DEVICE_SAMPLER_JITTER_H
+#define CLSHEAR_DEVICE_SAMPLER_JITTER_H
 
 #include "pattern.h"
+
+#include "../fp_contract_off.h"
 
 /* Independent points. Element numbers, not sample numbers: the sequence can go on. */
 static inline void cs_draw_random(const cs_pattern *pattern, cs_sample_table rows, cs_u32 key,
@@ -78,5 +80,7 @@ static inline void cs_draw_nrooks(const cs_pattern *pattern, cs_sample_table row
         tuple[d] = cs_in_stratum(grid, stratum, cs_key_lanes(~dimension_key, stratum) >> 16);
     }
 }
+
+#include "../fp_contract_restore.h"
 
 #endif

@@ -1,11 +1,11 @@
-/* The table of samplers: command line, library, kernels and tests are all made from it. Shared.
+/* The table of samplers: command line, library, kernels and tests are all made from it.
  *
  * X(identifier, name, draw, counts, rows, progressive, about)
  * draw: cs_draw_<draw> makes tuples, in this folder. counts, rows: which numbers of samples there
  * are and what the host prepares, host/pattern/. progressive: its first n samples do not depend on
  * how many follow. */
-#ifndef CS_SAMPLER_LIST_H
-#define CS_SAMPLER_LIST_H
+#ifndef CLSHEAR_DEVICE_SAMPLER_LIST_H
+#define CLSHEAR_DEVICE_SAMPLER_LIST_H
 
 #define CS_SAMPLER_LIST(X)                                                                       \
     X(RANDOM, "random", random, any, none, 1, "independent points")                              \

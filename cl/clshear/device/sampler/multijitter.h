@@ -1,4 +1,4 @@
-/* Multi-jittered pairs of any count. Shared.
+/* Multi-jittered pairs of any count.
  *
  * With N = columns * rows: one point in each cell of the grid, one in each of the N strata of x and
  * of y. `mj` has an independent permutation for every column and every row (Chiu, Shirley & Wang
@@ -9,10 +9,12 @@
  * `oa` is `mj` with the second pair's cell chosen by an orthogonal array instead of at random: with
  * N = q^2 runs of levels (i, j, i + j, i + a j) of the field of q elements, every two coordinates
  * have one point in each of q x q cells (Bose 1938; Jarosz et al. 2019, section 4). */
-#ifndef CS_MULTIJITTER_H
-#define CS_MULTIJITTER_H
+#ifndef CLSHEAR_DEVICE_SAMPLER_MULTIJITTER_H
+#define CLSHEAR_DEVICE_SAMPLER_MULTIJITTER_H
 
 #include "pattern.h"
+
+#include "../fp_contract_off.h"
 
 /* The point of `cell`, in [0, 1)^2, of the pair named by `key`. */
 static inline cs_pair cs_multijitter(const cs_grid *grid, cs_cell cell, cs_u32 key, int correlated)
@@ -127,5 +129,7 @@ static inline void cs_draw_strong_array(const cs_pattern *pattern, cs_sample_tab
     tuple[4] = point.x;
     tuple[5] = point.y;
 }
+
+#include "../fp_contract_restore.h"
 
 #endif

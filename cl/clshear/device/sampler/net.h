@@ -1,12 +1,14 @@
-/* Digital nets and sequences in base 2, scrambled. Shared.
+/* Digital nets and sequences in base 2, scrambled.
  *
  * Rows hold coordinates as 32 bits in reverse, most significant digit lowest. In that form nested
  * uniform (Owen) scrambling is a hash whose bits depend on lower bits only, and the element number
  * is the van der Corput coordinate itself. */
-#ifndef CS_NET_H
-#define CS_NET_H
+#ifndef CLSHEAR_DEVICE_SAMPLER_NET_H
+#define CLSHEAR_DEVICE_SAMPLER_NET_H
 
 #include "pattern.h"
+
+#include "../fp_contract_off.h"
 
 /* Nested uniform scrambling of reversed digits: the hash of Laine & Karras 2011 with constants by
  * N. Vegdahl ("Building a Better LK Hash", 2021), as Burley 2020 uses it. `seed` is a hash. */
@@ -81,5 +83,7 @@ static inline void cs_draw_net_pairs(const cs_pattern *pattern, cs_sample_table 
     for (cs_u32 pair = 1u; pair < pairs; pair++)
         cs_draw_shuffled_pair(element, key, pair, tuple);
 }
+
+#include "../fp_contract_restore.h"
 
 #endif

@@ -1,12 +1,14 @@
-/* A pattern: the tuples of one pixel, named by a sampler and a number of samples. Shared.
+/* A pattern: the tuples of one pixel, named by a sampler and a number of samples.
  *
  * What the samplers draw from: the pattern's constants, a table of rows that the host prepared for
  * every pixel alike, and a key that makes each pixel's pattern its own. */
-#ifndef CS_PATTERN_H
-#define CS_PATTERN_H
+#ifndef CLSHEAR_DEVICE_SAMPLER_PATTERN_H
+#define CLSHEAR_DEVICE_SAMPLER_PATTERN_H
 
 #include "grid.h"
 #include "list.h"
+
+#include "../fp_contract_off.h"
 
 enum {
     CS_DIMENSIONS = 6, /* of a tuple: film, lens, and a pair for the light */
@@ -88,5 +90,7 @@ static inline cs_vfloat cs_unit(cs_vuint bits)
 {
     return cs_to_vfloat(bits >> 8) * 0x1p-24f;
 }
+
+#include "../fp_contract_restore.h"
 
 #endif

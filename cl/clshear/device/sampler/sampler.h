@@ -1,15 +1,17 @@
-/* From (seed, pixel, replicate, index) to a tuple: the samplers' common front. Shared.
+/* From (seed, pixel, replicate, index) to a tuple: the samplers' common front.
  *
  * Every coordinate is a pure function of those four numbers, whatever the order, the work-group or
  * the device in which it is asked for. */
-#ifndef CS_SAMPLER_H
-#define CS_SAMPLER_H
+#ifndef CLSHEAR_DEVICE_SAMPLER_SAMPLER_H
+#define CLSHEAR_DEVICE_SAMPLER_SAMPLER_H
 
 #include "halton.h"
 #include "jitter.h"
 #include "multijitter.h"
 #include "net.h"
 #include "shifted.h"
+
+#include "../fp_contract_off.h"
 
 static inline cs_u32 cs_pattern_key(cs_u32 seed, cs_u32 pixel, cs_u32 replicate)
 {
@@ -44,5 +46,7 @@ static inline void cs_draw(const cs_pattern *pattern, cs_sample_table rows, cs_u
     }
 #undef CS_SAMPLER_CASE
 }
+
+#include "../fp_contract_restore.h"
 
 #endif

@@ -1,9 +1,11 @@
 /* Point sets prepared on the host and shifted on the torus by a random vector for each pixel
- * (Cranley & Patterson 1976). Shared. Rows hold coordinates in units of 2^-32. */
-#ifndef CS_SHIFTED_H
-#define CS_SHIFTED_H
+ * (Cranley & Patterson 1976). Rows hold coordinates in units of 2^-32. */
+#ifndef CLSHEAR_DEVICE_SAMPLER_SHIFTED_H
+#define CLSHEAR_DEVICE_SAMPLER_SHIFTED_H
 
 #include "pattern.h"
+
+#include "../fp_contract_off.h"
 
 static inline cs_vfloat cs_shifted(cs_vuint word, cs_u32 key, cs_u32 dimension)
 {
@@ -38,5 +40,7 @@ static inline void cs_draw_point_set(const cs_pattern *pattern, cs_sample_table 
     for (cs_u32 pair = 1u; pair < pairs; pair++)
         cs_draw_partner(pattern, rows, key, index, pair, tuple);
 }
+
+#include "../fp_contract_restore.h"
 
 #endif
