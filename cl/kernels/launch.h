@@ -6,7 +6,8 @@
 #include "clshear/device/sampler/sampler.h"
 
 enum {
-    CS_POINT_VALUES = CS_DIMENSIONS + 4 /* that the points kernel writes for each sample */
+    /* Floats that the points kernel writes for each sample: the tuple, then x, y, u, v. */
+    CS_POINT_VALUES = CS_DIMENSIONS + CS_MAIN_DIMENSIONS
 };
 
 typedef struct cs_launch {

@@ -72,7 +72,7 @@ clshear_status cs_optics_make(const clshear_camera *camera, clshear_filter filte
     CS_TRY(make_aperture(camera, tables, error));
     optics->aperture = (cs_u32)camera->aperture;
     optics->squeeze = 1.0f / anamorphic;
-    optics->closed =
+    optics->has_closed_form =
         filter == CLSHEAR_FILTER_BOX && optics->filter_width == 1.0f &&
         (camera->aperture == CLSHEAR_APERTURE_DISK || camera->aperture == CLSHEAR_APERTURE_SQUARE);
 done:

@@ -105,7 +105,7 @@ static clshear_status make_camera(cs_job *job, cs_error *error)
     const clshear_options *options = &job->options;
     CS_TRY(
         cs_optics_make(&job->lens, options->filter, options->filter_width_px, &job->optics, error));
-    CS_REQUIRE(options->shear != CLSHEAR_SHEAR_TOROIDAL || job->optics.optics.closed,
+    CS_REQUIRE(options->shear != CLSHEAR_SHEAR_TOROIDAL || job->optics.optics.has_closed_form,
                CLSHEAR_BAD_ARGUMENT,
                "the toroidal shear knows square and disk apertures and box filters 1 px wide only; "
                "use equal-area");

@@ -25,7 +25,7 @@ enum {
  * is cs_camera.aperture_width. */
 typedef struct cs_optics {
     cs_u32 aperture;         /* CS_APERTURE_ */
-    cs_u32 closed;           /* box filter one pixel wide, square or disk: maps in closed form */
+    cs_u32 has_closed_form;  /* box filter one pixel wide, square or disk: maps in closed form */
     cs_f32 squeeze;          /* width of the aperture as a part of what its shape says */
     cs_u32 filter_steps;     /* the filter is constant on each of these parts of its width */
     cs_f32 filter_width;     /* px */

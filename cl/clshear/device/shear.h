@@ -98,7 +98,7 @@ static inline cs_camera_sample cs_unsheared(cs_vfloat a, cs_vfloat b, cs_vfloat 
     point.u = c - 0.5f;
     point.v = d - 0.5f;
     if (optics->aperture == CS_APERTURE_DISK) cs_disk_from_square(&point.u, &point.v);
-    if (optics->closed) return point;
+    if (optics->has_closed_form) return point;
     point.x = cs_filter_quantile(optics, table, a) + 0.5f;
     point.y = cs_filter_quantile(optics, table, b) + 0.5f;
     if (optics->aperture == CS_APERTURE_DISK || optics->aperture == CS_APERTURE_SQUARE)
@@ -151,7 +151,8 @@ static inline cs_camera_sample cs_toroidal(cs_vfloat a, cs_vfloat b, cs_vfloat c
 /* Whether the map is the disk's own, which takes packets together. */
 static inline int cs_shears_together(cs_u32 mode, const cs_optics *optics)
 {
-    return mode == CS_SHEAR_EQUAL_AREA && optics->closed && optics->aperture == CS_APERTURE_DISK;
+    return mode == CS_SHEAR_EQUAL_AREA && optics->has_closed_form &&
+           optics->aperture == CS_APERTURE_DISK;
 }
 
 /* Rounding may leave what the filter reaches. */
@@ -176,7 +177,7 @@ static inline cs_camera_sample cs_shear_alone(cs_camera_sample p, cs_u32 mode,
         p = cs_unsheared(p.x, p.y, p.u, p.v, optics, table);
     else if (mode == CS_SHEAR_TOROIDAL)
         p = cs_toroidal(p.x, p.y, p.u, p.v, optics, table, shear);
-    else if (!optics->closed)
+    else if (!optics->has_closed_form)
         p = cs_equal_area_any(p.x, p.y, p.u, p.v, optics, table, blur);
     else
         p = cs_equal_area_square(p.x, p.y, p.u, p.v, blur);
