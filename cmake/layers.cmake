@@ -17,7 +17,8 @@ set(floor_host/analysis 7)
 set(floor_host/accel 7)
 set(floor_host/oracle 8)
 set(floor_host/render 9)
-set(floor_host/cli 10)
+set(floor_host/api 10)
+set(floor_host/cli 11)
 
 # Folder of a file named relative to the root, without the file's name.
 function(folder_of name result)

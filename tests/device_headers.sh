@@ -1,6 +1,6 @@
 #!/bin/bash
-# Every header of cl/clshear/device compiles when it is the only one included, as C17, C++17, OpenCL C
-# 1.2 and 3.0; none of them defines a name without a prefix, and none changes the arithmetic of the
+# Every header of cl/clshear/device compiles when it is the only one included, without any include
+# path, as C17, C++17, OpenCL C 1.2 and 3.0; none of them defines a name without a prefix, and none changes the arithmetic of the
 # code behind it. Without clang only the host's half is checked, and the result is "skipped".
 set -eu
 root=$1/cl
@@ -19,18 +19,18 @@ cpp="-x c++ -std=c++17 -Wall -Wextra -Wpedantic -Werror -ffp-contract=off -fsynt
 opencl="-x cl -Wall -Wextra -Werror -Xclang -finclude-default-header -fsyntax-only"
 for header in $headers; do
     only=$scratch/only.c
-    printf '#include "%s"\nvoid something(void);\n' "$header" >"$only"
+    printf '#include "%s"\nvoid something(void);\n' "$PWD/$header" >"$only"
     # shellcheck disable=SC2086
     {
-        gcc $c -I . "$only"
-        g++ $cpp -I . "$only"
+        gcc $c "$only"
+        g++ $cpp "$only"
         [ -n "$clang" ] || continue
-        "$clang" $c -I . "$only"
+        "$clang" $c "$only"
         for width in 1 4 8 16; do
-            "$clang" $opencl -cl-std=CL1.2 -DCS_PACKET=$width -I . "$only"
+            "$clang" $opencl -cl-std=CL1.2 -DCS_PACKET=$width "$only"
         done
-        "$clang" $opencl -cl-std=CL1.2 -I . "$only"
-        "$clang" $opencl -cl-std=CL3.0 -DCS_PACKET=8 -I . "$only"
+        "$clang" $opencl -cl-std=CL1.2 "$only"
+        "$clang" $opencl -cl-std=CL3.0 -DCS_PACKET=8 "$only"
     }
 done
 
