@@ -12,21 +12,22 @@
 
 #include "fp_contract_off.h"
 
-/* Half the chord at distance `place` from the centre; 0 outside the disk. */
+/* Half the chord at signed distance `place` from the centre; 0 outside the disk. */
 CS_INLINED cs_vfloat cs_disk_chord(cs_vfloat place)
 {
     cs_vfloat square = (CS_DISK_RADIUS - place) * (CS_DISK_RADIUS + place);
     return cs_sqrt(cs_max(square, (cs_vfloat)(0.0f)));
 }
 
-/* The disk between u = low and u = high, with the half-chords there. */
+/* The part of the disk between two values of u. */
 typedef struct cs_disk_slab {
-    cs_vfloat low;
-    cs_vfloat high;
-    cs_vfloat low_chord;
-    cs_vfloat high_chord;
+    cs_vfloat low;        /* smaller u */
+    cs_vfloat high;       /* larger u */
+    cs_vfloat low_chord;  /* half the chord at `low` */
+    cs_vfloat high_chord; /* half the chord at `high` */
 } cs_disk_slab;
 
+/* The slab from `low` to `high`, both in the disk, low <= high. */
 CS_INLINED cs_disk_slab cs_disk_slab_of(cs_vfloat low, cs_vfloat high)
 {
     cs_disk_slab slab;
@@ -61,7 +62,7 @@ typedef struct cs_disk_cap {
     cs_vfloat moment; /* integral of max(c - height, 0)^2 / 2 du */
 } cs_disk_cap;
 
-/* The moment of a segment about v = 0 is chord^2 * width / 12. */
+/* The cap of a slab above `height`. The moment of a segment about v = 0 is chord^2 * width / 12. */
 CS_INLINED cs_disk_cap cs_disk_cap_of(cs_disk_slab slab, cs_vfloat height)
 {
     cs_vfloat reach = cs_disk_chord(height);
@@ -103,6 +104,8 @@ CS_INLINED cs_vfloat cs_disk_slab_guess(cs_vfloat mass, cs_disk_slab slab, cs_f3
     return cs_trapezoid_fibre(mass, side);
 }
 
+/* A better t; `mass_root` is sqrt(mass), `half_slab` the area of the slab's upper half. `rough`
+ * receives the mask of lanes that want another step. */
 CS_INLINED cs_vfloat cs_disk_slab_step(cs_vfloat t, cs_vfloat mass_root, cs_disk_slab slab,
                                        cs_vfloat half_slab, cs_f32 blur, cs_vint *rough)
 {
@@ -122,14 +125,15 @@ CS_INLINED cs_vfloat cs_disk_slab_step(cs_vfloat t, cs_vfloat mass_root, cs_disk
     return cs_clamp(t - step.back, (cs_vfloat)(least), (cs_vfloat)(0.0f));
 }
 
-/* What is seen of a slab along the fibres at t_y <= 0: bottom < v < top. */
+/* The part of a slab that fibres at one t_y <= 0 see: bottom < v < top. */
 typedef struct cs_disk_window {
     cs_disk_slab slab;
-    cs_vfloat bottom;
-    cs_vfloat top;
-    cs_f32 blur;
+    cs_vfloat bottom; /* (t_y - 1/2) / blur */
+    cs_vfloat top;    /* (t_y + 1/2) / blur */
+    cs_f32 blur;      /* pixels per lens unit */
 } cs_disk_window;
 
+/* Area of the window; `half_slab` is the area of the slab's upper half. */
 CS_INLINED cs_vfloat cs_disk_window_area(cs_disk_window window, cs_vfloat half_slab)
 {
     cs_vfloat above = cs_disk_cap_of(window.slab, cs_abs(window.top)).area;
@@ -149,7 +153,7 @@ CS_INLINED cs_vfloat cs_disk_window_height(cs_disk_window window, cs_vfloat chor
  * share below 5e-6, but for one tuple in a thousand, mostly in corners cut by the disk's edge,
  * where it is below 2e-4. */
 
-/* Heights linear between both ends and the middle. */
+/* First guess of that u: the height as linear between both ends and the middle. */
 CS_INLINED cs_vfloat cs_disk_window_guess(cs_vfloat mass, cs_disk_window window)
 {
     cs_vfloat extent = 0.5f * (window.slab.high - window.slab.low);
@@ -166,6 +170,8 @@ CS_INLINED cs_vfloat cs_disk_window_guess(cs_vfloat mass, cs_disk_window window)
     return (left ? window.slab.low : middle) + extent * rest / (start + root);
 }
 
+/* A better u; `mass_root` is sqrt(mass), `area` the window's. `rough` receives the mask of lanes
+ * that want another step. */
 CS_INLINED cs_vfloat cs_disk_window_step(cs_vfloat u, cs_vfloat mass_root, cs_disk_window window,
                                          cs_vfloat area, cs_vint *rough)
 {

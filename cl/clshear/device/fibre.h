@@ -12,7 +12,8 @@
 
 #include "fp_contract_off.h"
 
-/* The x with P(X < x) = mass, centred. */
+/* The place x, in pixels from the pixel's centre, with P(X < x) = mass, for X distributed as the
+ * pixel filter and mass in [0, 1]. */
 CS_INLINED cs_vfloat cs_filter_quantile(const cs_optics *optics, cs_optics_table table,
                                         cs_vfloat mass)
 {
@@ -30,20 +31,23 @@ CS_INLINED cs_vfloat cs_filter_quantile(const cs_optics *optics, cs_optics_table
     return start + cs_min(rest / density, (cs_vfloat)(step));
 }
 
+/* One axis of film and lens. */
 typedef struct cs_fibre_axis {
-    const cs_optics *optics;
-    cs_optics_table table;
-    const cs_marginal *marginal;
-    cs_vfloat blur; /* above 0 */
-    cs_vfloat inverse;
+    const cs_optics *optics;     /* whose filter X has */
+    cs_optics_table table;       /* the lens table of the optics */
+    const cs_marginal *marginal; /* distribution of U */
+    cs_vfloat blur;              /* pixels per unit of U, CS_LEAST_BLUR or more */
+    cs_vfloat inverse;           /* 1 / blur */
 } cs_fibre_axis;
 
+/* The distribution of T at a place t. */
 typedef struct cs_fibre_mass {
-    cs_vfloat below; /* P(T < t) */
-    cs_vfloat density;
-    cs_vfloat slope; /* of the density */
+    cs_vfloat below;   /* P(T < t) */
+    cs_vfloat density; /* per pixel */
+    cs_vfloat slope;   /* derivative of the density */
 } cs_fibre_mass;
 
+/* The distribution of T at any t. */
 CS_INLINED cs_fibre_mass cs_fibre_at(const cs_fibre_axis *axis, cs_vfloat t)
 {
     const cs_optics *optics = axis->optics;
@@ -67,14 +71,14 @@ CS_INLINED cs_fibre_mass cs_fibre_at(const cs_fibre_axis *axis, cs_vfloat t)
     return mass;
 }
 
-/* What the quantiles of film and lens allow for that of their sum, and a guess that would be exact
- * for normal distributions. */
+/* Where the quantile of T must lie. */
 typedef struct cs_fibre_guess {
-    cs_vfloat low;
-    cs_vfloat high;
-    cs_vfloat t;
+    cs_vfloat low;  /* lower bound, from the bounds of film and lens */
+    cs_vfloat high; /* upper bound */
+    cs_vfloat t;    /* a guess that would be exact for normal distributions */
 } cs_fibre_guess;
 
+/* The bounds and the guess of the t with P(T < t) = mass, for mass in [0, 1]. */
 CS_INLINED cs_fibre_guess cs_fibre_guess_at(const cs_fibre_axis *axis, cs_vfloat mass)
 {
     const cs_optics *optics = axis->optics;
@@ -138,8 +142,8 @@ CS_INLINED cs_vfloat cs_fibre_quantile_any(const cs_fibre_axis *axis, cs_vfloat 
     return guess.t;
 }
 
-/* Where on the fibre t: returns the lens coordinate, and x through `x`. `along` in [0, 1) chooses
- * the filter's step and then the place on it. */
+/* The place on fibre t that `along`, in [0, 1), chooses: first the filter's step, then the place on
+ * it. Returns the lens coordinate; `x` receives the film's, in pixels from the pixel's centre. */
 CS_INLINED cs_vfloat cs_fibre_place(const cs_fibre_axis *axis, cs_vfloat t, cs_vfloat along,
                                     cs_vfloat *x)
 {
@@ -173,6 +177,7 @@ CS_INLINED cs_vfloat cs_fibre_place(const cs_fibre_axis *axis, cs_vfloat t, cs_v
     return lens;
 }
 
+/* One axis of the equal-area map for a shear that is not negative. */
 CS_INLINED cs_vfloat cs_fibre_map_known(const cs_fibre_axis *axis, cs_vfloat across,
                                         cs_vfloat along, cs_vfloat *x)
 {
@@ -182,8 +187,10 @@ CS_INLINED cs_vfloat cs_fibre_map_known(const cs_fibre_axis *axis, cs_vfloat acr
     return cs_fibre_place(axis, t, along, x);
 }
 
-/* One axis of the map for a signed shear. Loops over the filter's steps are compiled for each kind
- * of marginal by itself. */
+/* One axis of the equal-area map. `across` and `along`, in [0, 1), choose the fibre and the place
+ * on it; `negative` is not 0 for a negative shear. Returns the lens coordinate; `x` receives the
+ * film's, in pixels from the pixel's centre. The assignments of a kind to itself make it a
+ * constant, so that compilers compile the loops over the filter's steps for each kind by itself. */
 CS_INLINED cs_vfloat cs_fibre_map(cs_fibre_axis axis, cs_vfloat across, cs_vfloat along,
                                   int negative, cs_vfloat *x)
 {

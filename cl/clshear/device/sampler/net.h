@@ -22,6 +22,7 @@ static inline cs_vuint cs_scramble_reversed(cs_vuint digits, cs_u32 seed)
     return digits;
 }
 
+/* The 32 bits of x in reverse order. */
 static inline cs_vuint cs_reverse_bits(cs_vuint x)
 {
     x = (x >> 16) | (x << 16);
