@@ -140,8 +140,8 @@ CS_INLINED cs_root_step cs_root_step_of(cs_vfloat mass_root, cs_vfloat value, cs
     return step;
 }
 
-/* Below: the t <= 0 with P(X + blur * U < t) = mass, for mass in (0, 1/2], X uniform in [-1/2, 1/2]
- * and U the disk's marginal.
+/* The next functions find the t <= 0 with P(X + blur * U < t) = mass, for mass in (0, 1/2], X
+ * uniform in [-1/2, 1/2] and U the disk's marginal.
  *
  * F(t) = max(t + 1/2, 0) + blur * (E((t + 1/2) / blur) - E((t - 1/2) / blur)), E the excess above.
  * The guess is a square aperture with the disk's variance, or for wide blurs, where the pixel

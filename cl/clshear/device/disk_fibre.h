@@ -89,8 +89,8 @@ CS_INLINED cs_disk_cap cs_disk_cap_below(cs_disk_slab slab, cs_vfloat bottom, cs
     return blur > 0.886f ? cs_disk_cap_of(slab, -bottom) : none;
 }
 
-/* Below: the t <= 0 with P(Y + blur * V < t) = mass, for mass in (0, 1/2] and (U, V) uniform on a
- * slab whose upper half has area `half_slab`: t_y given t_x.
+/* The next functions find t_y for a given t_x: the t <= 0 with P(Y + blur * V < t) = mass, for mass
+ * in (0, 1/2] and (U, V) uniform on a slab whose upper half has area `half_slab`.
  *
  * F(t) = max(t + 1/2, 0) + blur * (M((t + 1/2) / blur) - M((t - 1/2) / blur)) / (2 * half_slab),
  * M(q) the moment of the cap above |q|. The guess takes V as uniform with about its variance. One
@@ -148,10 +148,10 @@ CS_INLINED cs_vfloat cs_disk_window_height(cs_disk_window window, cs_vfloat chor
     return cs_max(height, (cs_vfloat)(0.0f));
 }
 
-/* Below: the u with the share `mass` <= 1/2 of the window's area on its left; in the area's second
- * derivative those of the window's two sides count that are arcs. Two steps leave an error of the
- * share below 5e-6, but for one tuple in a thousand, mostly in corners cut by the disk's edge,
- * where it is below 2e-4. */
+/* The next functions find the u that has the share `mass`, at most 1/2, of the window's area on its
+ * left. In the area's second derivative, only those of the window's two sides count that are arcs.
+ * Two steps leave an error of the share below 5e-6, but for one tuple in a thousand, mostly in
+ * corners cut by the disk's edge, where it is below 2e-4. */
 
 /* First guess of that u: the height as linear between both ends and the middle. */
 CS_INLINED cs_vfloat cs_disk_window_guess(cs_vfloat mass, cs_disk_window window)
