@@ -9,7 +9,8 @@ ln -s "$build" "$scratch/build"
 ln -s "$root/scenes" "$scratch/scenes"
 cd "$scratch"
 
-grep -h '^    build/' "$root"/README.md "$root"/docs/*.md "$root"/scenes/README.md | while read -r command; do
+grep -h '^    build/' "$root"/README.md "$root"/docs/*.md "$root"/docs/guide/*.md \
+    "$root"/scenes/README.md | while read -r command; do
     echo "+ $command"
     # A picture of documentation size is not what is tested here.
     case $command in *bench* | *points* | *slice* | *--list* | *"--extend "*) bash -c "$command" ;; *) bash -c "$command --spp 8 --quiet" ;; esac
@@ -39,7 +40,15 @@ export PKG_CONFIG_PATH
 cc readme.c -o packaged $(pkg-config --cflags --libs clshear)
 LD_LIBRARY_PATH=$(pkg-config --variable=libdir clshear) ./packaged
 
-for document in "$root"/README.md "$root"/docs/*.md "$root"/scenes/README.md; do
+# The patch that shows how to add a sampler still fits.
+mkdir -p patched/cl/clshear
+cp -r "$root/cl/clshear/device" patched/cl/clshear
+awk '/^```diff$/ { inside = 1; next } /^```/ { inside = 0 } inside' \
+    "$root/docs/guide/adding-a-sampler.md" | patch --directory patched --strip 1 --fuzz 0
+printf '#include "clshear/device/sampler/sampler.h"\n' >sampler.c
+cc -std=c17 -Wall -Wextra -Werror -fsyntax-only -I patched/cl sampler.c
+
+for document in "$root"/README.md "$root"/docs/*.md "$root"/docs/guide/*.md "$root"/scenes/README.md; do
     folder=$(dirname "$document")
     grep -o '](\([^)#]*\))' "$document" | tr -d '()]' | while read -r link; do
         case $link in http*) continue ;; esac
