@@ -83,6 +83,48 @@ static cl_kernel build(cl_context context, cl_device_id device)
     return kernel;
 }
 
+static void open_device(cl_device_id *device, cl_context *context, cl_command_queue *queue)
+{
+    cl_platform_id platform;
+    cl_int code;
+    check_cl(clGetPlatformIDs(1, &platform, NULL), "platform");
+    check_cl(clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 1, device, NULL), "device");
+    *context = clCreateContext(NULL, 1, device, NULL, NULL, &code);
+    check_cl(code, "context");
+    *queue = clCreateCommandQueue(*context, *device, 0, &code);
+    check_cl(code, "queue");
+}
+
+/* Arguments 0 to 3: the samples of a pixel, then a camera with a six-bladed lens. The buffers must
+ * live as long as the kernel is run. */
+static void set_words(cl_context context, cl_kernel kernel, cl_mem *sample_table,
+                      cl_mem *lens_table)
+{
+    static const float look_at[9] = {0, 0, 0, 0, 0, -1, 0, 1, 0};
+    clshear_pattern *pattern = NULL;
+    clshear_lens *lens = NULL;
+    cs_pattern constants;
+    cs_camera camera;
+    size_t words, floats;
+    check(clshear_pattern_create("sz", SAMPLES, CLSHEAR_ORDER_COHERENT, &pattern));
+    check(clshear_pattern_constants(pattern, &constants, sizeof constants));
+    check(clshear_lens_create(&lens));
+    check(clshear_lens_set_aperture(lens, "polygon", 6, 0.0f));
+    check(clshear_lens_set_focus(lens, 0.2f, 4.0f));
+    check(
+        clshear_lens_camera(lens, look_at, 40.0f, IMAGE_SIDE, IMAGE_SIDE, &camera, sizeof camera));
+    const uint32_t *sample_words = clshear_pattern_table(pattern, &words);
+    const float *lens_floats = clshear_lens_table(lens, &floats);
+    *sample_table = buffer_of(context, sample_words, words * sizeof *sample_words);
+    *lens_table = buffer_of(context, lens_floats, floats * sizeof *lens_floats);
+    check_cl(clSetKernelArg(kernel, 0, sizeof constants, &constants), "argument");
+    check_cl(clSetKernelArg(kernel, 1, sizeof(cl_mem), sample_table), "argument");
+    check_cl(clSetKernelArg(kernel, 2, sizeof camera, &camera), "argument");
+    check_cl(clSetKernelArg(kernel, 3, sizeof(cl_mem), lens_table), "argument");
+    clshear_lens_free(lens);
+    clshear_pattern_free(pattern);
+}
+
 /* Runs the kernel and prints mean and variance of the pixel; returns the variance. */
 static double measure(cl_command_queue queue, cl_kernel kernel, cl_mem means, cl_uint mode)
 {
@@ -106,41 +148,17 @@ static double measure(cl_command_queue queue, cl_kernel kernel, cl_mem means, cl
 
 int main(void)
 {
-    static const float look_at[9] = {0, 0, 0, 0, 0, -1, 0, 1, 0};
-    clshear_pattern *pattern = NULL;
-    clshear_lens *lens = NULL;
-    cs_pattern constants;
-    cs_camera camera;
-    size_t words, floats;
-    check(clshear_pattern_create("sz", SAMPLES, CLSHEAR_ORDER_COHERENT, &pattern));
-    check(clshear_pattern_constants(pattern, &constants, sizeof constants));
-    check(clshear_lens_create(&lens));
-    check(clshear_lens_set_aperture(lens, "polygon", 6, 0.0f));
-    check(clshear_lens_set_focus(lens, 0.2f, 4.0f));
-    check(
-        clshear_lens_camera(lens, look_at, 40.0f, IMAGE_SIDE, IMAGE_SIDE, &camera, sizeof camera));
-    const uint32_t *sample_words = clshear_pattern_table(pattern, &words);
-    const float *lens_floats = clshear_lens_table(lens, &floats);
-
-    cl_platform_id platform;
     cl_device_id device;
+    cl_context context;
+    cl_command_queue queue;
+    cl_mem sample_table, lens_table;
     cl_int code;
-    check_cl(clGetPlatformIDs(1, &platform, NULL), "platform");
-    check_cl(clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 1, &device, NULL), "device");
-    cl_context context = clCreateContext(NULL, 1, &device, NULL, NULL, &code);
-    check_cl(code, "context");
-    cl_command_queue queue = clCreateCommandQueue(context, device, 0, &code);
-    check_cl(code, "queue");
+    open_device(&device, &context, &queue);
     cl_kernel kernel = build(context, device);
-    cl_mem sample_table = buffer_of(context, sample_words, words * sizeof *sample_words);
-    cl_mem lens_table = buffer_of(context, lens_floats, floats * sizeof *lens_floats);
     cl_mem means =
         clCreateBuffer(context, CL_MEM_WRITE_ONLY, REPLICATES * sizeof(float), NULL, &code);
     check_cl(code, "buffer");
-    check_cl(clSetKernelArg(kernel, 0, sizeof constants, &constants), "argument");
-    check_cl(clSetKernelArg(kernel, 1, sizeof(cl_mem), &sample_table), "argument");
-    check_cl(clSetKernelArg(kernel, 2, sizeof camera, &camera), "argument");
-    check_cl(clSetKernelArg(kernel, 3, sizeof(cl_mem), &lens_table), "argument");
+    set_words(context, kernel, &sample_table, &lens_table);
     check_cl(clSetKernelArg(kernel, 5, sizeof wall_depth, &wall_depth), "argument");
     check_cl(clSetKernelArg(kernel, 6, sizeof(cl_mem), &means), "argument");
 
@@ -154,7 +172,5 @@ int main(void)
     clReleaseKernel(kernel);
     clReleaseCommandQueue(queue);
     clReleaseContext(context);
-    clshear_lens_free(lens);
-    clshear_pattern_free(pattern);
     return sheared < 0.5 * unsheared ? 0 : 1;
 }
