@@ -1,5 +1,7 @@
 #include "device/device.h"
 
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +10,7 @@
 #include "device/program.h"
 
 struct cs_device {
+    pthread_mutex_t lock; /* of programs, kernels and their arguments */
     cl_device_id id;
     cl_context context;
     cl_command_queue queue;
@@ -22,6 +25,7 @@ struct cs_device {
 };
 
 struct cs_buffer {
+    atomic_int references;
     cl_mem memory;
     cl_command_queue queue;
 };
@@ -104,8 +108,7 @@ clshear_status cs_device_open(const char *wanted, int threads, int packet, cs_de
     cl_int code;
     cs_device *device = calloc(1, sizeof *device);
     CS_REQUIRE(device != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    CS_REQUIRE(packet == 0 || packet == 1 || packet == 4 || packet == 8 || packet == 16,
-               CLSHEAR_BAD_ARGUMENT, "packet width %d: must be 1, 4, 8 or 16", packet);
+    pthread_mutex_init(&device->lock, NULL);
     CS_TRY(cs_opencl_find(wanted, &device->id, error));
     cs_opencl_describe(device->id, device->name, device->driver, sizeof device->name);
     CS_TRY(limit_threads(device, threads, error));
@@ -121,7 +124,36 @@ done:
     return status;
 }
 
-clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_error *error)
+clshear_status cs_device_adopt(cl_context context, cl_device_id id, cl_command_queue queue,
+                               int packet, cs_device **result, cs_error *error)
+{
+    cl_uint units = 1;
+    cs_device *device = calloc(1, sizeof *device);
+    if (device == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    pthread_mutex_init(&device->lock, NULL);
+    device->id = id;
+    device->context = context;
+    device->queue = queue;
+    clRetainContext(context);
+    clRetainCommandQueue(queue);
+    cs_opencl_describe(id, device->name, device->driver, sizeof device->name);
+    clGetDeviceInfo(id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
+    device->threads = (int)units;
+    choose_widths(device, packet);
+    *result = device;
+    return CLSHEAR_OK;
+}
+
+void cs_device_objects(const cs_device *device, cl_context *context, cl_device_id *id,
+                       cl_command_queue *queue)
+{
+    if (context != NULL) *context = device->context;
+    if (id != NULL) *id = device->id;
+    if (queue != NULL) *queue = device->queue;
+}
+
+/* With the device locked. */
+static clshear_status prepare(cs_device *device, cs_program program, cs_error *error)
 {
     if (device->programs[program] != NULL) return CLSHEAR_OK;
     clshear_status status = cs_program_build(device->context, device->id, program, device->packet,
@@ -131,6 +163,14 @@ clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_error
         clReleaseProgram(device->programs[program]);
         device->programs[program] = NULL;
     }
+    return status;
+}
+
+clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_error *error)
+{
+    pthread_mutex_lock(&device->lock);
+    const clshear_status status = prepare(device, program, error);
+    pthread_mutex_unlock(&device->lock);
     return status;
 }
 
@@ -144,6 +184,7 @@ void cs_device_close(cs_device *device)
     if (device->queue != NULL) clReleaseCommandQueue(device->queue);
     if (device->context != NULL) clReleaseContext(device->context);
     if (device->is_partition) clReleaseDevice(device->id);
+    pthread_mutex_destroy(&device->lock);
     free(device);
 }
 
@@ -175,6 +216,7 @@ clshear_status cs_buffer_create(cs_device *device, size_t size, const void *init
     cl_ulong limit = 0;
     cs_buffer *buffer = calloc(1, sizeof *buffer);
     CS_REQUIRE(buffer != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    atomic_init(&buffer->references, 1);
     clGetDeviceInfo(device->id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof limit, &limit, NULL);
     if (size < 4) size = 4; /* kernels never look into an absent table, but OpenCL wants one */
     CS_REQUIRE(size <= limit, CLSHEAR_OUT_OF_MEMORY,
@@ -222,19 +264,28 @@ done:
     return status;
 }
 
+cs_buffer *cs_buffer_retain(cs_buffer *buffer)
+{
+    atomic_fetch_add(&buffer->references, 1);
+    return buffer;
+}
+
 void cs_buffer_free(cs_buffer *buffer)
 {
-    if (buffer == NULL) return;
+    if (buffer == NULL || atomic_fetch_sub(&buffer->references, 1) > 1) return;
     if (buffer->memory != NULL) clReleaseMemObject(buffer->memory);
     free(buffer);
 }
 
-clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
-                             const cs_argument *arguments, size_t argument_count, cs_error *error)
+/* Sets the kernel's arguments and starts it, with the device locked: the arguments are the
+ * kernel's, whichever thread set them. */
+static clshear_status start(cs_device *device, cs_kernel kernel, size_t count,
+                            const cs_argument *arguments, size_t argument_count, cl_event *done_at,
+                            cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const char *name = kernel_names[kernel];
-    CS_TRY(cs_device_prepare(device, program_of(kernel), error));
+    CS_TRY(prepare(device, program_of(kernel), error));
     size_t local = device->local_size;
     size_t global = (count + local - 1) / local * local;
     for (cl_uint i = 0; i < argument_count; i++) {
@@ -246,9 +297,24 @@ clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
                   "kernel %s: argument %u is not accepted", name, i);
     }
     CS_OPENCL(clEnqueueNDRangeKernel(device->queue, device->kernels[kernel], 1, NULL, &global,
-                                     &local, 0, NULL, NULL),
+                                     &local, 0, NULL, done_at),
               "kernel %s cannot be started", name);
-    CS_OPENCL(clFinish(device->queue), "kernel %s failed", name);
 done:
+    return status;
+}
+
+clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
+                             const cs_argument *arguments, size_t argument_count, cs_error *error)
+{
+    cl_event done_at = NULL;
+    pthread_mutex_lock(&device->lock);
+    clshear_status status =
+        start(device, kernel, count, arguments, argument_count, &done_at, error);
+    pthread_mutex_unlock(&device->lock);
+    if (status != CLSHEAR_OK) return status;
+    clFlush(device->queue);
+    CS_OPENCL(clWaitForEvents(1, &done_at), "kernel %s failed", kernel_names[kernel]);
+done:
+    clReleaseEvent(done_at);
     return status;
 }

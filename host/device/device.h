@@ -37,7 +37,10 @@ typedef struct cs_argument {
     size_t size;
 } cs_argument;
 
-/* Arguments as in clshear_context_options. Nothing is compiled yet. */
+/* Opens the device that `wanted` names: its number in cs_device_list, or part of its name, case
+ * ignored; NULL: the first. `threads`: compute units of a CPU to use, 0 for all. `packet`: 1, 4, 8
+ * or 16 lanes, 0 for what suits the device. Nothing is compiled yet. All functions of a device may
+ * be called by several threads at the same time. */
 clshear_status cs_device_open(const char *wanted, int threads, int packet, cs_device **device,
                               cs_error *error);
 void cs_device_close(cs_device *device);
@@ -57,6 +60,8 @@ clshear_status cs_buffer_read(const cs_buffer *buffer, size_t offset, size_t siz
                               cs_error *error);
 clshear_status cs_buffer_write(cs_buffer *buffer, size_t offset, size_t size, const void *source,
                                cs_error *error);
+/* Each retain is undone by a cs_buffer_free. */
+cs_buffer *cs_buffer_retain(cs_buffer *buffer);
 void cs_buffer_free(cs_buffer *buffer);
 
 /* Compiles a program, if that is not done yet. Running a kernel of it does so too. */

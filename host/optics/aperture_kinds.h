@@ -11,7 +11,7 @@ clshear_status cs_filter_make(clshear_filter filter, float width_px, cs_optics_t
 /* Append the profiles of a polygon or an image. */
 clshear_status cs_polygon_make(int blades, float rotation_deg, cs_optics_tables *tables,
                                cs_error *error);
-clshear_status cs_aperture_image_make(const clshear_aperture_image *image, cs_optics_tables *tables,
+clshear_status cs_aperture_image_make(const cs_aperture_image *image, cs_optics_tables *tables,
                                       cs_error *error);
 
 #endif

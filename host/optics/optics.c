@@ -5,14 +5,7 @@
 #include "clshear/device/disk.h"
 #include "optics/aperture_kinds.h"
 
-static const char *const names[] = {"disk", "square", "polygon", "image"};
-
-const char *cs_aperture_name(clshear_aperture aperture)
-{
-    return (cs_u32)aperture <= CLSHEAR_APERTURE_IMAGE ? names[aperture] : NULL;
-}
-
-float cs_optics_unit(const clshear_camera *camera)
+float cs_optics_unit(const cs_view *camera)
 {
     const float blades = camera->blades > 2 ? (float)camera->blades : 3.0f;
     switch (camera->aperture) {
@@ -25,7 +18,7 @@ float cs_optics_unit(const clshear_camera *camera)
     }
 }
 
-float clshear_lens_extent(const clshear_camera *camera)
+float cs_lens_extent(const cs_view *camera)
 {
     return 2.0f / cs_optics_unit(camera);
 }
@@ -39,7 +32,7 @@ static void set_extent(cs_optics *optics, cs_f32 reach, cs_f32 deviation)
     }
 }
 
-static clshear_status make_aperture(const clshear_camera *camera, cs_optics_tables *tables,
+static clshear_status make_aperture(const cs_view *camera, cs_optics_tables *tables,
                                     cs_error *error)
 {
     switch (camera->aperture) {
@@ -59,7 +52,7 @@ static clshear_status make_aperture(const clshear_camera *camera, cs_optics_tabl
     }
 }
 
-clshear_status cs_optics_make(const clshear_camera *camera, clshear_filter filter, float width_px,
+clshear_status cs_optics_make(const cs_view *camera, clshear_filter filter, float width_px,
                               cs_optics_tables *tables, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;

@@ -26,6 +26,26 @@ clshear_status cs_points_reserve(clshear_points *points, cs_error *error)
     return CLSHEAR_OK;
 }
 
+clshear_status cs_points_take(const float *values, size_t sets, size_t count, const char *names,
+                              clshear_points *points)
+{
+    cs_error *error = cs_thread_error();
+    const size_t dimensions = strlen(names);
+    if (dimensions < 1 || dimensions > sizeof CS_POINT_NAMES - 1 ||
+        strspn(names, CS_POINT_NAMES) != dimensions)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "points of coordinates \"%s\": must be 1 to 6 letters out of %s", names,
+                       CS_POINT_NAMES);
+    points->sets = sets;
+    points->count = count;
+    points->dimensions = dimensions;
+    memcpy(points->names, names, dimensions + 1);
+    clshear_status status = cs_points_reserve(points, error);
+    if (status == CLSHEAR_OK)
+        memcpy(points->values, values, sets * count * dimensions * sizeof *values);
+    return status;
+}
+
 typedef struct draw_job {
     cs_pattern pattern;
     const cs_u32 *rows;
@@ -45,8 +65,8 @@ static void draw_sets(void *user, size_t begin, size_t end)
     }
 }
 
-clshear_status clshear_points_draw(const char *name, size_t wanted, size_t sets, uint32_t seed,
-                                   clshear_points *points)
+clshear_status cs_points_draw(const char *name, size_t wanted, size_t sets, uint32_t seed,
+                              clshear_points *points)
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
@@ -70,7 +90,7 @@ done:
     return status;
 }
 
-clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear, float shear_px)
+clshear_status cs_points_shear(clshear_points *points, clshear_shear shear, float shear_px)
 {
     cs_error *error = cs_thread_error();
     const size_t stride = points->dimensions;
@@ -81,7 +101,7 @@ clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear,
     if (!isfinite(shear_px) || (cs_u32)shear > CLSHEAR_SHEAR_EQUAL_AREA)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "shear %d by %g pixels is not possible",
                        (int)shear, (double)shear_px);
-    const clshear_camera square = {.aperture = CLSHEAR_APERTURE_SQUARE};
+    const cs_view square = {.aperture = CLSHEAR_APERTURE_SQUARE};
     cs_optics_tables optics = {0};
     const clshear_status status = cs_optics_make(&square, CLSHEAR_FILTER_BOX, 0.0f, &optics, error);
     if (status != CLSHEAR_OK) return status;
@@ -97,7 +117,7 @@ clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear,
     return CLSHEAR_OK;
 }
 
-clshear_status clshear_points_select(clshear_points *points, const char *names)
+clshear_status cs_points_select(clshear_points *points, const char *names)
 {
     size_t from[sizeof points->names], kept = 0;
     for (; names[kept] != '\0'; kept++) {
@@ -122,7 +142,7 @@ clshear_status clshear_points_select(clshear_points *points, const char *names)
     return CLSHEAR_OK;
 }
 
-void clshear_points_free(clshear_points *points)
+void cs_points_free(clshear_points *points)
 {
     if (points == NULL) return;
     free(points->values);

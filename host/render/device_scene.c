@@ -1,5 +1,5 @@
 /* A scene's buffers on the device. */
-#include "render/handles.h"
+#include "render/objects.h"
 
 /* What was there stays when there is no room for the new. */
 static clshear_status upload(cs_device_scene *world, cs_device *device, cs_scene_buffer which,

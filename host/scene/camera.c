@@ -32,7 +32,7 @@ static float vertical_fov(const struct aiCamera *source, int gltf)
 int cs_camera_import(cs_scene *scene, const struct aiScene *file)
 {
     const struct aiCamera *source = file->mCameras[0];
-    clshear_camera *camera = &scene->camera;
+    cs_view *camera = &scene->camera;
     const struct aiMatrix4x4 matrix = cs_node_matrix(file, source->mName.data);
     struct aiVector3D eye = source->mPosition, target = source->mLookAt, up = source->mUp, origin;
     /* A glTF camera is at the origin of its node; Assimp 5.2 repeats the node's translation here.
@@ -60,9 +60,9 @@ static float shorter_fov_deg(float vertical_deg, float aspect)
     return 2.0f * atanf(tanf(0.5f * vertical_deg * degrees) * aspect) / degrees;
 }
 
-clshear_camera cs_camera_of_scene(const cs_scene *scene, int width, int height)
+cs_view cs_camera_of_scene(const cs_scene *scene, int width, int height)
 {
-    clshear_camera camera = scene->camera;
+    cs_view camera = scene->camera;
     const float aspect = (float)width / (float)height;
     camera.lens_radius = -1.0f;
     camera.focal_distance = 0.0f;
@@ -108,8 +108,8 @@ static void cross(const float *a, const float *b, float *c)
     }
 }
 
-clshear_status cs_camera_frame(const clshear_camera *camera, int width, int height,
-                               cs_camera *frame, cs_error *error)
+clshear_status cs_camera_frame(const cs_view *camera, int width, int height, cs_camera *frame,
+                               cs_error *error)
 {
     float up[3];
     *frame = (cs_camera){0};

@@ -12,31 +12,42 @@ int cs_is_colour(const float *colour)
     return good;
 }
 
-clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error)
+clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_error *error)
 {
-    if (light->kind != CLSHEAR_LIGHT_POINT && light->kind != CLSHEAR_LIGHT_DIRECTIONAL)
+    const int directional = light->kind == CLSHEAR_LIGHT_DIRECTIONAL;
+    const float *vector = directional ? light->direction : light->position;
+    if (!directional && light->kind != CLSHEAR_LIGHT_POINT)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: kind %d is not known",
                        (int)light->kind);
-    if (!isfinite(light->vector[0]) || !isfinite(light->vector[1]) || !isfinite(light->vector[2]))
+    if (!isfinite(vector[0]) || !isfinite(vector[1]) || !isfinite(vector[2]))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: its position must be finite");
     if (!cs_is_colour(light->colour))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: colour %g,%g,%g: must be 0 to 1e15",
                        (double)light->colour[0], (double)light->colour[1],
                        (double)light->colour[2]);
     float length = 1.0f;
-    if (light->kind == CLSHEAR_LIGHT_DIRECTIONAL) {
-        length = sqrtf(light->vector[0] * light->vector[0] + light->vector[1] * light->vector[1] +
-                       light->vector[2] * light->vector[2]);
+    if (directional) {
+        length = sqrtf(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
         if (length == 0.0f)
             return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: its direction has no length");
     }
+    memset(made, 0, sizeof *made);
+    made->kind = directional ? CS_LIGHT_DIRECTIONAL : CS_LIGHT_POINT;
+    for (int i = 0; i < 3; i++) {
+        made->vector[i] = vector[i] / length;
+        made->colour[i] = light->colour[i];
+    }
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error)
+{
+    cs_light made;
+    clshear_status status = cs_light_make(light, &made, error);
+    if (status != CLSHEAR_OK) return status;
     cs_light *added = cs_array_extend(&scene->lights, 1);
     if (added == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    added->kind = light->kind == CLSHEAR_LIGHT_DIRECTIONAL ? CS_LIGHT_DIRECTIONAL : CS_LIGHT_POINT;
-    for (int i = 0; i < 3; i++) {
-        added->vector[i] = light->vector[i] / length;
-        added->colour[i] = light->colour[i];
-    }
+    *added = made;
     return CLSHEAR_OK;
 }
 

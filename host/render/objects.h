@@ -1,8 +1,9 @@
-/* The insides of the public handles of the rendering half. */
-#ifndef CS_RENDER_HANDLES_H
-#define CS_RENDER_HANDLES_H
+/* The insides of a scene. */
+#ifndef CS_RENDER_OBJECTS_H
+#define CS_RENDER_OBJECTS_H
 
 #include "accel/accel.h"
+#include "clshear/clshear.h"
 #include "context/context.h"
 #include "scene/scene.h"
 
@@ -28,12 +29,30 @@ typedef struct cs_device_scene {
 } cs_device_scene;
 
 struct clshear_scene {
-    clshear_context *context;
+    clshear_context *context; /* kept alive by the scene */
+    cs_message message;
     cs_scene scene;
     cs_accel *accel;
-    cs_device_scene world;
+    cs_device_scene device_scene;
     clshear_scene_info info;
+    int is_complete;
 };
+
+/* An empty scene; freed by cs_scene_destroy, which accepts NULL. */
+clshear_status cs_scene_new(clshear_context *context, clshear_scene **scene, cs_error *error);
+void cs_scene_destroy(clshear_scene *scene);
+
+/* Reads a file into an empty scene. */
+clshear_status cs_scene_read(clshear_scene *scene, const char *path, cs_error *error);
+
+/* From triangles to something that can be rendered: hierarchy and device buffers. */
+clshear_status cs_scene_complete(clshear_scene *scene, cs_error *error);
+
+/* Adds a mesh of one material before the scene is complete. */
+clshear_status cs_scene_append(clshear_scene *scene, const clshear_mesh *mesh, cs_error *error);
+
+/* Adds a light, before or after. */
+clshear_status cs_scene_light(clshear_scene *scene, const clshear_light *light, cs_error *error);
 
 /* Puts geometry, materials and textures on the device. `bvh` is not needed afterwards. */
 clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const cs_scene *scene,

@@ -1,0 +1,42 @@
+/* What public functions do with their arguments before they forward them. */
+#ifndef CS_API_ARGUMENTS_H
+#define CS_API_ARGUMENTS_H
+
+#include <string.h>
+
+#include "base/status.h"
+
+/* Fails in the calling function when a pointer that it needs is NULL. */
+#define CS_NEEDS(pointer)                                                                       \
+    do {                                                                                        \
+        if ((pointer) == NULL)                                                                  \
+            return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT, "%s: %s is NULL", __func__, \
+                           #pointer);                                                           \
+    } while (0)
+
+/* Takes a struct that begins with its size over from a caller that may have an older or a newer
+ * version of it: unknown members are left out, missing ones are zero. */
+static inline clshear_status cs_struct_in(void *copy, size_t size, const void *given,
+                                          const char *name)
+{
+    size_t given_size;
+    memcpy(&given_size, given, sizeof given_size);
+    if (given_size <= sizeof given_size)
+        return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT, "%s: struct_size is not set", name);
+    memset(copy, 0, size);
+    memcpy(copy, given, given_size < size ? given_size : size);
+    return CLSHEAR_OK;
+}
+
+/* Gives a struct that begins with its size to such a caller, whose size stays. */
+static inline void cs_struct_out(void *target, const void *source, size_t size)
+{
+    size_t target_size;
+    memcpy(&target_size, target, sizeof target_size);
+    const size_t common = target_size < size ? target_size : size;
+    if (common > sizeof target_size)
+        memcpy((char *)target + sizeof target_size, (const char *)source + sizeof target_size,
+               common - sizeof target_size);
+}
+
+#endif
