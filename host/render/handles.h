@@ -6,24 +6,11 @@
 #include "context/context.h"
 #include "scene/scene.h"
 
-/* The scene's buffers on the device, in the order of the kernel's arguments. */
-typedef enum cs_scene_buffer {
-    CS_SCENE_NODES,
-    CS_SCENE_TRIANGLES,
-    CS_SCENE_FACES,
-    CS_SCENE_VERTICES,
-    CS_SCENE_MATERIALS,
-    CS_SCENE_TEXTURES,
-    CS_SCENE_TEXELS,
-    CS_SCENE_LIGHTS,
-    CS_SCENE_EMITTERS,
-    CS_SCENE_BUFFERS
-} cs_scene_buffer;
-
+/* A scene on the device. */
 typedef struct cs_device_scene {
-    cs_buffer *buffers[CS_SCENE_BUFFERS];
-    uint32_t lights;
-    uint32_t emitters;
+    cs_buffer *buffers[CS_SCENE_BUFFERS]; /* in the order of kernels' arguments */
+    uint32_t lights;                      /* all emissive triangles together are one */
+    uint32_t emitters;                    /* emissive triangles */
     size_t geometry_bytes;
 } cs_device_scene;
 

@@ -4,6 +4,9 @@
 
 #include "scene/scene.h"
 
+_Static_assert((int)CLSHEAR_LIGHT_POINT == CS_LIGHT_POINT, "kinds are cast");
+_Static_assert((int)CLSHEAR_LIGHT_DIRECTIONAL == CS_LIGHT_DIRECTIONAL, "kinds are cast");
+
 int cs_is_colour(const float *colour)
 {
     int good = 1;
@@ -32,9 +35,10 @@ clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, c
     }
     cs_light *added = cs_array_extend(&scene->lights, 1);
     if (added == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    added->kind = light->kind == CLSHEAR_LIGHT_DIRECTIONAL ? CS_LIGHT_DIRECTIONAL : CS_LIGHT_POINT;
+    added->kind = (cs_u32)light->kind;
+    float *place = light->kind == CLSHEAR_LIGHT_DIRECTIONAL ? added->axis : added->position;
     for (int i = 0; i < 3; i++) {
-        added->vector[i] = light->vector[i] / length;
+        place[i] = light->vector[i] / length;
         added->colour[i] = light->colour[i];
     }
     return CLSHEAR_OK;
@@ -50,9 +54,9 @@ cs_light cs_scene_default_light(const cs_scene *scene)
         largest = fmaxf(largest, scene->bounds[1][axis] - scene->bounds[0][axis]);
     for (int axis = 0; axis < 3; axis++) {
         float low = scene->bounds[0][axis], high = scene->bounds[1][axis];
-        light.vector[axis] = axis == 1 ? low + 0.95f * (high - low) : 0.5f * (low + high);
+        light.position[axis] = axis == 1 ? low + 0.95f * (high - low) : 0.5f * (low + high);
         /* Flat scenes are lit from above or from the front, not from within their plane. */
-        if (axis > 0 && high - low < 0.1f * largest) light.vector[axis] = high + 0.5f * largest;
+        if (axis > 0 && high - low < 0.1f * largest) light.position[axis] = high + 0.5f * largest;
         square += 0.25f * (high - low) * (high - low);
     }
     /* A white surface that faces the light from half a diagonal away has radiance 1. */

@@ -4,6 +4,7 @@
 
 #include "base/array.h"
 #include "base/status.h"
+#include "kernels/light/list.h"
 #include "kernels/scene.h"
 
 enum {
