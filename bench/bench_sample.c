@@ -64,8 +64,7 @@ static double draw_s(const bench *state, const cs_pattern *pattern, const cs_buf
                                      {.buffer = table},
                                      {.buffer = sums}};
     const double start_s = cs_now_s();
-    must(state, cs_device_run(state->context->device, CS_KERNEL_DRAW_SUM, SIDE * SIDE, arguments, 5,
-                              &error));
+    must(state, CS_RUN(state->context->device, DRAW_SUM, SIDE * SIDE, arguments, &error));
     const double took_s = cs_now_s() - start_s;
     cs_buffer_free(table);
     cs_optics_free(&optics);

@@ -60,9 +60,7 @@ static void trace_device(const fixture *made, int packet, int any_hit, const flo
                          CLSHEAR_OK);
         arguments[2 + i].buffer = buffers[i];
     }
-    assert_int_equal(
-        cs_device_run(device, CS_KERNEL_TRACE, RAYS / (size_t)packet, arguments, 8, &error),
-        CLSHEAR_OK);
+    assert_int_equal(CS_RUN(device, TRACE, RAYS / (size_t)packet, arguments, &error), CLSHEAR_OK);
     assert_int_equal(cs_buffer_read(buffers[2], 0, plane, distances, &error), CLSHEAR_OK);
     for (int i = 0; i < 6; i++)
         cs_buffer_free(buffers[i]);

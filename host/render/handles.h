@@ -22,6 +22,10 @@ struct clshear_scene {
     clshear_scene_info info;
 };
 
+/* A row of the list of buffers as an initialiser of a cs_argument. `buffers`, a name where the list
+ * is expanded, is that of a cs_device_scene. */
+#define CS_SCENE_ARGUMENT(identifier, name, type) {.buffer = buffers[CS_SCENE_##identifier]},
+
 /* Puts geometry, materials and textures on the device. `bvh` is not needed afterwards. */
 clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const cs_scene *scene,
                                const cs_flat_bvh *bvh, cs_error *error);

@@ -32,24 +32,19 @@ typedef struct evaluation {
 
 static clshear_status launch(const evaluation *e, cs_u32 count, cs_error *error)
 {
-    enum {
-        BEFORE_WORLD = 9
-    };
-    cs_argument arguments[BEFORE_WORLD + CS_SCENE_BUFFERS] = {
-        {.value = &e->frame, .size = sizeof e->frame},
-        {.value = &e->pixel[0], .size = sizeof e->pixel[0]},
-        {.value = &e->pixel[1], .size = sizeof e->pixel[1]},
-        {.value = &count, .size = sizeof count},
-        {.value = &e->tuples, .size = sizeof e->tuples},
-        {.value = &e->shear_px, .size = sizeof e->shear_px},
-        {.buffer = e->table},
-        {.buffer = e->points},
-        {.buffer = e->radiance}};
-    for (int i = 0; i < CS_SCENE_BUFFERS; i++)
-        arguments[BEFORE_WORLD + i].buffer = e->scene->world.buffers[i];
     cs_device *device = e->scene->context->device;
-    return cs_device_run(device, CS_KERNEL_RADIANCE, count / (cs_u32)cs_device_packet(device),
-                         arguments, BEFORE_WORLD + CS_SCENE_BUFFERS, error);
+    cs_buffer *const *buffers = e->scene->world.buffers;
+    const cs_argument arguments[] = {{.value = &e->frame, .size = sizeof e->frame},
+                                     {.value = &e->pixel[0], .size = sizeof e->pixel[0]},
+                                     {.value = &e->pixel[1], .size = sizeof e->pixel[1]},
+                                     {.value = &count, .size = sizeof count},
+                                     {.value = &e->tuples, .size = sizeof e->tuples},
+                                     {.value = &e->shear_px, .size = sizeof e->shear_px},
+                                     {.buffer = e->table},
+                                     {.buffer = e->points},
+                                     {.buffer = e->radiance},
+                                     CS_SCENE_BUFFER_LIST(CS_SCENE_ARGUMENT)};
+    return CS_RUN(device, RADIANCE, count / (cs_u32)cs_device_packet(device), arguments, error);
 }
 
 /* Up to `chunk` points; the last packet is filled up with the last point. */
