@@ -17,7 +17,7 @@ set(floor_host/film 5)
 set(floor_host/device 5)
 set(floor_host/analysis 7)
 set(floor_host/accel 7)
-set(floor_host/oracle 8)
+set(floor_host/oracle 4)
 set(floor_host/render 9)
 set(floor_host/cli 10)
 

@@ -3,7 +3,8 @@
 #ifndef CS_ORACLE_ORACLE_H
 #define CS_ORACLE_ORACLE_H
 
-#include "accel/accel.h"
+#include "base/depth.h"
+#include "clshear/device/camera.h"
 
 /* Rules, in the order of the public enumeration; then what a pilot may choose besides. */
 typedef enum cs_rule {

@@ -1,6 +1,7 @@
 /* Public camera functions: where to stand, what to focus on, how wide to open. */
 #include <math.h>
 
+#include "base/vec.h"
 #include "render/handles.h"
 #include "scene/camera.h"
 
@@ -65,14 +66,12 @@ clshear_status clshear_camera_focus(const clshear_scene *scene, int width, int h
 /* Depth of the bounding box's centre; 1 if it lies behind the camera. */
 static float depth_of_centre(const cs_scene *scene, const clshear_camera *camera)
 {
-    float along = 0.0f, square = 0.0f;
-    for (int i = 0; i < 3; i++) {
-        float towards = camera->target[i] - camera->eye[i];
-        float centre = 0.5f * (scene->bounds[0][i] + scene->bounds[1][i]) - camera->eye[i];
-        along += towards * centre;
-        square += towards * towards;
-    }
-    return along > 0.0f ? along / sqrtf(square) : 1.0f;
+    float towards[3], centre[3];
+    cs_vec_subtract(camera->target, camera->eye, towards);
+    for (int i = 0; i < 3; i++)
+        centre[i] = 0.5f * (scene->bounds[0][i] + scene->bounds[1][i]) - camera->eye[i];
+    const float along = cs_vec_dot(towards, centre);
+    return along > 0.0f ? along / sqrtf(cs_vec_dot(towards, towards)) : 1.0f;
 }
 
 clshear_status clshear_camera_complete(const clshear_scene *scene, int width, int height,

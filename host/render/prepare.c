@@ -1,7 +1,9 @@
 /* Scenes: read or given, with their hierarchy on the device. */
-#include <malloc.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "render/handles.h"
 #include "render/pass.h"
@@ -34,6 +36,14 @@ done:
     return status;
 }
 
+/* Importing takes several times the memory that it leaves in use. */
+static void give_back_memory(void)
+{
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
+
 static clshear_scene *new_scene(clshear_context *context)
 {
     clshear_scene *scene = calloc(1, sizeof *scene);
@@ -52,7 +62,7 @@ clshear_status clshear_scene_load(clshear_context *context, const char *path,
     clshear_scene *scene = new_scene(context);
     CS_REQUIRE(scene != NULL, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
     CS_TRY(cs_scene_import(path, &scene->scene, &context->log, error));
-    malloc_trim(0); /* importing takes several times what it leaves */
+    give_back_memory();
     CS_TRY(prepare(scene, start_s, error));
     *result = scene;
     scene = NULL;

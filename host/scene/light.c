@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vec.h"
 #include "scene/scene.h"
 
 _Static_assert((int)CLSHEAR_LIGHT_POINT == CS_LIGHT_POINT, "kinds are cast");
@@ -28,8 +29,7 @@ clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, c
                        (double)light->colour[2]);
     float length = 1.0f;
     if (light->kind == CLSHEAR_LIGHT_DIRECTIONAL) {
-        length = sqrtf(light->vector[0] * light->vector[0] + light->vector[1] * light->vector[1] +
-                       light->vector[2] * light->vector[2]);
+        length = sqrtf(cs_vec_dot(light->vector, light->vector));
         if (length == 0.0f)
             return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: its direction has no length");
     }
@@ -77,20 +77,17 @@ static double describe_emitter(const cs_scene *scene, size_t triangle, cs_emitte
     const float(*positions)[3] = scene->positions.items;
     const uint32_t material = ((const uint32_t *)scene->triangle_materials.items)[triangle];
     const cs_material *look = (const cs_material *)scene->materials.items + material;
-    double square = 0.0;
+    memcpy(emitter->corner, positions[corner[0]], sizeof emitter->corner);
+    memcpy(emitter->radiance, look->emission, sizeof emitter->radiance);
+    cs_vec_subtract(positions[corner[1]], positions[corner[0]], emitter->edge1);
+    cs_vec_subtract(positions[corner[2]], positions[corner[0]], emitter->edge2);
+    double e1[3], e2[3], normal[3];
     for (int i = 0; i < 3; i++) {
-        emitter->corner[i] = positions[corner[0]][i];
-        emitter->edge1[i] = positions[corner[1]][i] - positions[corner[0]][i];
-        emitter->edge2[i] = positions[corner[2]][i] - positions[corner[0]][i];
-        emitter->radiance[i] = look->emission[i];
+        e1[i] = (double)emitter->edge1[i];
+        e2[i] = (double)emitter->edge2[i];
     }
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        double normal = (double)emitter->edge1[j] * (double)emitter->edge2[k] -
-                        (double)emitter->edge1[k] * (double)emitter->edge2[j];
-        square += normal * normal;
-    }
-    emitter->area = (float)(0.5 * sqrt(square));
+    cs_vec_cross_double(e1, e2, normal);
+    emitter->area = (float)(0.5 * sqrt(cs_vec_dot_double(normal, normal)));
     return (double)emitter->area * (double)luminance(look->emission);
 }
 
