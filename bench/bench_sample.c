@@ -8,6 +8,7 @@
 
 #include "kernels/launch.h"
 #include "optics/optics.h"
+#include "optics/shear_mode.h"
 #include "pattern/pattern.h"
 #include "render/handles.h"
 
@@ -51,7 +52,7 @@ static double draw_s(const bench *state, const cs_pattern *pattern, const cs_buf
     const float shear = 3.0f;
     cs_launch frame = {.pattern = *pattern,
                        .pixel_count = SIDE * SIDE,
-                       .shear_mode = (cs_u32)state->options.shear};
+                       .shear_mode = cs_shear_mode(state->options.shear)};
     cs_optics_tables optics = {0};
     cs_buffer *table = NULL;
     must(state, cs_optics_make(&state->camera, state->options.filter, 0.0f, &optics, &error));

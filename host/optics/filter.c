@@ -3,12 +3,19 @@
 
 #include "optics/aperture_kinds.h"
 
-static const char *const names[] = {"box", "tent", "gaussian", "blackman-harris"};
-static const float usual_width_px[] = {1.0f, 2.0f, 3.0f, 3.0f};
+static const struct {
+    const char *name;
+    float usual_width_px;
+} filters[] = {
+    [CLSHEAR_FILTER_BOX] = {"box", 1.0f},
+    [CLSHEAR_FILTER_TENT] = {"tent", 2.0f},
+    [CLSHEAR_FILTER_GAUSSIAN] = {"gaussian", 3.0f},
+    [CLSHEAR_FILTER_BLACKMAN_HARRIS] = {"blackman-harris", 3.0f},
+};
 
 const char *cs_filter_name(clshear_filter filter)
 {
-    return (cs_u32)filter <= CLSHEAR_FILTER_BLACKMAN_HARRIS ? names[filter] : NULL;
+    return (size_t)filter < sizeof filters / sizeof *filters ? filters[filter].name : NULL;
 }
 
 /* Height at `place`, 0 at the centre and +-1/2 at the ends; not normalised. */
@@ -52,7 +59,7 @@ clshear_status cs_filter_make(clshear_filter filter, float width_px, cs_optics_t
                        (double)width_px);
     cs_f32 *table = cs_array_extend(&tables->table, CS_FILTER_STEPS);
     if (table == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    const float width = width_px > 0.0f ? width_px : usual_width_px[filter];
+    const float width = width_px > 0.0f ? width_px : filters[filter].usual_width_px;
     const cs_u32 steps = filter == CLSHEAR_FILTER_BOX ? 1 : CS_FILTER_STEPS;
     const double step = (double)width / steps;
     double sum = 0.0, square = 0.0;

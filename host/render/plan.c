@@ -30,6 +30,11 @@ done:
     return status;
 }
 
+_Static_assert((int)CLSHEAR_ORACLE_CENTRE == CS_RULE_CENTRE, "choose_shears casts");
+_Static_assert((int)CLSHEAR_ORACLE_MEDIAN == CS_RULE_MEDIAN, "choose_shears casts");
+_Static_assert((int)CLSHEAR_ORACLE_NEAR == CS_RULE_NEAR, "choose_shears casts");
+_Static_assert((int)CLSHEAR_ORACLE_FAR == CS_RULE_FAR, "choose_shears casts");
+
 /* Rules and shears of all pixels; those of the picture that is extended, if there is one. */
 static clshear_status choose_shears(cs_job *job, cs_error *error)
 {

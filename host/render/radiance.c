@@ -5,6 +5,7 @@
 
 #include "kernels/launch.h"
 #include "optics/optics.h"
+#include "optics/shear_mode.h"
 #include "render/handles.h"
 #include "render/render_job.h"
 
@@ -87,7 +88,7 @@ static clshear_status prepare(evaluation *e, const clshear_camera *camera,
     e->pixel[0] = (cs_u32)x;
     e->pixel[1] = (cs_u32)y;
     e->frame.camera = job.camera;
-    e->frame.shear_mode = (cs_u32)options->shear;
+    e->frame.shear_mode = cs_shear_mode(options->shear);
     e->frame.lights = e->scene->world.lights;
     e->frame.emitters = e->scene->world.emitters;
     e->chunk = count < MOST ? (count / LANES + 1) * LANES : MOST;

@@ -137,8 +137,14 @@ static void world_to_camera(const cs_camera *camera, float *matrix)
 /* What is needed to make the image again. */
 static clshear_status describe(const cs_job *job, clshear_film *film)
 {
-    static const char *const shears[] = {"none", "toroidal", "equal-area"};
-    static const char *const rules[] = {"centre", "median", "near", "far", "pilot"};
+    static const char *const shears[] = {[CLSHEAR_SHEAR_NONE] = "none",
+                                         [CLSHEAR_SHEAR_TOROIDAL] = "toroidal",
+                                         [CLSHEAR_SHEAR_EQUAL_AREA] = "equal-area"};
+    static const char *const rules[] = {[CLSHEAR_ORACLE_CENTRE] = "centre",
+                                        [CLSHEAR_ORACLE_MEDIAN] = "median",
+                                        [CLSHEAR_ORACLE_NEAR] = "near",
+                                        [CLSHEAR_ORACLE_FAR] = "far",
+                                        [CLSHEAR_ORACLE_PILOT] = "pilot"};
     clshear_status status = CLSHEAR_OK;
     clshear_context *context = job->scene->context;
     char seed[16];
