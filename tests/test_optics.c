@@ -147,7 +147,7 @@ static void first_pair_fixes_the_fibre(void **state)
                 t[k] = p[k].x + s * o->squeeze * p[k].u;
             assert_true(fabsf(t[0] - t[1]) < tolerance);
             if (a < 0.98f) assert_true(t[2] > t[0] - tolerance);
-            if (o->aperture == CS_APERTURE_SQUARE)
+            if (o->marginal == CS_MARGINAL_UNIFORM)
                 assert_true(fabsf(p[0].y + s * p[0].v - p[1].y - s * p[1].v) < tolerance);
         }
         cs_optics_free(&made);

@@ -4,18 +4,8 @@
 #include "api/arguments.h"
 #include "clshear/analysis.h"
 #include "clshear/clshear.h"
-#include "clshear/device/camera.h"
-#include "oracle/oracle.h"
 #include "render/radiance.h"
 #include "settings/view.h"
-
-_Static_assert((int)CLSHEAR_SHEAR_NONE == (int)CS_SHEAR_NONE, "kinds of shears");
-_Static_assert((int)CLSHEAR_SHEAR_TOROIDAL == (int)CS_SHEAR_TOROIDAL, "kinds of shears");
-_Static_assert((int)CLSHEAR_SHEAR_EQUAL_AREA == (int)CS_SHEAR_EQUAL_AREA, "kinds of shears");
-_Static_assert((int)CLSHEAR_ORACLE_CENTRE == (int)CS_RULE_CENTRE, "rules of the oracle");
-_Static_assert((int)CLSHEAR_ORACLE_MEDIAN == (int)CS_RULE_MEDIAN, "rules of the oracle");
-_Static_assert((int)CLSHEAR_ORACLE_NEAR == (int)CS_RULE_NEAR, "rules of the oracle");
-_Static_assert((int)CLSHEAR_ORACLE_FAR == (int)CS_RULE_FAR, "rules of the oracle");
 
 clshear_status clshear_render(clshear_scene *scene, const clshear_settings *settings,
                               clshear_film **film)

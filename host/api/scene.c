@@ -3,9 +3,6 @@
 #include "render/camera_choice.h"
 #include "render/objects.h"
 
-_Static_assert((int)CLSHEAR_LIGHT_POINT == (int)CS_LIGHT_POINT, "kinds of lights");
-_Static_assert((int)CLSHEAR_LIGHT_DIRECTIONAL == (int)CS_LIGHT_DIRECTIONAL, "kinds of lights");
-
 clshear_status clshear_scene_load(clshear_context *context, const char *path,
                                   clshear_scene **result)
 {

@@ -16,7 +16,8 @@ struct cs_device {
     cl_command_queue queue;
     cl_program programs[CS_PROGRAM_COUNT];
     cl_kernel kernels[CS_KERNEL_COUNT];
-    size_t local_size;
+    size_t local_size;                   /* of a work-group, where the kernel allows that many */
+    size_t local_sizes[CS_KERNEL_COUNT]; /* of each kernel's work-groups, once it is made */
     int packet;
     int threads;
     int is_partition;
@@ -30,15 +31,13 @@ struct cs_buffer {
     cl_command_queue queue;
 };
 
-static const char *const kernel_names[CS_KERNEL_COUNT] = {
-    "cs_render",       "cs_trace",       "cs_points",     "cs_draw_sum",
-    "cs_exponentials", "cs_periodogram", "cs_radiance_at"};
-
-static cs_program program_of(cs_kernel kernel)
-{
-    if (kernel == CS_KERNEL_RADIANCE) return CS_PROGRAM_RADIANCE;
-    return kernel < CS_KERNEL_EXPONENTIALS ? CS_PROGRAM_RENDER : CS_PROGRAM_ANALYSIS;
-}
+#define KERNEL_ROW(identifier, name, program, arguments) \
+    {#name, CS_PROGRAM_##program, CS_ARGUMENTS_##identifier},
+static const struct {
+    const char *name;
+    cs_program program;
+    cl_uint arguments;
+} kernel_list[CS_KERNEL_COUNT] = {CS_KERNEL_LIST(KERNEL_ROW)};
 
 static int is_cpu(cl_device_id id)
 {
@@ -67,19 +66,33 @@ static clshear_status limit_threads(cs_device *device, int threads, cs_error *er
     return CLSHEAR_OK;
 }
 
+static clshear_status create_kernel(cs_device *device, cs_kernel kernel, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const char *name = kernel_list[kernel].name;
+    cl_int code;
+    cl_uint arguments = 0;
+    size_t most = device->local_size;
+    cl_kernel made = clCreateKernel(device->programs[kernel_list[kernel].program], name, &code);
+    device->kernels[kernel] = made;
+    CS_OPENCL(code, "kernel %s cannot be created", name);
+    CS_OPENCL(clGetKernelInfo(made, CL_KERNEL_NUM_ARGS, sizeof arguments, &arguments, NULL),
+              "kernel %s: no number of arguments", name);
+    CS_REQUIRE(arguments == kernel_list[kernel].arguments, CLSHEAR_DEVICE_FAILED,
+               "kernel %s has %u arguments, not %u", name, arguments,
+               kernel_list[kernel].arguments);
+    clGetKernelWorkGroupInfo(made, device->id, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL);
+    device->local_sizes[kernel] = most < device->local_size ? most : device->local_size;
+done:
+    return status;
+}
+
 static clshear_status create_kernels(cs_device *device, cs_program program, cs_error *error)
 {
     for (int i = 0; i < CS_KERNEL_COUNT; i++) {
-        cl_int code;
-        if (program_of((cs_kernel)i) != program) continue;
-        device->kernels[i] = clCreateKernel(device->programs[program], kernel_names[i], &code);
-        if (code != CL_SUCCESS)
-            return cs_fail(error, CLSHEAR_DEVICE_FAILED, "kernel %s: %s (OpenCL error %d)",
-                           kernel_names[i], "cannot be created", code);
-        size_t most = device->local_size;
-        clGetKernelWorkGroupInfo(device->kernels[i], device->id, CL_KERNEL_WORK_GROUP_SIZE,
-                                 sizeof most, &most, NULL);
-        if (most < device->local_size) device->local_size = most;
+        if (kernel_list[i].program != program) continue;
+        clshear_status status = create_kernel(device, (cs_kernel)i, error);
+        if (status != CLSHEAR_OK) return status;
     }
     return CLSHEAR_OK;
 }
@@ -284,9 +297,11 @@ static clshear_status start(cs_device *device, cs_kernel kernel, size_t count,
                             cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    const char *name = kernel_names[kernel];
-    CS_TRY(prepare(device, program_of(kernel), error));
-    size_t local = device->local_size;
+    const char *name = kernel_list[kernel].name;
+    CS_REQUIRE(argument_count == kernel_list[kernel].arguments, CLSHEAR_DEVICE_FAILED,
+               "kernel %s: %zu arguments", name, argument_count);
+    CS_TRY(prepare(device, kernel_list[kernel].program, error));
+    size_t local = device->local_sizes[kernel];
     size_t global = (count + local - 1) / local * local;
     for (cl_uint i = 0; i < argument_count; i++) {
         const cs_argument *argument = &arguments[i];
@@ -313,7 +328,7 @@ clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
     pthread_mutex_unlock(&device->lock);
     if (status != CLSHEAR_OK) return status;
     clFlush(device->queue);
-    CS_OPENCL(clWaitForEvents(1, &done_at), "kernel %s failed", kernel_names[kernel]);
+    CS_OPENCL(clWaitForEvents(1, &done_at), "kernel %s failed", kernel_list[kernel].name);
 done:
     clReleaseEvent(done_at);
     return status;

@@ -7,28 +7,10 @@
 #include <stddef.h>
 
 #include "base/status.h"
+#include "device/kernel_list.h"
 
 typedef struct cs_device cs_device;
 typedef struct cs_buffer cs_buffer;
-
-typedef enum cs_kernel {
-    CS_KERNEL_RENDER,
-    CS_KERNEL_TRACE,
-    CS_KERNEL_POINTS,
-    CS_KERNEL_DRAW_SUM,
-    CS_KERNEL_EXPONENTIALS,
-    CS_KERNEL_PERIODOGRAM,
-    CS_KERNEL_RADIANCE,
-    CS_KERNEL_COUNT
-} cs_kernel;
-
-/* What is compiled at once. */
-typedef enum cs_program {
-    CS_PROGRAM_RENDER,
-    CS_PROGRAM_ANALYSIS,
-    CS_PROGRAM_RADIANCE,
-    CS_PROGRAM_COUNT
-} cs_program;
 
 /* A kernel argument: a buffer (`buffer` not NULL), or `size` bytes by value. */
 typedef struct cs_argument {
@@ -67,8 +49,20 @@ void cs_buffer_free(cs_buffer *buffer);
 /* Compiles a program, if that is not done yet. Running a kernel of it does so too. */
 clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_error *error);
 
-/* Runs a kernel on `count` work-items (more are started, to fill the last work-group) and waits. */
+/* Runs a kernel on `count` work-items (more are started, to fill the last work-group) and waits.
+ * argument_count: the kernel's number of arguments; anything else fails. */
 clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
                              const cs_argument *arguments, size_t argument_count, cs_error *error);
+
+/* The same for CS_KERNEL_<kernel> and an array of arguments, whose length is checked when this is
+ * compiled. */
+#define CS_RUN(device, kernel, count, arguments, error)         \
+    cs_device_run(device, CS_KERNEL_##kernel, count, arguments, \
+                  CS_LENGTH_CHECKED(arguments, CS_ARGUMENTS_##kernel), error)
+#define CS_LENGTH_CHECKED(array, length)                                                    \
+    (sizeof(struct {                                                                        \
+        _Static_assert(sizeof(array) / sizeof *(array) == (length), "number of arguments"); \
+        char each[length];                                                                  \
+    }))
 
 #endif

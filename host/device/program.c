@@ -34,6 +34,8 @@ static clshear_status build_failure(cl_program program, cl_device_id device, cl_
     return cs_opencl_fail(error, code, "the kernels do not compile: %s", line);
 }
 
+#define PROGRAM_SOURCE(identifier, text) {text, sizeof text},
+
 clshear_status cs_program_build(cl_context context, cl_device_id device, cs_program which,
                                 int packet, cl_program *result, cs_error *error)
 {
@@ -43,9 +45,7 @@ clshear_status cs_program_build(cl_context context, cl_device_id device, cs_prog
     static const struct {
         const unsigned char *text;
         size_t length;
-    } sources[CS_PROGRAM_COUNT] = {{cs_kernel_text, sizeof cs_kernel_text},
-                                   {cs_analysis_text, sizeof cs_analysis_text},
-                                   {cs_radiance_text, sizeof cs_radiance_text}};
+    } sources[CS_PROGRAM_COUNT] = {CS_PROGRAM_LIST(PROGRAM_SOURCE)};
     const char *text = (const char *)sources[which].text;
     const size_t length = sources[which].length;
     cl_program program = clCreateProgramWithSource(context, 1, &text, &length, &code);

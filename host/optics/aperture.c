@@ -75,9 +75,10 @@ clshear_status cs_aperture_image_check(const cs_aperture_image *image, cs_error 
     return CLSHEAR_OK;
 }
 
-clshear_status cs_aperture_image_make(const cs_aperture_image *image, cs_optics_tables *tables,
+clshear_status cs_aperture_image_make(const cs_view *camera, cs_optics_tables *tables,
                                       cs_error *error)
 {
+    const cs_aperture_image *image = camera->image;
     cs_optics *optics = &tables->optics;
     float columns[MOST_TEXELS] = {0};
     clshear_status status = cs_aperture_image_check(image, error);
@@ -101,6 +102,7 @@ clshear_status cs_aperture_image_make(const cs_aperture_image *image, cs_optics_
             fill_rows(&(strip){image->luminance + i, width, height, reach[1]}, row) / width;
         row += (size_t)(height + 1) * CS_MARGINAL_COLUMNS;
     }
+    optics->marginal = CS_MARGINAL_IMAGE;
     optics->segments[0] = width;
     optics->segments[1] = height;
     for (int axis = 0; axis < 2; axis++) {

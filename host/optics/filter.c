@@ -3,7 +3,12 @@
 
 #include "optics/aperture_kinds.h"
 
-static const float usual_width_px[] = {1.0f, 2.0f, 3.0f, 3.0f};
+static const float usual_width_px[] = {
+    [CLSHEAR_FILTER_BOX] = 1.0f,
+    [CLSHEAR_FILTER_TENT] = 2.0f,
+    [CLSHEAR_FILTER_GAUSSIAN] = 3.0f,
+    [CLSHEAR_FILTER_BLACKMAN_HARRIS] = 3.0f,
+};
 
 /* Height at `place`, 0 at the centre and +-1/2 at the ends; not normalised. */
 static double height(clshear_filter filter, double place)

@@ -7,6 +7,7 @@
 #include "clshear/device/sampler/sampler.h"
 #include "clshear/device/shear.h"
 #include "optics/optics.h"
+#include "optics/shear_mode.h"
 #include "pattern/pattern.h"
 #include "points/points.h"
 
@@ -107,7 +108,7 @@ clshear_status cs_points_shear(clshear_points *points, clshear_shear shear, floa
     if (status != CLSHEAR_OK) return status;
     for (size_t i = 0; i < points->sets * points->count; i++) {
         float *p = points->values + i * stride;
-        const cs_camera_sample sheared = cs_shear(p[0], p[1], p[2], p[3], (cs_u32)shear,
+        const cs_camera_sample sheared = cs_shear(p[0], p[1], p[2], p[3], cs_shear_mode(shear),
                                                   &optics.optics, optics.table.items, shear_px);
         const float place[4] = {sheared.x, sheared.y, sheared.u + 0.5f, sheared.v + 0.5f};
         for (int d = 0; d < 4; d++)

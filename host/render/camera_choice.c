@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/vec.h"
 #include "scene/camera.h"
 #include "settings/view.h"
 
@@ -78,14 +79,12 @@ clshear_status cs_camera_focus(const clshear_scene *scene, clshear_settings *set
 /* Depth of the bounding box's centre; 1 if it lies behind the camera. */
 static float depth_of_centre(const cs_scene *scene, const cs_view *view)
 {
-    float along = 0.0f, square = 0.0f;
-    for (int i = 0; i < 3; i++) {
-        float towards = view->target[i] - view->eye[i];
-        float centre = 0.5f * (scene->bounds[0][i] + scene->bounds[1][i]) - view->eye[i];
-        along += towards * centre;
-        square += towards * towards;
-    }
-    return along > 0.0f ? along / sqrtf(square) : 1.0f;
+    float towards[3], centre[3];
+    cs_vec_subtract(view->target, view->eye, towards);
+    for (int i = 0; i < 3; i++)
+        centre[i] = 0.5f * (scene->bounds[0][i] + scene->bounds[1][i]) - view->eye[i];
+    const float along = cs_vec_dot(towards, centre);
+    return along > 0.0f ? along / sqrtf(cs_vec_dot(towards, towards)) : 1.0f;
 }
 
 static clshear_status choose_focus(const clshear_scene *scene, clshear_settings *settings,

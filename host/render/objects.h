@@ -7,24 +7,11 @@
 #include "context/context.h"
 #include "scene/scene.h"
 
-/* The scene's buffers on the device, in the order of the kernel's arguments. */
-typedef enum cs_scene_buffer {
-    CS_SCENE_NODES,
-    CS_SCENE_TRIANGLES,
-    CS_SCENE_FACES,
-    CS_SCENE_VERTICES,
-    CS_SCENE_MATERIALS,
-    CS_SCENE_TEXTURES,
-    CS_SCENE_TEXELS,
-    CS_SCENE_LIGHTS,
-    CS_SCENE_EMITTERS,
-    CS_SCENE_BUFFERS
-} cs_scene_buffer;
-
+/* A scene on the device. */
 typedef struct cs_device_scene {
-    cs_buffer *buffers[CS_SCENE_BUFFERS];
-    uint32_t lights;
-    uint32_t emitters;
+    cs_buffer *buffers[CS_SCENE_BUFFERS]; /* in the order of kernels' arguments */
+    uint32_t lights;                      /* all emissive triangles together are one */
+    uint32_t emitters;                    /* emissive triangles */
     size_t geometry_bytes;
 } cs_device_scene;
 
@@ -53,6 +40,14 @@ clshear_status cs_scene_append(clshear_scene *scene, const clshear_mesh *mesh, c
 
 /* Adds a light, before or after. */
 clshear_status cs_scene_light(clshear_scene *scene, const clshear_light *light, cs_error *error);
+
+/* The scene's buffers in the order of the list, with `lights` in the place of its own lights. */
+void cs_scene_buffers_of(const clshear_scene *scene, const cs_buffer *lights,
+                         const cs_buffer *buffers[CS_SCENE_BUFFERS]);
+
+/* A row of the list of buffers as an initialiser of a cs_argument. `buffers`, a name where the list
+ * is expanded, is that of an array of buffers. */
+#define CS_SCENE_ARGUMENT(identifier, name, type) {.buffer = buffers[CS_SCENE_##identifier]},
 
 /* Puts geometry, materials and textures on the device. `bvh` is not needed afterwards. */
 clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const cs_scene *scene,

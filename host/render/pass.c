@@ -44,35 +44,30 @@ void cs_batch_free(cs_batch *batch)
     *batch = (cs_batch){0};
 }
 
-enum {
-    BEFORE_WORLD = 6 /* arguments of the kernel that are not the scene's */
-};
-
 clshear_status cs_pass_warm_up(cs_device *device, cs_error *error)
 {
     const cs_launch launch = {.pixel_count = 0};
-    const cs_argument arguments[BEFORE_WORLD + CS_SCENE_BUFFERS] = {
+    const cs_argument arguments[CS_ARGUMENTS_RENDER] = {
         {.value = &launch, .size = sizeof launch}}; /* and no buffers */
-    return cs_device_run(device, CS_KERNEL_RENDER, 1, arguments, BEFORE_WORLD + CS_SCENE_BUFFERS,
-                         error);
+    return CS_RUN(device, RENDER, 1, arguments, error);
 }
 
 static clshear_status run_kernel(const cs_pass *pass, const cs_batch *batch,
                                  const cs_launch *launch, cs_error *error)
 {
-    cs_argument arguments[BEFORE_WORLD + CS_SCENE_BUFFERS] = {
+    const cs_buffer *buffers[CS_SCENE_BUFFERS];
+    cs_scene_buffers_of(pass->scene, pass->lights, buffers);
+    const cs_argument arguments[] = {
         {.value = launch, .size = sizeof *launch},
         {.buffer = pass->pixels->pages[launch->page_first / pass->pixels->page_pixels]},
         {.buffer = batch->order},
         {.buffer = pass->shears},
         {.buffer = batch->rows},
-        {.buffer = pass->optics}};
-    for (int i = 0; i < CS_SCENE_BUFFERS; i++)
-        arguments[BEFORE_WORLD + i].buffer = pass->scene->device_scene.buffers[i];
-    arguments[BEFORE_WORLD + CS_SCENE_LIGHTS].buffer = pass->lights;
-    return cs_device_run(pass->scene->context->device, CS_KERNEL_RENDER,
-                         (launch->pixel_count + launch->pixels_each - 1) / launch->pixels_each,
-                         arguments, BEFORE_WORLD + CS_SCENE_BUFFERS, error);
+        {.buffer = pass->optics},
+        CS_SCENE_BUFFER_LIST(CS_SCENE_ARGUMENT)};
+    return CS_RUN(pass->scene->context->device, RENDER,
+                  (launch->pixel_count + launch->pixels_each - 1) / launch->pixels_each, arguments,
+                  error);
 }
 
 /* Tells the caller how far it is, and asks whether to go on. */

@@ -36,7 +36,7 @@ static clshear_status choose_shears(cs_job *job, cs_error *error)
     const float *extended = job->base != NULL ? cs_film_channel(job->base, "Shear") : NULL;
     const float *rules = job->base != NULL ? cs_film_channel(job->base, "Oracle") : NULL;
     const int pilot = job->oracle == CLSHEAR_ORACLE_PILOT;
-    const cs_rule rule = pilot ? CS_RULE_CENTRE : (cs_rule)job->oracle;
+    const cs_rule rule = cs_rule_of(job->oracle);
     for (size_t i = 0; i < job->pixel_count; i++) {
         job->rule[i] = rules != NULL ? (uint8_t)rules[i] : (uint8_t)rule;
         job->shear_px[i] =

@@ -31,25 +31,20 @@ typedef struct evaluation {
 
 static clshear_status run_kernel(const evaluation *e, cs_u32 count, cs_error *error)
 {
-    enum {
-        BEFORE_WORLD = 9
-    };
-    cs_argument arguments[BEFORE_WORLD + CS_SCENE_BUFFERS] = {
-        {.value = &e->launch, .size = sizeof e->launch},
-        {.value = &e->pixel[0], .size = sizeof e->pixel[0]},
-        {.value = &e->pixel[1], .size = sizeof e->pixel[1]},
-        {.value = &count, .size = sizeof count},
-        {.value = &e->tuples, .size = sizeof e->tuples},
-        {.value = &e->shear_px, .size = sizeof e->shear_px},
-        {.buffer = e->table},
-        {.buffer = e->points},
-        {.buffer = e->radiance}};
-    for (int i = 0; i < CS_SCENE_BUFFERS; i++)
-        arguments[BEFORE_WORLD + i].buffer = e->job.scene->device_scene.buffers[i];
-    arguments[BEFORE_WORLD + CS_SCENE_LIGHTS].buffer = e->job.lighting.lights;
     cs_device *device = e->job.scene->context->device;
-    return cs_device_run(device, CS_KERNEL_RADIANCE, count / (cs_u32)cs_device_packet(device),
-                         arguments, BEFORE_WORLD + CS_SCENE_BUFFERS, error);
+    const cs_buffer *buffers[CS_SCENE_BUFFERS];
+    cs_scene_buffers_of(e->job.scene, e->job.lighting.lights, buffers);
+    const cs_argument arguments[] = {{.value = &e->launch, .size = sizeof e->launch},
+                                     {.value = &e->pixel[0], .size = sizeof e->pixel[0]},
+                                     {.value = &e->pixel[1], .size = sizeof e->pixel[1]},
+                                     {.value = &count, .size = sizeof count},
+                                     {.value = &e->tuples, .size = sizeof e->tuples},
+                                     {.value = &e->shear_px, .size = sizeof e->shear_px},
+                                     {.buffer = e->table},
+                                     {.buffer = e->points},
+                                     {.buffer = e->radiance},
+                                     CS_SCENE_BUFFER_LIST(CS_SCENE_ARGUMENT)};
+    return CS_RUN(device, RADIANCE, count / (cs_u32)cs_device_packet(device), arguments, error);
 }
 
 /* Up to `chunk` points; the last packet is filled up with the last point. */
@@ -166,8 +161,7 @@ clshear_status cs_pixel_shear(clshear_scene *scene, const clshear_settings *sett
                "pixel %d,%d is outside the %d x %d image", x, y, job.width, job.height);
     CS_TRY(cs_accel_depth(scene->accel, &job.camera, job.optics.table.items, window,
                           (int)cs_integer(&job.settings, LENS_RAYS), &depth, error));
-    const int pilot = job.oracle == CLSHEAR_ORACLE_PILOT;
-    *shear_px = cs_oracle_shear(&job.camera, &depth, pilot ? CS_RULE_CENTRE : (cs_rule)job.oracle);
+    *shear_px = cs_oracle_shear(&job.camera, &depth, cs_rule_of(job.oracle));
 done:
     cs_job_free(&job);
     return status;

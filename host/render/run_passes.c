@@ -1,4 +1,5 @@
 /* The passes of a render over its batches. */
+#include "optics/shear_mode.h"
 #include "render/resume.h"
 
 cs_pass cs_job_pass(const cs_job *job)
@@ -12,7 +13,7 @@ cs_pass cs_job_pass(const cs_job *job)
                                 .crop_y = (cs_u32)job->window[2],
                                 .crop_width = (cs_u32)(job->window[1] - job->window[0]),
                                 .crop_height = (cs_u32)(job->window[3] - job->window[2]),
-                                .shear_mode = (cs_u32)job->shear_kind,
+                                .shear_mode = cs_shear_mode(job->shear_kind),
                                 .lights = lighting->count,
                                 .emitters = job->scene->device_scene.emitters},
                      .optics = job->optics_table,

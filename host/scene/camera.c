@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vec.h"
 #include "optics/optics.h"
 #include "scene/node.h"
 
@@ -93,19 +94,11 @@ cs_view cs_camera_of_scene(const cs_scene *scene, int width, int height)
 
 static int normalise(float *v)
 {
-    float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    float length = sqrtf(cs_vec_dot(v, v));
     if (!(length > 0.0f) || !isfinite(length)) return 0;
     for (int i = 0; i < 3; i++)
         v[i] /= length;
     return 1;
-}
-
-static void cross(const float *a, const float *b, float *c)
-{
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        c[i] = a[j] * b[k] - a[k] * b[j];
-    }
 }
 
 clshear_status cs_camera_frame(const cs_view *camera, int width, int height, cs_camera *frame,
@@ -124,10 +117,10 @@ clshear_status cs_camera_frame(const cs_view *camera, int width, int height, cs_
     }
     if (!normalise(frame->forward))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "camera: eye and target are the same point");
-    cross(frame->forward, up, frame->right);
+    cs_vec_cross(frame->forward, up, frame->right);
     if (!normalise(up) || !normalise(frame->right))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "camera: up is parallel to the line of sight");
-    cross(frame->forward, frame->right, frame->down);
+    cs_vec_cross(frame->forward, frame->right, frame->down);
     if (!(camera->fov_deg > 0.0f && camera->fov_deg < 180.0f))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "field of view %g degrees: must be above 0 and below 180",

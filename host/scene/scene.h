@@ -5,6 +5,7 @@
 #include "base/array.h"
 #include "base/status.h"
 #include "clshear/clshear.h"
+#include "kernels/light/list.h"
 #include "kernels/scene.h"
 #include "optics/view.h"
 

@@ -12,17 +12,19 @@ enum {
     CS_SHEAR_EQUAL_AREA = 2
 };
 
-enum {
-    CS_APERTURE_DISK = 0,
-    CS_APERTURE_SQUARE = 1,
-    CS_APERTURE_POLYGON = 2, /* convex: tabulated by its chords */
-    CS_APERTURE_IMAGE = 3    /* texels of different brightness */
-};
+/* How a lens coordinate is distributed. Kernels know apertures by the kind of u's marginal alone:
+ * it says what the chord at u is as well. */
+typedef enum cs_marginal_kind {
+    CS_MARGINAL_UNIFORM = 0, /* on [-1/2, 1/2]; a square: all chords are alike */
+    CS_MARGINAL_DISK = 1,    /* of the disk of area 1 */
+    CS_MARGINAL_POLYGON = 2, /* of a convex polygon of area 1: tabulated by its chords */
+    CS_MARGINAL_IMAGE = 3    /* of texels: tabulated, and v's marginal too for each column */
+} cs_marginal_kind;
 
 /* Shape of the aperture and the pixel filter. Lens coordinates (u, v) are centred; one unit of them
  * is cs_camera.aperture_width. */
 typedef struct cs_optics {
-    cs_u32 aperture;         /* CS_APERTURE_ */
+    cs_u32 marginal;         /* cs_marginal_kind of u */
     cs_u32 closed;           /* box filter one pixel wide, square or disk: maps in closed form */
     cs_f32 squeeze;          /* width of the aperture as a part of what its shape says */
     cs_u32 filter_steps;     /* the filter is constant on each of these parts of its width */
