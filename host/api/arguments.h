@@ -2,6 +2,7 @@
 #ifndef CS_API_ARGUMENTS_H
 #define CS_API_ARGUMENTS_H
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/status.h"
@@ -38,5 +39,33 @@ static inline void cs_struct_out(void *target, const void *source, size_t size)
         memcpy((char *)target + sizeof target_size, (const char *)source + sizeof target_size,
                common - sizeof target_size);
 }
+
+/* A handle on the heap with a copy of what was made, once `status` is CLSHEAR_OK. NULL, with the
+ * status of the failure, when it is not or when there is no memory: the caller frees what was made.
+ */
+static inline void *cs_handle(clshear_status *status, const void *made, size_t size)
+{
+    if (*status != CLSHEAR_OK) return NULL;
+    void *handle = malloc(size);
+    if (handle == NULL)
+        *status = cs_fail(cs_thread_error(), CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    else
+        memcpy(handle, made, size);
+    return handle;
+}
+
+/* A public function that reads one member of an object. */
+#define CS_GETTER(type, object, member)                              \
+    type clshear_##object##_##member(const clshear_##object *object) \
+    {                                                                \
+        return object->member;                                       \
+    }
+
+/* The same for an element of an array. */
+#define CS_GETTER_AT(type, object, name, member)                                 \
+    type clshear_##object##_##name(const clshear_##object *object, size_t index) \
+    {                                                                            \
+        return object->member[index];                                            \
+    }
 
 #endif

@@ -45,16 +45,12 @@ static clshear_status check_study(const cs_study *study)
 static clshear_status hand_over(clshear_status status, clshear_convergence *made,
                                 clshear_convergence **result)
 {
-    clshear_convergence *handle = status == CLSHEAR_OK ? malloc(sizeof *handle) : NULL;
-    if (status == CLSHEAR_OK && handle == NULL)
-        status = cs_fail(cs_thread_error(), CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    if (handle == NULL) {
+    clshear_convergence *handle = cs_handle(&status, made, sizeof *made);
+    if (handle != NULL)
+        *result = handle;
+    else
         cs_convergence_free(made);
-        return status;
-    }
-    *handle = *made;
-    *result = handle;
-    return CLSHEAR_OK;
+    return status;
 }
 
 clshear_status clshear_converge_integrand(const clshear_integrand *integrand, const char *sampler,
@@ -111,25 +107,10 @@ void clshear_convergence_free(clshear_convergence *result)
     free(result);
 }
 
-size_t clshear_convergence_sizes(const clshear_convergence *result)
-{
-    return result->sizes;
-}
-
-uint32_t clshear_convergence_count(const clshear_convergence *result, size_t index)
-{
-    return result->counts[index];
-}
-
-double clshear_convergence_error(const clshear_convergence *result, size_t index)
-{
-    return result->errors[index];
-}
-
-double clshear_convergence_mean(const clshear_convergence *result)
-{
-    return result->mean;
-}
+CS_GETTER(size_t, convergence, sizes)
+CS_GETTER(double, convergence, mean)
+CS_GETTER_AT(uint32_t, convergence, count, counts)
+CS_GETTER_AT(double, convergence, error, errors)
 
 void clshear_convergence_fit(const clshear_convergence *result, clshear_fit *fit)
 {

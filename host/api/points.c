@@ -6,22 +6,15 @@
 #include "analysis/integrands.h"
 #include "api/arguments.h"
 
-/* An empty point set on the heap, or NULL with a message. */
-static clshear_points *new_points(void)
-{
-    clshear_points *points = calloc(1, sizeof *points);
-    if (points == NULL) cs_fail(cs_thread_error(), CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    return points;
-}
-
 /* Hands a point set over to the caller, or frees it after a failure. */
 static clshear_status hand_over(clshear_status status, clshear_points *made,
                                 clshear_points **points)
 {
-    if (status == CLSHEAR_OK)
-        *points = made;
+    clshear_points *handle = cs_handle(&status, made, sizeof *made);
+    if (handle != NULL)
+        *points = handle;
     else
-        clshear_points_free(made);
+        cs_points_free(made);
     return status;
 }
 
@@ -29,9 +22,8 @@ clshear_status clshear_points_draw(const char *sampler, size_t count, size_t set
                                    clshear_points **points)
 {
     CS_NEEDS(points);
-    clshear_points *made = new_points();
-    if (made == NULL) return CLSHEAR_OUT_OF_MEMORY;
-    return hand_over(cs_points_draw(sampler, count, sets, seed, made), made, points);
+    clshear_points made = {0};
+    return hand_over(cs_points_draw(sampler, count, sets, seed, &made), &made, points);
 }
 
 clshear_status clshear_points_create(const float *values, size_t sets, size_t count,
@@ -40,18 +32,16 @@ clshear_status clshear_points_create(const float *values, size_t sets, size_t co
     CS_NEEDS(values);
     CS_NEEDS(names);
     CS_NEEDS(points);
-    clshear_points *made = new_points();
-    if (made == NULL) return CLSHEAR_OUT_OF_MEMORY;
-    return hand_over(cs_points_take(values, sets, count, names, made), made, points);
+    clshear_points made = {0};
+    return hand_over(cs_points_take(values, sets, count, names, &made), &made, points);
 }
 
 clshear_status clshear_points_read(const char *path, clshear_points **points)
 {
     CS_NEEDS(path);
     CS_NEEDS(points);
-    clshear_points *made = new_points();
-    if (made == NULL) return CLSHEAR_OUT_OF_MEMORY;
-    return hand_over(cs_points_read(path, made), made, points);
+    clshear_points made = {0};
+    return hand_over(cs_points_read(path, &made), &made, points);
 }
 
 void clshear_points_free(clshear_points *points)
@@ -61,30 +51,11 @@ void clshear_points_free(clshear_points *points)
     free(points);
 }
 
-const float *clshear_points_values(const clshear_points *points)
-{
-    return points->values;
-}
-
-size_t clshear_points_sets(const clshear_points *points)
-{
-    return points->sets;
-}
-
-size_t clshear_points_count(const clshear_points *points)
-{
-    return points->count;
-}
-
-size_t clshear_points_dimensions(const clshear_points *points)
-{
-    return points->dimensions;
-}
-
-const char *clshear_points_names(const clshear_points *points)
-{
-    return points->names;
-}
+CS_GETTER(const float *, points, values)
+CS_GETTER(size_t, points, sets)
+CS_GETTER(size_t, points, count)
+CS_GETTER(size_t, points, dimensions)
+CS_GETTER(const char *, points, names)
 
 clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear, float shear_px)
 {

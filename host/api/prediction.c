@@ -29,18 +29,6 @@ clshear_status clshear_integrand_tabulate(const clshear_integrand *integrand, si
     return cs_integrand_tabulate(integrand, side, cells, mean_square);
 }
 
-/* Hands a prediction over to the caller, or nothing after a failure. */
-static clshear_status hand_over(clshear_status status, const clshear_prediction *made,
-                                clshear_prediction **prediction)
-{
-    if (status != CLSHEAR_OK) return status;
-    clshear_prediction *handle = malloc(sizeof *handle);
-    if (handle == NULL) return cs_fail(cs_thread_error(), CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    *handle = *made;
-    *prediction = handle;
-    return CLSHEAR_OK;
-}
-
 clshear_status clshear_predict_variance(const clshear_spectrum *samples, const float *integrand,
                                         size_t side, double mean_square,
                                         clshear_prediction **prediction)
@@ -50,7 +38,9 @@ clshear_status clshear_predict_variance(const clshear_spectrum *samples, const f
     CS_NEEDS(prediction);
     clshear_prediction made;
     const clshear_status status = cs_predict_variance(samples, integrand, side, mean_square, &made);
-    return hand_over(status, &made, prediction);
+    clshear_prediction *handle = cs_handle(&status, &made, sizeof made);
+    if (handle != NULL) *prediction = handle;
+    return status;
 }
 
 clshear_status clshear_predict_variance_4d(clshear_context *context, const clshear_points *samples,
@@ -67,7 +57,9 @@ clshear_status clshear_predict_variance_4d(clshear_context *context, const clshe
     clshear_status status = cs_struct_in(&copy, sizeof copy, reach, "reach");
     if (status == CLSHEAR_OK)
         status = cs_predict_variance_4d(context, samples, function, user, &copy, &made);
-    return cs_message_keep(&context->message, hand_over(status, &made, prediction));
+    clshear_prediction *handle = cs_handle(&status, &made, sizeof made);
+    if (handle != NULL) *prediction = handle;
+    return cs_message_keep(&context->message, status);
 }
 
 void clshear_prediction_free(clshear_prediction *prediction)
@@ -75,37 +67,10 @@ void clshear_prediction_free(clshear_prediction *prediction)
     free(prediction);
 }
 
-double clshear_prediction_variance(const clshear_prediction *prediction)
-{
-    return prediction->variance;
-}
-
-double clshear_prediction_isotropic(const clshear_prediction *prediction)
-{
-    return prediction->isotropic;
-}
-
-double clshear_prediction_energy(const clshear_prediction *prediction)
-{
-    return prediction->energy;
-}
-
-size_t clshear_prediction_parts(const clshear_prediction *prediction)
-{
-    return prediction->parts;
-}
-
-const char *clshear_prediction_part_name(const clshear_prediction *prediction, size_t part)
-{
-    return prediction->names[part];
-}
-
-double clshear_prediction_part_variance(const clshear_prediction *prediction, size_t part)
-{
-    return prediction->variances[part];
-}
-
-double clshear_prediction_part_energy(const clshear_prediction *prediction, size_t part)
-{
-    return prediction->energies[part];
-}
+CS_GETTER(double, prediction, variance)
+CS_GETTER(double, prediction, isotropic)
+CS_GETTER(double, prediction, energy)
+CS_GETTER(size_t, prediction, parts)
+CS_GETTER_AT(const char *, prediction, part_name, names)
+CS_GETTER_AT(double, prediction, part_variance, variances)
+CS_GETTER_AT(double, prediction, part_energy, energies)

@@ -5,20 +5,16 @@
 
 #include "api/arguments.h"
 
-/* Hands a copy of a spectrum over to the caller, or frees it after a failure. */
+/* Hands a spectrum over to the caller, or frees it after a failure. */
 static clshear_status hand_over(clshear_status status, clshear_spectrum *made,
                                 clshear_spectrum **spectrum)
 {
-    clshear_spectrum *handle = status == CLSHEAR_OK ? malloc(sizeof *handle) : NULL;
-    if (status == CLSHEAR_OK && handle == NULL)
-        status = cs_fail(cs_thread_error(), CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    if (handle == NULL) {
+    clshear_spectrum *handle = cs_handle(&status, made, sizeof *made);
+    if (handle != NULL)
+        *spectrum = handle;
+    else
         cs_spectrum_free(made);
-        return status;
-    }
-    *handle = *made;
-    *spectrum = handle;
-    return CLSHEAR_OK;
+    return status;
 }
 
 clshear_status clshear_spectrum_measure(clshear_context *context, const clshear_points *points,
@@ -57,20 +53,9 @@ void clshear_spectrum_free(clshear_spectrum *spectrum)
     free(spectrum);
 }
 
-const float *clshear_spectrum_power(const clshear_spectrum *spectrum)
-{
-    return spectrum->power;
-}
-
-size_t clshear_spectrum_width(const clshear_spectrum *spectrum)
-{
-    return spectrum->width;
-}
-
-size_t clshear_spectrum_height(const clshear_spectrum *spectrum)
-{
-    return spectrum->height;
-}
+CS_GETTER(const float *, spectrum, power)
+CS_GETTER(size_t, spectrum, width)
+CS_GETTER(size_t, spectrum, height)
 
 size_t clshear_spectrum_radius(const clshear_spectrum *spectrum)
 {
