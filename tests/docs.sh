@@ -54,4 +54,11 @@ for document in "${documents[@]}"; do
         [ -e "$folder/$link" ] || { echo "$document: nothing at $link"; exit 1; }
     done
 done
+# The remarks that the guide explains are remarks of the program: the longest part without a value of each.
+awk -F'`' '/^\| remark/ { inside = 1 } /^$/ { inside = 0 } inside && /^\| `/ {
+    n = split($2, parts, "…"); longest = ""
+    for (i = 1; i <= n; i++) { gsub(/^[ :;,]+|[ :;,]+$/, "", parts[i]); if (length(parts[i]) > length(longest)) longest = parts[i] }
+    print longest }' "$root/docs/guide/first-picture.md" | while read -r remark; do
+    grep -rqF -- "$remark" "$root/host" || { echo "first-picture.md: the program does not say \"$remark\""; exit 1; }
+done
 echo "documents checked"
