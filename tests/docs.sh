@@ -9,10 +9,18 @@ ln -s "$build" "$scratch/build"
 ln -s "$root/scenes" "$scratch/scenes"
 cd "$scratch"
 
-grep -h '^    build/' "$root"/README.md "$root"/docs/*.md "$root"/scenes/README.md | while read -r command; do
+documents=("$root"/README.md "$root"/CONTRIBUTING.md "$root"/docs/*.md "$root"/docs/guide/*.md
+    "$root"/docs/notes/*.md "$root"/scenes/README.md)
+
+# Commands run one after another in one folder, so that a page can use what its earlier lines wrote.
+# Pictures are rendered with few samples: their quality is not tested here.
+grep -h '^    build/' "${documents[@]}" | while read -r command; do
     echo "+ $command"
-    # A picture of documentation size is not what is tested here.
-    case $command in *bench* | *points* | *slice* | *--list* | *"--extend "*) bash -c "$command" ;; *) bash -c "$command --spp 8 --quiet" ;; esac
+    case $command in
+    "build/clshear scenes/"*"--extend "* | *--replicates* | *--list*) bash -c "$command" ;;
+    "build/clshear scenes/"*) bash -c "$command --spp 8 --quiet" ;;
+    *) bash -c "$command" ;;
+    esac
 done
 
 awk '/^```c$/ { inside = 1; next } /^```/ { inside = 0 } inside' "$root/README.md" >readme.c
@@ -39,11 +47,18 @@ export PKG_CONFIG_PATH
 cc readme.c -o packaged $(pkg-config --cflags --libs clshear)
 LD_LIBRARY_PATH=$(pkg-config --variable=libdir clshear) ./packaged
 
-for document in "$root"/README.md "$root"/docs/*.md "$root"/scenes/README.md; do
+for document in "${documents[@]}"; do
     folder=$(dirname "$document")
-    grep -o '](\([^)#]*\))' "$document" | tr -d '()]' | while read -r link; do
-        case $link in http*) continue ;; esac
+    grep -o ']([^)]*)' "$document" | sed 's/^](//; s/)$//; s/#.*//' | while read -r link; do
+        case $link in http* | '') continue ;; esac
         [ -e "$folder/$link" ] || { echo "$document: nothing at $link"; exit 1; }
     done
+done
+# The remarks that the guide explains are remarks of the program: the longest part without a value of each.
+awk -F'`' '/^\| remark/ { inside = 1 } /^$/ { inside = 0 } inside && /^\| `/ {
+    n = split($2, parts, "…"); longest = ""
+    for (i = 1; i <= n; i++) { gsub(/^[ :;,]+|[ :;,]+$/, "", parts[i]); if (length(parts[i]) > length(longest)) longest = parts[i] }
+    print longest }' "$root/docs/guide/first-picture.md" | while read -r remark; do
+    grep -rqF -- "$remark" "$root/host" || { echo "first-picture.md: the program does not say \"$remark\""; exit 1; }
 done
 echo "documents checked"
