@@ -37,7 +37,7 @@ clshear_status clshear_predict_variance(const clshear_spectrum *samples, const f
     CS_NEEDS(integrand);
     CS_NEEDS(prediction);
     clshear_prediction made;
-    const clshear_status status = cs_predict_variance(samples, integrand, side, mean_square, &made);
+    clshear_status status = cs_predict_variance(samples, integrand, side, mean_square, &made);
     clshear_prediction *handle = cs_handle(&status, &made, sizeof made);
     if (handle != NULL) *prediction = handle;
     return status;
