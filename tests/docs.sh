@@ -1,6 +1,6 @@
 #!/bin/bash
 # The documents tell the truth: every indented command that starts with build/ runs as printed, the C
-# program in the README compiles and runs, and every link leads somewhere.
+# programs compile and run, the reference is up to date, and every link leads somewhere.
 set -eu
 root=$1 build=$2 scratch=$3
 rm -rf "$scratch"
@@ -23,10 +23,25 @@ grep -h '^    build/' "${documents[@]}" | while read -r command; do
     esac
 done
 
-awk '/^```c$/ { inside = 1; next } /^```/ { inside = 0 } inside' "$root/README.md" >readme.c
-cc -std=c17 -Wall -Wextra -Werror -I "$root/include" readme.c -o readme -L "$build" -lclshear \
-    -Wl,-rpath,"$build"
-./readme
+# Every C program of README and of the guide to the API compiles and runs.
+include="-I $root/include -I $root/cl -I $build/generated"
+number=0
+awk '/^```c$/ { inside = 1; n++; next } /^```/ { inside = 0 } inside { print > ("program" n ".c") }' \
+    "$root/README.md" "$root/docs/guide/c-api.md"
+for program in program*.c; do
+    number=$((number + 1))
+    echo "+ $program"
+    # shellcheck disable=SC2086
+    cc -std=c17 -Wall -Wextra -Werror $include "$program" -o "${program%.c}" -L "$build" -lclshear \
+        -Wl,-rpath,"$build"
+    "./${program%.c}" >/dev/null
+done
+[ "$number" -ge 5 ] || { echo "only $number programs in the documents"; exit 1; }
+cp program1.c readme.c
+
+# The reference of settings is what the program prints.
+build/clshear --print-settings md | diff - "$root/docs/settings.md" ||
+    { echo "docs/settings.md is out of date: clshear --print-settings md > docs/settings.md"; exit 1; }
 
 # Installed anywhere: the program starts, and others find the library by CMake and by pkg-config.
 cmake --install "$build" --prefix "$PWD/installed" >/dev/null
