@@ -61,7 +61,7 @@ static void pattern_means(const cs_pattern *pattern, const cs_u32 *rows, cs_u32 
         mean[way] = 0.0;
     for (cs_u32 i = 0; i < pattern->grid.count; i++) {
         cs_f32 t[CS_DIMENSIONS] = {0};
-        cs_draw(pattern, rows, key, i, 2, t);
+        cs_draw(pattern, rows, key, i, t);
         const cs_f32 *table = lens->table.items;
         const cs_camera_sample plain =
             cs_shear(t[0], t[1], t[2], t[3], CS_SHEAR_NONE, &lens->optics, table, 0.0f);

@@ -50,7 +50,7 @@ static cs_ray ray_at(const bench_view *view, const cs_u32 *rows, cs_u32 pixel, c
 {
     const cs_u32 key = cs_pattern_key(0, pixel, 0), size = (cs_u32)view->size;
     float tuple[CS_DIMENSIONS] = {0};
-    cs_draw(&view->pattern, rows, key, cs_index_at(&view->pattern, key, place), 2, tuple);
+    cs_draw(&view->pattern, rows, key, cs_index_at(&view->pattern, key, place), tuple);
     const cs_camera_sample point =
         cs_shear(tuple[0], tuple[1], tuple[2], tuple[3], CS_SHEAR_EQUAL_AREA, &view->frame.optics,
                  view->optics.table.items, shear_px);

@@ -62,6 +62,14 @@ export PKG_CONFIG_PATH
 cc readme.c -o packaged $(pkg-config --cflags --libs clshear)
 LD_LIBRARY_PATH=$(pkg-config --variable=libdir clshear) ./packaged
 
+# The patch that shows how to add a sampler still fits.
+mkdir -p patched/cl/clshear
+cp -r "$root/cl/clshear/device" patched/cl/clshear
+awk '/^```diff$/ { inside = 1; next } /^```/ { inside = 0 } inside' \
+    "$root/docs/guide/adding-a-sampler.md" | patch --directory patched --strip 1 --fuzz 0
+printf '#include "clshear/device/sampler/sampler.h"\n' >sampler.c
+cc -std=c17 -Wall -Wextra -Werror -fsyntax-only -I patched/cl sampler.c
+
 for document in "${documents[@]}"; do
     folder=$(dirname "$document")
     grep -o ']([^)]*)' "$document" | sed 's/^](//; s/)$//; s/#.*//' | while read -r link; do

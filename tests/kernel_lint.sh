@@ -10,6 +10,6 @@ done
 for width in 1 4 8 16; do
     for kernel in "$root"/cl/kernels/*.cl; do
         "$clang" -x cl -cl-std=CL1.2 -Wall -Wextra -Werror -Xclang -finclude-default-header \
-            -fsyntax-only -DCS_PACKET=$width -I "$root/cl" "$kernel"
+            -fsyntax-only -DCS_PACKET=$width -DCS_KEEP_FP_CONTRACT_OFF -I "$root/cl" "$kernel"
     done
 done

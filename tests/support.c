@@ -119,7 +119,7 @@ void test_pattern_free(test_pattern *pattern)
 
 void test_draw(const test_pattern *pattern, cs_u32 key, cs_u32 index, cs_f32 *tuple)
 {
-    cs_draw(&pattern->pattern, pattern->rows.items, key, index, CS_DIMENSIONS / 2, tuple);
+    cs_draw_all(&pattern->pattern, pattern->rows.items, key, index, tuple);
 }
 
 cs_optics_tables test_optics(const clshear_camera *camera, clshear_filter filter, float width_px)

@@ -51,7 +51,7 @@ static void measure(cs_u32 sampler, cs_u32 size, cs_u32 *count, double *variance
         for (cs_u32 i = 0; i < *count; i++) {
             cs_f32 tuple[CS_DIMENSIONS] = {0};
             double values[INTEGRANDS];
-            cs_draw(&drawn.pattern, drawn.rows.items, cs_pattern_key(11, t, 0), i, 2, tuple);
+            cs_draw(&drawn.pattern, drawn.rows.items, cs_pattern_key(11, t, 0), i, tuple);
             integrands(tuple, values);
             for (int k = 0; k < INTEGRANDS; k++)
                 sum[k] += values[k];

@@ -1,6 +1,6 @@
 /* The samples of a few blocks, gathered before they are merged into the pixel. Device only. */
-#ifndef CS_GATHER_H
-#define CS_GATHER_H
+#ifndef CS_KERNELS_ACCUMULATOR_H
+#define CS_KERNELS_ACCUMULATOR_H
 
 #include "clshear/device/packet.h"
 #include "clshear/device/stats.h"

@@ -1,7 +1,7 @@
 /* From places in a pixel's pattern to points of the pixel and the lens, a few packets at once.
  * Device only. */
-#ifndef CS_DRAW_H
-#define CS_DRAW_H
+#ifndef CS_KERNELS_DRAW_H
+#define CS_KERNELS_DRAW_H
 
 #include "clshear/device/shear.h"
 #include "launch.h"
@@ -36,46 +36,48 @@ typedef struct cs_drawn {
     cs_f32 shear[CS_TOGETHER];
     cs_vint active[CS_TOGETHER]; /* lanes that are samples of the pattern */
     cs_camera_sample point[CS_TOGETHER];
-    cs_pair emitter[CS_TOGETHER];
+    cs_pair light[CS_TOGETHER]; /* the tuple's slot, if the scene has emitters */
 } cs_drawn;
 
 /* One packet of them, which begins at place `start` of the pixel's order, up to `end`. */
-static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table rows,
-                                  cs_optics_table table, const cs_place *places, int number,
+static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sample_table,
+                                  cs_optics_table lens_table, const cs_place *places, int number,
                                   cs_u32 start, cs_u32 end, cs_drawn *drawn)
 {
     const cs_place *place = places + number;
     int k = drawn->count++;
-    cs_vfloat tuple[CS_DIMENSIONS];
+    cs_vfloat tuple[CS_MAIN_DIMENSIONS];
     cs_vuint position = start + CS_LANE_INDEX;
     cs_vint inside = position < end;
     cs_vuint index =
         cs_index_at(&launch->pattern, place->key, inside ? position : (cs_vuint)(start));
     cs_vint active = inside & (index < launch->pattern.grid.count);
     index = active ? index : (cs_vuint)(0u);
-    tuple[4] = (cs_vfloat)(0.0f);
-    tuple[5] = (cs_vfloat)(0.0f);
-    cs_draw(&launch->pattern, rows, place->key, index, launch->emitters > 0u ? 3u : 2u, tuple);
-    cs_camera_sample point = {tuple[0], tuple[1], tuple[2], tuple[3]};
+    cs_draw(&launch->pattern, sample_table, place->key, index, tuple);
+    cs_camera_sample point = {tuple[CS_AT_FILM], tuple[CS_END_FILM], tuple[CS_AT_LENS],
+                              tuple[CS_END_LENS]};
     drawn->place[k] = number;
     drawn->shear[k] = place->shear;
     drawn->active[k] = active;
     drawn->point[k] =
-        cs_shear_alone(point, launch->shear_mode, &launch->camera.optics, table, place->shear);
-    drawn->emitter[k].x = tuple[4];
-    drawn->emitter[k].y = tuple[5];
+        cs_shear_alone(point, launch->shear_mode, &launch->camera.optics, lens_table, place->shear);
+    drawn->light[k].x = (cs_vfloat)(0.0f);
+    drawn->light[k].y = (cs_vfloat)(0.0f);
+    if (launch->emitters > 0u)
+        drawn->light[k] =
+            cs_draw_extra(&launch->pattern, sample_table, place->key, index, CS_SLOT_LIGHT);
 }
 
 /* Draws the next packets of a few pixels from place `start` of their order on, up to `end`: of one
  * pixel as many as fit, of several all that there are. */
-static inline void cs_draw_packets(const cs_launch *launch, cs_sample_table rows,
-                                   cs_optics_table table, const cs_place *places, int count,
+static inline void cs_draw_packets(const cs_launch *launch, cs_sample_table sample_table,
+                                   cs_optics_table lens_table, const cs_place *places, int count,
                                    cs_u32 start, cs_u32 end, cs_drawn *drawn)
 {
     drawn->count = 0;
     for (int number = 0; number < count; number++)
         for (cs_u32 at = start; drawn->count < CS_TOGETHER && at < end; at += (cs_u32)CS_PACKET)
-            cs_draw_packet(launch, rows, table, places, number, at, end, drawn);
+            cs_draw_packet(launch, sample_table, lens_table, places, number, at, end, drawn);
     cs_shear_together(drawn->point, drawn->shear, drawn->count, launch->shear_mode,
                       &launch->camera.optics);
 }

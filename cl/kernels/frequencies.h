@@ -1,6 +1,6 @@
 /* Which frequencies a table of exponentials has. Shared. */
-#ifndef CS_FREQUENCIES_H
-#define CS_FREQUENCIES_H
+#ifndef CS_KERNELS_FREQUENCIES_H
+#define CS_KERNELS_FREQUENCIES_H
 
 #include "clshear/device/dialect.h"
 

@@ -1,12 +1,13 @@
 /* What one launch of the render kernel is told. Shared. */
-#ifndef CS_FRAME_H
-#define CS_FRAME_H
+#ifndef CS_KERNELS_LAUNCH_H
+#define CS_KERNELS_LAUNCH_H
 
 #include "clshear/device/camera.h"
 #include "clshear/device/sampler/sampler.h"
 
 enum {
-    CS_POINT_VALUES = CS_DIMENSIONS + 4 /* that the points kernel writes for each sample */
+    /* Floats that the points kernel writes for each sample: the tuple, then x, y, u, v. */
+    CS_POINT_VALUES = CS_DIMENSIONS + CS_MAIN_DIMENSIONS
 };
 
 typedef struct cs_launch {

@@ -2,10 +2,10 @@
 #include "kernels/draw.h"
 
 /* One work-item writes CS_PACKET consecutive samples of the pattern of `pixel`,
- * CS_POINT_VALUES floats each: the six coordinates of the tuple, then x, y, u, v after the shear.
- * Global size: at least ceil(grid.count / CS_PACKET). */
+ * CS_POINT_VALUES floats each: the CS_DIMENSIONS coordinates of the tuple, then x, y, u, v after
+ * the shear. Global size: at least ceil(grid.count / CS_PACKET). */
 __kernel void cs_points(const cs_launch launch, const uint pixel, const float shear,
-                        __global const uint *rows, __global const float *table,
+                        __global const uint *sample_table, __global const float *lens_table,
                         __global float *points)
 {
     cs_u32 first = (cs_u32)get_global_id(0) * (cs_u32)CS_PACKET;
@@ -14,16 +14,17 @@ __kernel void cs_points(const cs_launch launch, const uint pixel, const float sh
     index = index < launch.pattern.grid.count ? index : (cs_vuint)(0u);
     cs_u32 key = cs_pattern_key(launch.seed, pixel, launch.replicate);
     cs_vfloat tuple[CS_DIMENSIONS];
-    cs_draw(&launch.pattern, rows, key, index, 3u, tuple);
-    cs_camera_sample point = cs_shear(tuple[0], tuple[1], tuple[2], tuple[3], launch.shear_mode,
-                                      &launch.camera.optics, table, shear);
+    cs_draw_all(&launch.pattern, sample_table, key, index, tuple);
+    cs_camera_sample point =
+        cs_shear(tuple[CS_AT_FILM], tuple[CS_END_FILM], tuple[CS_AT_LENS], tuple[CS_END_LENS],
+                 launch.shear_mode, &launch.camera.optics, lens_table, shear);
     cs_float_lanes value[CS_POINT_VALUES];
     for (cs_u32 d = 0u; d < (cs_u32)CS_DIMENSIONS; d++)
         value[d].all = tuple[d];
-    value[6].all = point.x;
-    value[7].all = point.y;
-    value[8].all = point.u;
-    value[9].all = point.v;
+    value[CS_DIMENSIONS + CS_AT_FILM].all = point.x;
+    value[CS_DIMENSIONS + CS_END_FILM].all = point.y;
+    value[CS_DIMENSIONS + CS_AT_LENS].all = point.u;
+    value[CS_DIMENSIONS + CS_END_LENS].all = point.v;
     for (cs_u32 lane = 0u; lane < (cs_u32)CS_PACKET && first + lane < launch.pattern.grid.count;
          lane++)
         for (cs_u32 i = 0u; i < (cs_u32)CS_POINT_VALUES; i++)
@@ -32,8 +33,9 @@ __kernel void cs_points(const cs_launch launch, const uint pixel, const float sh
 
 /* Draws as the render kernel does and adds the coordinates up instead of tracing: what sampling
  * costs by itself. One work-item for each pixel; sums: one float each. */
-__kernel void cs_draw_sum(const cs_launch launch, const float shear, __global const uint *rows,
-                          __global const float *table, __global float *sums)
+__kernel void cs_draw_sum(const cs_launch launch, const float shear,
+                          __global const uint *sample_table, __global const float *lens_table,
+                          __global float *sums)
 {
     cs_place place;
     if (get_global_id(0) >= launch.pixel_count) return;
@@ -45,7 +47,7 @@ __kernel void cs_draw_sum(const cs_launch launch, const float shear, __global co
     cs_u32 end = launch.pattern.blocks * (cs_u32)CS_BLOCK;
     for (cs_u32 start = 0u; start < end; start += (cs_u32)(CS_TOGETHER * CS_PACKET)) {
         cs_drawn drawn;
-        cs_draw_packets(&launch, rows, table, &place, 1, start, end, &drawn);
+        cs_draw_packets(&launch, sample_table, lens_table, &place, 1, start, end, &drawn);
         for (int packet = 0; packet < drawn.count; packet++) {
             cs_camera_sample point = drawn.point[packet];
             sum += drawn.active[packet] ? point.x + point.y + point.u + point.v : (cs_vfloat)(0.0f);

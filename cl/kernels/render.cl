@@ -11,22 +11,23 @@ static inline void cs_trace_packet(const cs_launch *launch, const cs_scene_buffe
     cs_camera_sample point = drawn->point[packet];
     cs_ray ray = cs_lens_ray(launch->camera, point.x + (cs_f32)place->x, point.y + (cs_f32)place->y,
                              point.u, point.v);
-    *radiance = cs_radiance_along(scene, launch->lights, &ray, drawn->emitter[packet],
-                                  drawn->active[packet]);
+    *radiance =
+        cs_radiance_along(scene, launch->lights, &ray, drawn->light[packet], drawn->active[packet]);
 }
 
 /* Samples at places `start` to `end` of the order of a few pixels, gathered and merged into them.
  * Of several pixels there are no more than are drawn together. */
 static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *scene,
-                             cs_sample_table rows, cs_optics_table table, const cs_place *places,
-                             int count, cs_u32 start, cs_u32 end, CS_GLOBAL cs_pixel *pixels)
+                             cs_sample_table sample_table, cs_optics_table lens_table,
+                             const cs_place *places, int count, cs_u32 start, cs_u32 end,
+                             CS_GLOBAL cs_pixel *pixels)
 {
     cs_drawn drawn;
     cs_accumulator accumulator;
     int first = 1;
     for (; start < end; start += (cs_u32)(CS_TOGETHER * CS_PACKET)) {
         int more = count == 1 && start + (cs_u32)(CS_TOGETHER * CS_PACKET) < end;
-        cs_draw_packets(launch, rows, table, places, count, start, end, &drawn);
+        cs_draw_packets(launch, sample_table, lens_table, places, count, start, end, &drawn);
         for (int packet = 0; packet < drawn.count; packet++) {
             const cs_place *place = places + drawn.place[packet];
             cs_radiance radiance;
@@ -46,11 +47,12 @@ static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *sc
  * Global size: at least launch.pixel_count / launch.pixels_each, rounded up; any local size.
  * pixels: one cs_pixel for each pixel of the crop from launch.page_first on, or each that is drawn,
  * zero at first. order: the crop's pixels (row by row) in the order in which they are drawn.
- * shears: the oracle's answer for each pixel of the crop, in pixels. rows: the pattern's table.
- * table: the optics'. The others: the scene, see cs_scene_buffers. */
+ * shears: the oracle's answer for each pixel of the crop, in pixels. sample_table: the pattern's.
+ * lens_table: the optics'. The others: the scene, see cs_scene_buffers. */
 __kernel void cs_render(const cs_launch launch, __global cs_pixel *pixels,
                         __global const uint *order, __global const float *shears,
-                        __global const uint *rows, __global const float *table CS_SCENE_PARAMETERS)
+                        __global const uint *sample_table,
+                        __global const float *lens_table CS_SCENE_PARAMETERS)
 {
     cs_u32 begin = (cs_u32)get_global_id(0) * launch.pixels_each;
     if (begin >= launch.pixel_count) return;
@@ -63,8 +65,8 @@ __kernel void cs_render(const cs_launch launch, __global cs_pixel *pixels,
     }
     for (cs_u32 block = launch.first_block; block < launch.last_block; block += CS_FLUSH_BLOCKS) {
         cs_u32 end = min(block + (cs_u32)CS_FLUSH_BLOCKS, launch.last_block) * (cs_u32)CS_BLOCK;
-        cs_sample(&launch, &scene, rows, table, places, count, block * (cs_u32)CS_BLOCK, end,
-                  pixels);
+        cs_sample(&launch, &scene, sample_table, lens_table, places, count,
+                  block * (cs_u32)CS_BLOCK, end, pixels);
     }
     if (launch.last_block != launch.pattern.blocks) return;
     for (int i = 0; i < count; i++)

@@ -3,8 +3,8 @@
  * The packet walks the tree together, one ray octant after another: within an octant the near and
  * far planes of a box and the near child of a node are the same for all lanes and are picked by
  * scalar bits. */
-#ifndef CS_TRAVERSE_H
-#define CS_TRAVERSE_H
+#ifndef CS_KERNELS_TRAVERSE_H
+#define CS_KERNELS_TRAVERSE_H
 
 #include "clshear/device/lens.h"
 #include "clshear/device/packet.h"

@@ -139,7 +139,7 @@ static clshear_status make_sets(const cs_camera *camera, const cs_f32 *optics, c
     CS_REQUIRE(*sets != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     for (cs_u32 i = 0; i < SETS * lens_rays; i++) {
         cs_f32 t[CS_DIMENSIONS] = {0};
-        cs_draw(&pattern, rows.items, cs_pattern_key(0, i / lens_rays, 0), i % lens_rays, 2, t);
+        cs_draw(&pattern, rows.items, cs_pattern_key(0, i / lens_rays, 0), i % lens_rays, t);
         (*sets)[i] = cs_unsheared(t[0], t[1], t[2], t[3], &camera->optics, optics);
     }
 done:

@@ -12,6 +12,9 @@
 typedef struct cs_device cs_device;
 typedef struct cs_buffer cs_buffer;
 
+/* The text of the public headers, cl/clshear/device, with which every program begins. */
+const char *cs_device_source(void);
+
 /* A kernel argument: a buffer (`buffer` not NULL), or `size` bytes by value. */
 typedef struct cs_argument {
     const cs_buffer *buffer;

@@ -90,7 +90,7 @@ clshear_status cs_optics_make(const cs_view *camera, clshear_filter filter, floa
     CS_TRY(cs_filter_make(filter, width_px, tables, error));
     CS_TRY(known->make(camera, tables, error));
     optics->squeeze = 1.0f / anamorphic;
-    optics->closed =
+    optics->has_closed_form =
         filter == CLSHEAR_FILTER_BOX && optics->filter_width == 1.0f &&
         (optics->marginal == CS_MARGINAL_UNIFORM || optics->marginal == CS_MARGINAL_DISK);
 done:

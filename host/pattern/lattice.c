@@ -45,7 +45,7 @@ static double figure_of_merit(cs_u32 count, cs_u32 multiplier, double until)
     for (cs_u32 i = 0; i < count && sum - count < until * count; i++) {
         double term = 1.0;
         uint64_t at = i;
-        for (int d = 0; d < 4; d++) {
+        for (int d = 0; d < CS_MAIN_DIMENSIONS; d++) {
             const double x = (double)at * scale;
             term *= 1.0 + two_pi_squared * (x * x - x + 1.0 / 6.0);
             at = at * multiplier % count;
@@ -81,14 +81,14 @@ int cs_table_rank1(cs_table *table)
     const cs_u32 multiplier = korobov_multiplier(count);
     for (cs_u32 row = 0; row < count; row++) {
         uint64_t at = row;
-        for (int d = 0; d < 4; d++) {
+        for (int d = 0; d < CS_MAIN_DIMENSIONS; d++) {
             table->word[d][row] = fraction(at, count);
             at = at * multiplier % count;
         }
         table->place[0][row] = table->word[0][row];
         table->place[1][row] = table->word[1][row];
     }
-    table->words = 4;
+    table->words = CS_MAIN_DIMENSIONS;
     cut_evenly(table);
     return 1;
 }

@@ -47,11 +47,11 @@ static int rows_of_net(cs_table *table, const generator *matrices)
 {
     for (cs_u32 row = 0; row < table->pattern->grid.count; row++) {
         const cs_u32 element = table->pattern->first + row;
-        for (cs_u32 d = 0; d < 4; d++)
+        for (cs_u32 d = 0; d < CS_MAIN_DIMENSIONS; d++)
             table->word[d][row] = product(&matrices[d], element);
         place(table, row, table->word[0][row], table->word[1][row]);
     }
-    table->words = 4;
+    table->words = CS_MAIN_DIMENSIONS;
     cut_binary(table);
     return 1;
 }
@@ -76,12 +76,13 @@ static void sobol_matrix(cs_u32 degree, cs_u32 coefficients, const cs_u32 *initi
 
 int cs_table_sobol(cs_table *table)
 {
-    static const cs_u32 initial[4][3] = {{1, 1, 1}, {1}, {1, 3}, {1, 3, 1}};
-    static const cs_u32 degree[4] = {0, 1, 2, 3}, coefficients[4] = {0, 0, 1, 1};
-    generator matrices[4];
+    static const cs_u32 initial[CS_MAIN_DIMENSIONS][3] = {{1, 1, 1}, {1}, {1, 3}, {1, 3, 1}};
+    static const cs_u32 degree[CS_MAIN_DIMENSIONS] = {0, 1, 2, 3},
+                        coefficients[CS_MAIN_DIMENSIONS] = {0, 0, 1, 1};
+    generator matrices[CS_MAIN_DIMENSIONS];
     for (int c = 0; c < BITS; c++)
         matrices[0].column[c] = 1u << c;
-    for (int d = 1; d < 4; d++)
+    for (int d = 1; d < CS_MAIN_DIMENSIONS; d++)
         sobol_matrix(degree[d], coefficients[d], initial[d], &matrices[d]);
     return rows_of_net(table, matrices);
 }
@@ -95,7 +96,7 @@ static void sz_matrix(cs_u32 dimension, generator *matrix)
 {
     /* Columns of the powers of a: bit 0 is the upper row. */
     static const cs_u32 power[3][2] = {{1, 2}, {2, 3}, {3, 1}};
-    static const cs_u32 exponent[4] = {0, 0, 1, 2};
+    static const cs_u32 exponent[CS_MAIN_DIMENSIONS] = {0, 0, 1, 2};
     for (cs_u32 c = 0; c < BITS; c++)
         matrix->column[c] = 0;
     for (cs_u32 j = 0; j < BITS / 2; j++)
@@ -111,8 +112,8 @@ static void sz_matrix(cs_u32 dimension, generator *matrix)
 
 int cs_table_sz(cs_table *table)
 {
-    generator matrices[4];
-    for (cs_u32 d = 0; d < 4; d++)
+    generator matrices[CS_MAIN_DIMENSIONS];
+    for (cs_u32 d = 0; d < CS_MAIN_DIMENSIONS; d++)
         sz_matrix(d, &matrices[d]);
     return rows_of_net(table, matrices);
 }
@@ -151,7 +152,7 @@ int cs_table_halton(cs_table *table)
         table->place[0][row] = cs_reverse_bits(element);
         table->place[1][row] = (cs_u32)(thirds * 0x1p32);
     }
-    table->words = 4;
+    table->words = CS_MAIN_DIMENSIONS;
     /* Elementary boxes of about CS_GROUP samples: 2^a x 3^b, as square as they come. */
     cs_u32 columns = 1, bands = 1;
     while (columns * bands * 2 * CS_GROUP <= count)

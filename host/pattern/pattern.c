@@ -6,7 +6,7 @@
 
 #include "pattern/table_makers.h"
 
-/* Which numbers of samples there are: the `counts` column of cl/clshear/device/sampler/list.h. */
+/* Whether a construction has `count` points. */
 typedef int (*count_rule)(cs_u32 count);
 
 static int counts_any(cs_u32 count)
@@ -34,7 +34,7 @@ static int counts_grid(cs_u32 count)
 
 /* Sides of a 4D grid, as equal as they come: shape[0] >= ... >= shape[3], at most twice as large.
  * Returns 0 if there is none. */
-static int hypergrid(cs_u32 count, cs_u32 shape[4])
+static int hypergrid(cs_u32 count, cs_u32 shape[CS_MAIN_DIMENSIONS])
 {
     cs_u32 best = 0;
     for (cs_u32 d = 1; d * d * d * d <= count; d++) {
@@ -47,7 +47,7 @@ static int hypergrid(cs_u32 count, cs_u32 shape[4])
                 if (pair % b != 0 || pair / b > 2 * d) continue;
                 if (d < best) continue;
                 best = d;
-                const cs_u32 sides[4] = {pair / b, b, c, d};
+                const cs_u32 sides[CS_MAIN_DIMENSIONS] = {pair / b, b, c, d};
                 memcpy(shape, sides, sizeof sides);
             }
         }
@@ -57,7 +57,7 @@ static int hypergrid(cs_u32 count, cs_u32 shape[4])
 
 static int counts_hypergrid(cs_u32 count)
 {
-    cs_u32 shape[4];
+    cs_u32 shape[CS_MAIN_DIMENSIONS];
     return hypergrid(count, shape);
 }
 
@@ -92,16 +92,73 @@ static int counts_cube(cs_u32 count)
     return is_array(count, 3);
 }
 
+/* Fills the grid and the shape of a pattern of `count` points whose other constants are known. */
+typedef void (*shape_rule)(cs_pattern *pattern, cs_u32 count);
+
+static void shape_evenly(cs_pattern *pattern, cs_u32 count)
+{
+    pattern->grid = cs_grid_of(count);
+}
+
+static void shape_hypergrid(cs_pattern *pattern, cs_u32 count)
+{
+    shape_evenly(pattern, count);
+    if (hypergrid(count, pattern->shape))
+        pattern->grid = cs_grid_on(count, pattern->shape[0] * pattern->shape[1]);
+}
+
+static void shape_square(cs_pattern *pattern, cs_u32 count)
+{
+    pattern->grid = cs_grid_on(count, root_of(count, 2));
+}
+
+static void shape_cube(cs_pattern *pattern, cs_u32 count)
+{
+    pattern->grid = cs_grid_on(count, root_of(count, 3));
+}
+
+/* Digits of base `base` that number the elements below `end`. */
+static cs_u32 digits_of(cs_u32 end, cs_u32 base)
+{
+    cs_u32 digits = 0;
+    for (uint64_t power = 1; power < end; power *= base)
+        digits++;
+    return digits;
+}
+
+static void shape_digits(cs_pattern *pattern, cs_u32 count)
+{
+    const cs_u32 bases[CS_MAIN_DIMENSIONS] = {2, 3, 5, 7};
+    shape_evenly(pattern, count);
+    for (int d = 0; d < CS_MAIN_DIMENSIONS; d++)
+        pattern->shape[d] = digits_of(pattern->first + count, bases[d]);
+}
+
+/* The rules that the `shape` column of cl/clshear/device/sampler/list.h names. */
+typedef struct sampler_shape {
+    count_rule has;
+    shape_rule fill;
+} sampler_shape;
+
+static const sampler_shape shape_rules_any = {counts_any, shape_evenly};
+static const sampler_shape shape_rules_modest = {counts_modest, shape_evenly};
+static const sampler_shape shape_rules_few = {counts_few, shape_evenly};
+static const sampler_shape shape_rules_grid = {counts_grid, shape_evenly};
+static const sampler_shape shape_rules_hypergrid = {counts_hypergrid, shape_hypergrid};
+static const sampler_shape shape_rules_square = {counts_square, shape_square};
+static const sampler_shape shape_rules_cube = {counts_cube, shape_cube};
+static const sampler_shape shape_rules_digits = {counts_any, shape_digits};
+
 typedef struct sampler {
     const char *name;
     const char *about;
-    count_rule counts;
-    int (*rows)(cs_table *table);
+    const sampler_shape *shape;
+    int (*make_table)(cs_table *table);
     int progressive;
 } sampler;
 
-#define CS_SAMPLER_ENTRY(identifier, name, draw, counts, rows, progressive, about) \
-    {name, about, counts_##counts, cs_table_##rows, progressive},
+#define CS_SAMPLER_ENTRY(identifier, name, draw, extra, shape, table, progressive, about) \
+    {name, about, &shape_rules_##shape, cs_table_##table, progressive},
 
 static const sampler samplers[CS_SAMPLER_COUNT] = {CS_SAMPLER_LIST(CS_SAMPLER_ENTRY)};
 
@@ -142,25 +199,16 @@ clshear_status cs_sampler_find(const char *name, cs_u32 *number, cs_error *error
 cs_u32 cs_sampler_count(cs_u32 number, cs_u32 wanted)
 {
     for (cs_u32 count = wanted; count <= CS_MAX_PATTERN; count++)
-        if (samplers[number].counts(count)) return count;
+        if (samplers[number].shape->has(count)) return count;
     return 0;
 }
 
 cs_u32 cs_sampler_most(cs_u32 number)
 {
     cs_u32 count = CS_MAX_PATTERN;
-    while (!samplers[number].counts(count))
+    while (!samplers[number].shape->has(count))
         count--;
     return count;
-}
-
-/* Digits of base `base` that number the elements below `end`. */
-static cs_u32 digits_of(cs_u32 end, cs_u32 base)
-{
-    cs_u32 digits = 0;
-    for (uint64_t power = 1; power < end; power *= base)
-        digits++;
-    return digits;
 }
 
 cs_pattern cs_pattern_of(cs_u32 number, cs_u32 first, cs_u32 count)
@@ -168,16 +216,7 @@ cs_pattern cs_pattern_of(cs_u32 number, cs_u32 first, cs_u32 count)
     cs_pattern pattern = {.sampler = number, .first = first};
     pattern.blocks = (count + CS_BLOCK - 1) / CS_BLOCK;
     pattern.block_domain = cs_domain_of(pattern.blocks);
-    pattern.grid = cs_grid_of(count);
-    if (number == CS_SAMPLER_OA || number == CS_SAMPLER_OA3)
-        pattern.grid = cs_grid_on(count, root_of(count, number == CS_SAMPLER_OA ? 2 : 3));
-    if (number == CS_SAMPLER_JITTERED4D && hypergrid(count, pattern.shape))
-        pattern.grid = cs_grid_on(count, pattern.shape[0] * pattern.shape[1]);
-    if (number == CS_SAMPLER_HALTON) {
-        const cs_u32 bases[4] = {2, 3, 5, 7};
-        for (int d = 0; d < 4; d++)
-            pattern.shape[d] = digits_of(first + count, bases[d]);
-    }
+    samplers[number].shape->fill(&pattern, count);
     return pattern;
 }
 
@@ -246,7 +285,7 @@ clshear_status cs_sample_table_make(const cs_pattern *pattern, cs_sample_order o
     for (cs_u32 d = 0; good && d < 2; d++)
         table.place[d] = memory + (size_t)(CS_MOST_WORDS + d) * count;
     *rows = (cs_array){.item_size = sizeof(cs_u32)};
-    good = good && samplers[pattern->sampler].rows(&table);
+    good = good && samplers[pattern->sampler].make_table(&table);
     if (good && table.words > 0) {
         if (order == CS_ORDER_COHERENT && table.boxes[0] > 0) good = sort_rows(&table);
         good = good && pack(&table, rows);

@@ -1,4 +1,5 @@
-/* The makers of tables: one for each word in the `rows` column of cl/clshear/device/sampler/list.h.
+/* The makers of tables: one for each word in the `table` column of
+ * cl/clshear/device/sampler/list.h.
  */
 #ifndef CS_PATTERN_ROWS_H
 #define CS_PATTERN_ROWS_H

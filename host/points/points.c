@@ -61,8 +61,8 @@ static void draw_sets(void *user, size_t begin, size_t end)
     for (size_t set = begin; set < end; set++) {
         const cs_u32 key = cs_pattern_key(job->seed, (cs_u32)set, 0);
         for (size_t i = 0; i < count; i++)
-            cs_draw(&job->pattern, job->rows, key, (cs_u32)i, CS_DIMENSIONS / 2,
-                    job->points->values + (set * count + i) * CS_DIMENSIONS);
+            cs_draw_all(&job->pattern, job->rows, key, (cs_u32)i,
+                        job->points->values + (set * count + i) * CS_DIMENSIONS);
     }
 }
 
@@ -79,7 +79,7 @@ clshear_status cs_points_draw(const char *name, size_t wanted, size_t sets, uint
                "%zu points of sampler %s: must be 1 to %u", wanted, cs_sampler_name(sampler), most);
     const cs_u32 count = cs_sampler_count(sampler, (cs_u32)wanted);
     clshear_points made = {
-        .sets = sets, .count = count, .dimensions = CS_DIMENSIONS, .names = "xyuvpq"};
+        .sets = sets, .count = count, .dimensions = CS_DIMENSIONS, .names = CS_DIMENSION_NAMES};
     draw_job job = {.pattern = cs_pattern_of(sampler, 0, count), .seed = seed, .points = &made};
     CS_TRY(cs_sample_table_make(&job.pattern, CS_ORDER_SEQUENCE, &rows, error));
     CS_TRY(cs_points_reserve(&made, error));
@@ -95,10 +95,11 @@ clshear_status cs_points_shear(clshear_points *points, clshear_shear shear, floa
 {
     cs_error *error = cs_thread_error();
     const size_t stride = points->dimensions;
-    if (stride < 4 || strncmp(points->names, "xyuv", 4) != 0)
+    if (stride < CS_MAIN_DIMENSIONS ||
+        strncmp(points->names, CS_DIMENSION_NAMES, CS_MAIN_DIMENSIONS) != 0)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "points of %s cannot be sheared: they must begin with x, y, u, v",
-                       points->names);
+                       "points of %s cannot be sheared: they must begin with %.*s", points->names,
+                       CS_MAIN_DIMENSIONS, CS_DIMENSION_NAMES);
     if (!isfinite(shear_px) || (cs_u32)shear > CLSHEAR_SHEAR_EQUAL_AREA)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "shear %d by %g pixels is not possible",
                        (int)shear, (double)shear_px);
@@ -110,8 +111,9 @@ clshear_status cs_points_shear(clshear_points *points, clshear_shear shear, floa
         float *p = points->values + i * stride;
         const cs_camera_sample sheared = cs_shear(p[0], p[1], p[2], p[3], cs_shear_mode(shear),
                                                   &optics.optics, optics.table.items, shear_px);
-        const float place[4] = {sheared.x, sheared.y, sheared.u + 0.5f, sheared.v + 0.5f};
-        for (int d = 0; d < 4; d++)
+        const float place[CS_MAIN_DIMENSIONS] = {sheared.x, sheared.y, sheared.u + 0.5f,
+                                                 sheared.v + 0.5f};
+        for (int d = 0; d < CS_MAIN_DIMENSIONS; d++)
             p[d] = cs_clamp(place[d], 0.0f, 0.99999994f);
     }
     cs_optics_free(&optics);

@@ -87,7 +87,7 @@ static clshear_status make_camera(cs_job *job, cs_error *error)
     CS_TRY(check_lens(&view, error));
     CS_TRY(cs_optics_make(&view, (clshear_filter)cs_integer(settings, FILTER),
                           (float)cs_number(settings, FILTER_WIDTH), &job->optics, error));
-    CS_REQUIRE(job->shear_kind != CLSHEAR_SHEAR_TOROIDAL || job->optics.optics.closed,
+    CS_REQUIRE(job->shear_kind != CLSHEAR_SHEAR_TOROIDAL || job->optics.optics.has_closed_form,
                CLSHEAR_BAD_ARGUMENT,
                "the toroidal shear knows square and disk apertures and box filters 1 px wide only; "
                "use equal-area");

@@ -11,7 +11,7 @@
 enum {
     LANES = 16,     /* the widest packet */
     MOST = 1 << 18, /* points on their way at once */
-    PLANES = 6
+    PLANES = CS_DIMENSIONS
 };
 
 typedef struct evaluation {

@@ -5,7 +5,8 @@
 #include "clshear/device/sampler/list.h"
 
 #define CS_CHOICE_ENTRY(identifier, number, name, meaning) {name, meaning},
-#define CS_SAMPLER_CHOICE(identifier, name, draw, counts, rows, progressive, about) {name, about},
+#define CS_SAMPLER_CHOICE(identifier, name, draw, extra, shape, words, progressive, about) \
+    {name, about},
 
 static const cs_choice choices_shear[] = {CLSHEAR_SHEAR_LIST(CS_CHOICE_ENTRY){NULL, NULL}};
 static const cs_choice choices_oracle[] = {CLSHEAR_ORACLE_LIST(CS_CHOICE_ENTRY){NULL, NULL}};

@@ -1,15 +1,17 @@
-/* The thin-lens camera with its aperture and pixel filter, as samples see it. Shared. */
-#ifndef CS_CAMERA_H
-#define CS_CAMERA_H
+/* The thin-lens camera with its aperture and pixel filter, as samples see it. */
+#ifndef CLSHEAR_DEVICE_CAMERA_H
+#define CLSHEAR_DEVICE_CAMERA_H
 
 #include "constants.h"
 #include "dialect.h"
 
-/* How (pixel, lens) tuples are slid along the fibres of the integrand. */
+#include "fp_contract_off.h"
+
+/* Modes of the shear: how (pixel, lens) tuples are moved along the fibres of the integrand. */
 enum {
-    CS_SHEAR_NONE = 0,
-    CS_SHEAR_TOROIDAL = 1,
-    CS_SHEAR_EQUAL_AREA = 2
+    CS_SHEAR_NONE = 0,      /* not at all */
+    CS_SHEAR_TOROIDAL = 1,  /* along the fibre, wrapped around; only for optics in closed form */
+    CS_SHEAR_EQUAL_AREA = 2 /* the first pair chooses the fibre, the second the place on it */
 };
 
 /* How a lens coordinate is distributed. Kernels know apertures by the kind of u's marginal alone:
@@ -21,34 +23,38 @@ typedef enum cs_marginal_kind {
     CS_MARGINAL_IMAGE = 3    /* of texels: tabulated, and v's marginal too for each column */
 } cs_marginal_kind;
 
-/* Shape of the aperture and the pixel filter. Lens coordinates (u, v) are centred; one unit of them
- * is cs_camera.aperture_width. */
+/* Shape of the aperture and the pixel filter. Make it by clshear_lens_optics.
+ *
+ * Lens coordinates (u, v) have their origin in the middle of the lens; u points right and v down.
+ * One unit of them is cs_camera.aperture_width. They are those of the aperture before the squeeze.
+ */
 typedef struct cs_optics {
     cs_u32 marginal;         /* cs_marginal_kind of u */
-    cs_u32 closed;           /* box filter one pixel wide, square or disk: maps in closed form */
-    cs_f32 squeeze;          /* width of the aperture as a part of what its shape says */
-    cs_u32 filter_steps;     /* the filter is constant on each of these parts of its width */
-    cs_f32 filter_width;     /* px */
-    cs_f32 filter_deviation; /* standard deviation, px */
-    cs_u32 segments[2];      /* of the profiles of u and of v given u, where they are tabulated */
-    cs_f32 half_width[2];    /* largest |u| and largest |v| */
-    cs_f32 deviation[2];     /* standard deviations of u and v */
+    cs_u32 has_closed_form;  /* 1 for a disk or a square with a box filter one pixel wide, else 0 */
+    cs_f32 squeeze;          /* width of the aperture over the width of its shape, above 0 */
+    cs_u32 filter_steps;     /* parts of the filter's width on which it is constant, 1 or 16 */
+    cs_f32 filter_width;     /* pixels, 0.01 to 64 */
+    cs_f32 filter_deviation; /* standard deviation of the filter, pixels */
+    cs_u32 segments[2];      /* rows but one of the tabulated marginals of u, and of v given u */
+    cs_f32 half_width[2];    /* largest |u| and largest |v|, lens units */
+    cs_f32 deviation[2];     /* standard deviations of u and of v, lens units */
 } cs_optics;
 CS_SHARED_WORDS(cs_optics, 12);
 
-/* Pinhole frame and thin lens. World units; unit vectors. */
+/* A thin-lens camera. Make it by clshear_lens_camera. Lengths are in units of the scene. */
 typedef struct cs_camera {
-    cs_f32 eye[3];
-    cs_f32 right[3];
-    cs_f32 down[3];
-    cs_f32 forward[3];
-    cs_f32 focal_distance;
-    cs_f32 pixel_width; /* of one pixel on the focal plane */
-    cs_f32
-        aperture_width;  /* side of a square or image aperture; of the square as large as others */
-    cs_f32 centre_px[2]; /* raster coordinates of the optical axis */
-    cs_optics optics;
+    cs_f32 eye[3];         /* centre of the lens */
+    cs_f32 right[3];       /* unit vector along the image's rows */
+    cs_f32 down[3];        /* unit vector along the image's columns */
+    cs_f32 forward[3];     /* unit vector along the optical axis */
+    cs_f32 focal_distance; /* camera depth of the focal plane, above 0 */
+    cs_f32 pixel_width;    /* width of a pixel on the focal plane */
+    cs_f32 aperture_width; /* length of one unit of the lens coordinates; 0 for a pinhole */
+    cs_f32 centre_px[2];   /* raster coordinates of the optical axis, pixels */
+    cs_optics optics;      /* aperture and filter */
 } cs_camera;
 CS_SHARED_WORDS(cs_camera, 29);
+
+#include "fp_contract_restore.h"
 
 #endif

@@ -1,28 +1,32 @@
-/* A point of the pixel and the lens, and the blur that a shear stands for. Shared. */
-#ifndef CS_FILM_LENS_H
-#define CS_FILM_LENS_H
+/* A point of the pixel and the lens, and the blur that a shear stands for. */
+#ifndef CLSHEAR_DEVICE_CAMERA_SAMPLE_H
+#define CLSHEAR_DEVICE_CAMERA_SAMPLE_H
 
 #include "packet.h"
 
-/* Pixel coordinates in [0, 1), centred lens coordinates; or the tuple in [0, 1)^4 that they are
- * made from. */
+#include "fp_contract_off.h"
+
+/* A point of the pixel and a point of the lens. cs_shear_alone also takes the tuple in [0, 1)^4
+ * that they are made from in this form. */
 typedef struct cs_camera_sample {
-    cs_vfloat x;
-    cs_vfloat y;
-    cs_vfloat u;
-    cs_vfloat v;
+    cs_vfloat x; /* pixels from the pixel's left edge; wide filters reach below 0 and beyond 1 */
+    cs_vfloat y; /* pixels from the pixel's upper edge, likewise */
+    cs_vfloat u; /* lens coordinate to the right, 0 in the middle (camera.h) */
+    cs_vfloat v; /* lens coordinate down, 0 in the middle */
 } cs_camera_sample;
 
-/* Blurs below this are in focus: the pixel's own width hides them, and the maps divide by them. */
+/* Blur, in pixels, below which a surface counts as in focus: the pixel's own width hides it, and
+ * the maps divide by it. */
 #define CS_LEAST_BLUR 1e-5f
 
-/* Widths of the blur along both axes, pixels per unit of the lens coordinates, above 0. */
+/* The blur that a shear stands for. */
 typedef struct cs_blur {
-    cs_f32 x;
-    cs_f32 y;
-    cs_f32 sign; /* of the shear */
+    cs_f32 x;    /* width along x, pixels per lens unit, CS_LEAST_BLUR or more */
+    cs_f32 y;    /* width along y, likewise */
+    cs_f32 sign; /* 1 or -1, the sign of the shear */
 } cs_blur;
 
+/* shear: signed circle of confusion, pixels per unit of v, finite. squeeze: of the cs_optics. */
 static inline cs_blur cs_blur_of(cs_f32 shear, cs_f32 squeeze)
 {
     cs_blur blur;
@@ -32,5 +36,7 @@ static inline cs_blur cs_blur_of(cs_f32 shear, cs_f32 squeeze)
     blur.y = cs_max(blur.y, CS_LEAST_BLUR);
     return blur;
 }
+
+#include "fp_contract_restore.h"
 
 #endif

@@ -1,16 +1,19 @@
-/* The disk of area 1 and its marginal, for round apertures. Shared.
+/* The disk of area 1 and its marginal, for round apertures.
  *
  * The coordinate u of a uniform point of the disk of radius R = 1 / sqrt(pi) has the semicircle
  * distribution. Polynomials below are Chebyshev fits; their errors are absolute. The area of the
  * disk is the unit of areas. */
-#ifndef CS_DISK_H
-#define CS_DISK_H
+#ifndef CLSHEAR_DEVICE_DISK_H
+#define CLSHEAR_DEVICE_DISK_H
 
 #include "packet.h"
 
+#include "fp_contract_off.h"
+
 #define CS_DISK_RADIUS 0.564189584f
 
-/* Of error^3 / mass^2 before a step (cs_root_step_of): what the step leaves is below 2e-6. */
+/* Limit of error^3 / mass^2 before a step (cs_root_step_of), below which the step leaves less than
+ * 2e-6. */
 #define CS_ROOT_TOLERANCE 2e-5f
 
 /* Area between an arc of at most half the circle and its chord, from sine and 1 - cosine of the
@@ -28,12 +31,14 @@ CS_INLINED cs_vfloat cs_disk_segment(cs_vfloat sine, cs_vfloat versine)
     return versine > 1.0f ? (0.5f - CS_INVERSE_PI * sine) - segment : segment;
 }
 
+/* The disk at a coordinate u. */
 typedef struct cs_half_circle {
     cs_vfloat distance; /* |u| / R, at most 1 */
     cs_vfloat height;   /* sqrt(1 - distance^2) */
     cs_vfloat tail;     /* P(U > |u|) */
 } cs_half_circle;
 
+/* The disk at any u; outside of it, its edge. */
 CS_INLINED cs_half_circle cs_half_circle_at(cs_vfloat u)
 {
     cs_half_circle at;
@@ -44,12 +49,13 @@ CS_INLINED cs_half_circle cs_half_circle_at(cs_vfloat u)
     return at;
 }
 
+/* P(U < u), where `at` is cs_half_circle_at(u). */
 CS_INLINED cs_vfloat cs_half_circle_cdf(cs_half_circle at, cs_vfloat u)
 {
     return u < 0.0f ? at.tail : 1.0f - at.tail;
 }
 
-/* P(U < u). */
+/* P(U < u) for any u. */
 CS_INLINED cs_vfloat cs_disk_cdf(cs_vfloat u)
 {
     return cs_half_circle_cdf(cs_half_circle_at(u), u);
@@ -73,8 +79,9 @@ CS_INLINED cs_vfloat cs_cube_root(cs_vfloat x)
     return y * (cube + 2.0f * x) / (2.0f * cube + x);
 }
 
-/* The u with P(U < u) = mass, error 2.5e-7. With psi - sin psi = 2 pi mass (psi the angle of the
- * segment left of u), cos(psi / 2) is analytic in mass^(2/3): a fit replaces the iteration. */
+/* The u with P(U < u) = mass, for mass in [0, 1], error 2.5e-7. With psi - sin psi = 2 pi mass (psi
+ * the angle of the segment left of u), cos(psi / 2) is analytic in mass^(2/3): a fit replaces the
+ * iteration. */
 CS_INLINED cs_vfloat cs_disk_quantile(cs_vfloat mass)
 {
     cs_vfloat tail =
@@ -105,9 +112,10 @@ CS_INLINED cs_vfloat cs_trapezoid_fibre(cs_vfloat mass, cs_vfloat side)
     return (2.0f * mass * wide < narrow ? rising : flat) - 0.5f * (1.0f + side);
 }
 
+/* A step towards a root. */
 typedef struct cs_root_step {
-    cs_vfloat back; /* to be subtracted from t */
-    cs_vint rough;  /* lanes that want another step */
+    cs_vfloat back; /* what to subtract from t */
+    cs_vint rough;  /* mask of the lanes whose result is not good enough */
 } cs_root_step;
 
 /* Halley's step from t towards F(t) = mass, given value = F(t), density = F'(t), slope = F''(t). It
@@ -132,8 +140,8 @@ CS_INLINED cs_root_step cs_root_step_of(cs_vfloat mass_root, cs_vfloat value, cs
     return step;
 }
 
-/* Below: the t <= 0 with P(X + blur * U < t) = mass, for mass in (0, 1/2], X uniform in [-1/2, 1/2]
- * and U the disk's marginal.
+/* The next functions find the t <= 0 with P(X + blur * U < t) = mass, for mass in (0, 1/2], X
+ * uniform in [-1/2, 1/2] and U the disk's marginal.
  *
  * F(t) = max(t + 1/2, 0) + blur * (E((t + 1/2) / blur) - E((t - 1/2) / blur)), E the excess above.
  * The guess is a square aperture with the disk's variance, or for wide blurs, where the pixel
@@ -147,6 +155,7 @@ CS_INLINED cs_vfloat cs_disk_fibre_mass(cs_vfloat across)
     return cs_max(cs_min(across, 1.0f - across), (cs_vfloat)(1e-9f));
 }
 
+/* First guess of that t. `blur` is CS_LEAST_BLUR or more, in pixels per lens unit. */
 CS_INLINED cs_vfloat cs_disk_fibre_guess(cs_vfloat mass, cs_f32 blur)
 {
     cs_f32 variance = blur * blur + CS_PI / 3.0f; /* in terms of the disk's, 1 / (4 pi) */
@@ -154,6 +163,8 @@ CS_INLINED cs_vfloat cs_disk_fibre_guess(cs_vfloat mass, cs_f32 blur)
                        : cs_trapezoid_fibre(mass, (cs_vfloat)(0.9772f * blur));
 }
 
+/* A better t; `mass_root` is sqrt(mass). `rough` receives the mask of lanes that want another step.
+ */
 CS_INLINED cs_vfloat cs_disk_fibre_step(cs_vfloat t, cs_vfloat mass_root, cs_f32 blur,
                                         cs_vint *rough)
 {
@@ -172,8 +183,8 @@ CS_INLINED cs_vfloat cs_disk_fibre_step(cs_vfloat t, cs_vfloat mass_root, cs_f32
     return cs_clamp(t - step.back, (cs_vfloat)(least), (cs_vfloat)(0.0f));
 }
 
-/* From the unit square, centred, to the disk of area 1: the concentric map (Shirley & Chiu 1997),
- * which keeps areas. sin and cos on [-pi/4, pi/4] are Taylor polynomials, error 2e-7. */
+/* From the square [-1/2, 1/2]^2 to the disk of area 1, in place: the concentric map (Shirley & Chiu
+ * 1997), which keeps areas. sin and cos on [-pi/4, pi/4] are Taylor polynomials, error 2e-7. */
 CS_INLINED void cs_disk_from_square(cs_vfloat *u, cs_vfloat *v)
 {
     cs_vint wide = cs_abs(*u) > cs_abs(*v);
@@ -192,5 +203,7 @@ CS_INLINED void cs_disk_from_square(cs_vfloat *u, cs_vfloat *v)
     *u = radius * (wide ? cosine : sine);
     *v = radius * (wide ? sine : cosine);
 }
+
+#include "fp_contract_restore.h"
 
 #endif

@@ -1,30 +1,33 @@
-/* Fibres through a pixel and a round lens, for the equal-area shear of the disk. Shared.
+/* Fibres through a pixel and a round lens, for the equal-area shear of the disk.
  *
  * Fibre coordinates, centred, are t_x = X + blur * U and t_y = Y + blur * V with (X, Y) uniform on
  * the pixel [-1/2, 1/2]^2 and (U, V) on the disk of area 1. Given t, (U, V) is uniform on the part
  * of the disk inside the square of side 1 / blur about t / blur. All areas below are built from
  * trapezoids and segments of the circle no larger than themselves: differences of antiderivatives
  * would lose their digits when the blur is wide. */
-#ifndef CS_DISK_FIBRE_H
-#define CS_DISK_FIBRE_H
+#ifndef CLSHEAR_DEVICE_DISK_FIBRE_H
+#define CLSHEAR_DEVICE_DISK_FIBRE_H
 
 #include "disk.h"
 
-/* Half the chord at distance `place` from the centre; 0 outside the disk. */
+#include "fp_contract_off.h"
+
+/* Half the chord at signed distance `place` from the centre; 0 outside the disk. */
 CS_INLINED cs_vfloat cs_disk_chord(cs_vfloat place)
 {
     cs_vfloat square = (CS_DISK_RADIUS - place) * (CS_DISK_RADIUS + place);
     return cs_sqrt(cs_max(square, (cs_vfloat)(0.0f)));
 }
 
-/* The disk between u = low and u = high, with the half-chords there. */
+/* The part of the disk between two values of u. */
 typedef struct cs_disk_slab {
-    cs_vfloat low;
-    cs_vfloat high;
-    cs_vfloat low_chord;
-    cs_vfloat high_chord;
+    cs_vfloat low;        /* smaller u */
+    cs_vfloat high;       /* larger u */
+    cs_vfloat low_chord;  /* half the chord at `low` */
+    cs_vfloat high_chord; /* half the chord at `high` */
 } cs_disk_slab;
 
+/* The slab from `low` to `high`, both in the disk, low <= high. */
 CS_INLINED cs_disk_slab cs_disk_slab_of(cs_vfloat low, cs_vfloat high)
 {
     cs_disk_slab slab;
@@ -59,7 +62,7 @@ typedef struct cs_disk_cap {
     cs_vfloat moment; /* integral of max(c - height, 0)^2 / 2 du */
 } cs_disk_cap;
 
-/* The moment of a segment about v = 0 is chord^2 * width / 12. */
+/* The cap of a slab above `height`. The moment of a segment about v = 0 is chord^2 * width / 12. */
 CS_INLINED cs_disk_cap cs_disk_cap_of(cs_disk_slab slab, cs_vfloat height)
 {
     cs_vfloat reach = cs_disk_chord(height);
@@ -86,8 +89,8 @@ CS_INLINED cs_disk_cap cs_disk_cap_below(cs_disk_slab slab, cs_vfloat bottom, cs
     return blur > 0.886f ? cs_disk_cap_of(slab, -bottom) : none;
 }
 
-/* Below: the t <= 0 with P(Y + blur * V < t) = mass, for mass in (0, 1/2] and (U, V) uniform on a
- * slab whose upper half has area `half_slab`: t_y given t_x.
+/* The next functions find t_y for a given t_x: the t <= 0 with P(Y + blur * V < t) = mass, for mass
+ * in (0, 1/2] and (U, V) uniform on a slab whose upper half has area `half_slab`.
  *
  * F(t) = max(t + 1/2, 0) + blur * (M((t + 1/2) / blur) - M((t - 1/2) / blur)) / (2 * half_slab),
  * M(q) the moment of the cap above |q|. The guess takes V as uniform with about its variance. One
@@ -101,6 +104,8 @@ CS_INLINED cs_vfloat cs_disk_slab_guess(cs_vfloat mass, cs_disk_slab slab, cs_f3
     return cs_trapezoid_fibre(mass, side);
 }
 
+/* A better t; `mass_root` is sqrt(mass), `half_slab` the area of the slab's upper half. `rough`
+ * receives the mask of lanes that want another step. */
 CS_INLINED cs_vfloat cs_disk_slab_step(cs_vfloat t, cs_vfloat mass_root, cs_disk_slab slab,
                                        cs_vfloat half_slab, cs_f32 blur, cs_vint *rough)
 {
@@ -120,14 +125,15 @@ CS_INLINED cs_vfloat cs_disk_slab_step(cs_vfloat t, cs_vfloat mass_root, cs_disk
     return cs_clamp(t - step.back, (cs_vfloat)(least), (cs_vfloat)(0.0f));
 }
 
-/* What is seen of a slab along the fibres at t_y <= 0: bottom < v < top. */
+/* The part of a slab that fibres at one t_y <= 0 see: bottom < v < top. */
 typedef struct cs_disk_window {
     cs_disk_slab slab;
-    cs_vfloat bottom;
-    cs_vfloat top;
-    cs_f32 blur;
+    cs_vfloat bottom; /* (t_y - 1/2) / blur */
+    cs_vfloat top;    /* (t_y + 1/2) / blur */
+    cs_f32 blur;      /* pixels per lens unit */
 } cs_disk_window;
 
+/* Area of the window; `half_slab` is the area of the slab's upper half. */
 CS_INLINED cs_vfloat cs_disk_window_area(cs_disk_window window, cs_vfloat half_slab)
 {
     cs_vfloat above = cs_disk_cap_of(window.slab, cs_abs(window.top)).area;
@@ -142,12 +148,12 @@ CS_INLINED cs_vfloat cs_disk_window_height(cs_disk_window window, cs_vfloat chor
     return cs_max(height, (cs_vfloat)(0.0f));
 }
 
-/* Below: the u with the share `mass` <= 1/2 of the window's area on its left; in the area's second
- * derivative those of the window's two sides count that are arcs. Two steps leave an error of the
- * share below 5e-6, but for one tuple in a thousand, mostly in corners cut by the disk's edge,
- * where it is below 2e-4. */
+/* The next functions find the u that has the share `mass`, at most 1/2, of the window's area on its
+ * left. In the area's second derivative, only those of the window's two sides count that are arcs.
+ * Two steps leave an error of the share below 5e-6, but for one tuple in a thousand, mostly in
+ * corners cut by the disk's edge, where it is below 2e-4. */
 
-/* Heights linear between both ends and the middle. */
+/* First guess of that u: the height as linear between both ends and the middle. */
 CS_INLINED cs_vfloat cs_disk_window_guess(cs_vfloat mass, cs_disk_window window)
 {
     cs_vfloat extent = 0.5f * (window.slab.high - window.slab.low);
@@ -164,6 +170,8 @@ CS_INLINED cs_vfloat cs_disk_window_guess(cs_vfloat mass, cs_disk_window window)
     return (left ? window.slab.low : middle) + extent * rest / (start + root);
 }
 
+/* A better u; `mass_root` is sqrt(mass), `area` the window's. `rough` receives the mask of lanes
+ * that want another step. */
 CS_INLINED cs_vfloat cs_disk_window_step(cs_vfloat u, cs_vfloat mass_root, cs_disk_window window,
                                          cs_vfloat area, cs_vint *rough)
 {
@@ -182,5 +190,7 @@ CS_INLINED cs_vfloat cs_disk_window_step(cs_vfloat u, cs_vfloat mass_root, cs_di
     *rough = step.rough;
     return cs_clamp(u - step.back, first, last);
 }
+
+#include "fp_contract_restore.h"
 
 #endif

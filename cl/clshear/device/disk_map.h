@@ -1,34 +1,40 @@
 /* The equal-area shear of the disk, which is not separable: Rosenblatt's transform in the order
- * t_x, t_y | t_x, u | t, v | t, u. Shared.
+ * t_x, t_y | t_x, u | t, v | t, u.
  *
  * Three of the four are solved for by Halley's steps, each waiting for the one before it. Packets
  * are mapped together, all of them a stage at a time: while one waits, the processor finds work in
  * the others. */
-#ifndef CS_DISK_MAP_H
-#define CS_DISK_MAP_H
+#ifndef CLSHEAR_DEVICE_DISK_MAP_H
+#define CLSHEAR_DEVICE_DISK_MAP_H
 
 #include "camera_sample.h"
 #include "disk_fibre.h"
 
+#include "fp_contract_off.h"
+
 enum {
-    CS_DISK_STEPS = 2 /* of Halley's at most, for each unknown: hardly any wants a third */
+    CS_DISK_STEPS = 2 /* Halley's steps for each unknown, at most: hardly any wants a third */
 };
 
-/* One packet on its way. t_y and u are solved for in mirror images with b <= 1/2 and c <= 1/2. */
+/* One packet on its way through the stages below. t_y and u are solved for in mirror images, with
+ * tuple coordinates y <= 1/2 and u <= 1/2. */
 typedef struct cs_disk_way {
     cs_blur blur;
     cs_disk_window window;
-    cs_vfloat mass; /* below the unknown that is solved for */
-    cs_vfloat root; /* of it */
-    cs_vint rough;  /* lanes whose unknown wants another step */
-    cs_vfloat low;  /* ends of the slab, before it is cut to the window */
-    cs_vfloat high;
-    cs_vfloat t_x; /* centred: x - 1/2 + blur * u */
-    cs_vfloat t_y;
-    cs_vfloat area; /* of the slab's upper half, then of the window */
-    cs_vfloat u;
+    cs_vfloat mass; /* probability below the unknown that is solved for */
+    cs_vfloat root; /* square root of `mass` */
+    cs_vint rough;  /* mask of the lanes whose unknown wants another step */
+    cs_vfloat low;  /* left end of the slab, before it is cut to the window */
+    cs_vfloat high; /* right end of the slab, likewise */
+    cs_vfloat t_x;  /* first fibre coordinate: x - 1/2 + blur * u */
+    cs_vfloat t_y;  /* second fibre coordinate: y - 1/2 + blur * v */
+    cs_vfloat area; /* area of the slab's upper half, then of the window */
+    cs_vfloat u;    /* lens coordinate */
 } cs_disk_way;
 
+/* The stages, in the order in which cs_disk_map calls them. */
+
+/* Begins to solve for an unknown with the probability `mass` below it: every lane is rough. */
 CS_INLINED void cs_disk_set_mass(cs_disk_way *way, cs_vfloat mass)
 {
     way->mass = mass;
@@ -36,12 +42,14 @@ CS_INLINED void cs_disk_set_mass(cs_disk_way *way, cs_vfloat mass)
     way->rough = mass >= 0.0f;
 }
 
+/* First guess of t_x. */
 CS_INLINED void cs_disk_guess_t_x(const cs_camera_sample *tuple, cs_disk_way *way)
 {
     cs_disk_set_mass(way, cs_disk_fibre_mass(tuple->x));
     way->t_x = cs_disk_fibre_guess(way->mass, way->blur.x);
 }
 
+/* A step towards t_x in the lanes that are rough. */
 CS_INLINED void cs_disk_step_t_x(cs_disk_way *way)
 {
     cs_vint again;
@@ -50,6 +58,7 @@ CS_INLINED void cs_disk_step_t_x(cs_disk_way *way)
     way->rough = again;
 }
 
+/* The slab of the disk that fibres at t_x cross. */
 CS_INLINED void cs_disk_find_slab(const cs_camera_sample *tuple, cs_disk_way *way)
 {
     cs_f32 inverse = 1.0f / way->blur.x;
@@ -60,6 +69,7 @@ CS_INLINED void cs_disk_find_slab(const cs_camera_sample *tuple, cs_disk_way *wa
     way->area = cs_max(cs_disk_half_slab(way->window.slab), (cs_vfloat)(1e-12f));
 }
 
+/* First guess of t_y. */
 CS_INLINED void cs_disk_guess_t_y(const cs_camera_sample *tuple, cs_disk_way *way)
 {
     cs_vfloat mass = tuple->y > 0.5f ? 1.0f - tuple->y : tuple->y;
@@ -67,6 +77,7 @@ CS_INLINED void cs_disk_guess_t_y(const cs_camera_sample *tuple, cs_disk_way *wa
     way->t_y = cs_disk_slab_guess(way->mass, way->window.slab, way->blur.y);
 }
 
+/* A step towards t_y in the lanes that are rough. */
 CS_INLINED void cs_disk_step_t_y(cs_disk_way *way)
 {
     cs_vint again;
@@ -76,6 +87,7 @@ CS_INLINED void cs_disk_step_t_y(cs_disk_way *way)
     way->rough = again;
 }
 
+/* The window of the slab that fibres at t_y see. */
 CS_INLINED void cs_disk_find_window(cs_disk_way *way)
 {
     cs_f32 inverse = 1.0f / way->blur.y;
@@ -85,6 +97,7 @@ CS_INLINED void cs_disk_find_window(cs_disk_way *way)
     way->area = cs_max(cs_disk_window_area(way->window, way->area), (cs_vfloat)(1e-12f));
 }
 
+/* First guess of u, in the slab cut to the window. */
 CS_INLINED void cs_disk_guess_u(const cs_camera_sample *tuple, cs_disk_way *way)
 {
     cs_vint mirror_x = tuple->u > 0.5f;
@@ -95,6 +108,7 @@ CS_INLINED void cs_disk_guess_u(const cs_camera_sample *tuple, cs_disk_way *way)
     way->u = cs_disk_window_guess(way->mass, way->window);
 }
 
+/* A step towards u in the lanes that are rough. */
 CS_INLINED void cs_disk_step_u(cs_disk_way *way)
 {
     cs_vint again;
@@ -103,6 +117,7 @@ CS_INLINED void cs_disk_step_u(cs_disk_way *way)
     way->rough = again;
 }
 
+/* The place v on the fibre, then everything out of the mirrors. */
 CS_INLINED cs_camera_sample cs_disk_end(const cs_camera_sample *tuple, const cs_disk_way *way)
 {
     cs_vint mirror_x = tuple->u > 0.5f;
@@ -121,7 +136,8 @@ CS_INLINED cs_camera_sample cs_disk_end(const cs_camera_sample *tuple, const cs_
     return point;
 }
 
-/* Maps `count` packets of tuples, at most CS_TOGETHER, in place; each has its own shear. */
+/* Maps `count` packets of tuples in place. `count` is 1 to CS_TOGETHER; packet k has the shear
+ * shears[k], in pixels per lens unit; `squeeze` is that of the optics. */
 static inline void cs_disk_map(cs_camera_sample *points, const cs_f32 *shears, int count,
                                cs_f32 squeeze)
 {
@@ -150,5 +166,7 @@ static inline void cs_disk_map(cs_camera_sample *points, const cs_f32 *shears, i
     for (int k = 0; k < count; k++)
         points[k] = cs_disk_end(points + k, way + k);
 }
+
+#include "fp_contract_restore.h"
 
 #endif

@@ -1,16 +1,19 @@
-/* Fibres through any filter and any marginal of the lens: one axis of the equal-area shear. Shared.
+/* Fibres through any filter and any marginal of the lens: one axis of the equal-area shear.
  *
  * The fibre coordinate is t = X + blur * U, X distributed as the pixel filter, U as the marginal.
  * The filter is constant on steps [x_k, x_k+1] with density f_k, so with C the mass of the marginal
  * and H its integral P(T < t) = sum of f_k * blur * (H((t - x_k) / blur) - H((t - x_k+1) / blur)),
  * and what the steps have of the density at t are f_k * (C((t - x_k) / blur) - C((t - x_k+1) /
  * blur)). */
-#ifndef CS_FIBRE_H
-#define CS_FIBRE_H
+#ifndef CLSHEAR_DEVICE_FIBRE_H
+#define CLSHEAR_DEVICE_FIBRE_H
 
 #include "marginal.h"
 
-/* The x with P(X < x) = mass, centred. */
+#include "fp_contract_off.h"
+
+/* The place x, in pixels from the pixel's centre, with P(X < x) = mass, for X distributed as the
+ * pixel filter and mass in [0, 1]. */
 CS_INLINED cs_vfloat cs_filter_quantile(const cs_optics *optics, cs_optics_table table,
                                         cs_vfloat mass)
 {
@@ -28,20 +31,23 @@ CS_INLINED cs_vfloat cs_filter_quantile(const cs_optics *optics, cs_optics_table
     return start + cs_min(rest / density, (cs_vfloat)(step));
 }
 
+/* One axis of film and lens. */
 typedef struct cs_fibre_axis {
-    const cs_optics *optics;
-    cs_optics_table table;
-    const cs_marginal *marginal;
-    cs_vfloat blur; /* above 0 */
-    cs_vfloat inverse;
+    const cs_optics *optics;     /* whose filter X has */
+    cs_optics_table table;       /* the lens table of the optics */
+    const cs_marginal *marginal; /* distribution of U */
+    cs_vfloat blur;              /* pixels per unit of U, CS_LEAST_BLUR or more */
+    cs_vfloat inverse;           /* 1 / blur */
 } cs_fibre_axis;
 
+/* The distribution of T at a place t. */
 typedef struct cs_fibre_mass {
-    cs_vfloat below; /* P(T < t) */
-    cs_vfloat density;
-    cs_vfloat slope; /* of the density */
+    cs_vfloat below;   /* P(T < t) */
+    cs_vfloat density; /* per pixel */
+    cs_vfloat slope;   /* derivative of the density */
 } cs_fibre_mass;
 
+/* The distribution of T at any t. */
 CS_INLINED cs_fibre_mass cs_fibre_at(const cs_fibre_axis *axis, cs_vfloat t)
 {
     const cs_optics *optics = axis->optics;
@@ -65,14 +71,14 @@ CS_INLINED cs_fibre_mass cs_fibre_at(const cs_fibre_axis *axis, cs_vfloat t)
     return mass;
 }
 
-/* What the quantiles of film and lens allow for that of their sum, and a guess that would be exact
- * for normal distributions. */
+/* Where the quantile of T must lie. */
 typedef struct cs_fibre_guess {
-    cs_vfloat low;
-    cs_vfloat high;
-    cs_vfloat t;
+    cs_vfloat low;  /* lower bound, from the bounds of film and lens */
+    cs_vfloat high; /* upper bound */
+    cs_vfloat t;    /* a guess that would be exact for normal distributions */
 } cs_fibre_guess;
 
+/* The bounds and the guess of the t with P(T < t) = mass, for mass in [0, 1]. */
 CS_INLINED cs_fibre_guess cs_fibre_guess_at(const cs_fibre_axis *axis, cs_vfloat mass)
 {
     const cs_optics *optics = axis->optics;
@@ -136,8 +142,8 @@ CS_INLINED cs_vfloat cs_fibre_quantile_any(const cs_fibre_axis *axis, cs_vfloat 
     return guess.t;
 }
 
-/* Where on the fibre t: returns the lens coordinate, and x through `x`. `along` in [0, 1) chooses
- * the filter's step and then the place on it. */
+/* The place on fibre t that `along`, in [0, 1), chooses: first the filter's step, then the place on
+ * it. Returns the lens coordinate; `x` receives the film's, in pixels from the pixel's centre. */
 CS_INLINED cs_vfloat cs_fibre_place(const cs_fibre_axis *axis, cs_vfloat t, cs_vfloat along,
                                     cs_vfloat *x)
 {
@@ -184,7 +190,9 @@ CS_INLINED cs_vfloat cs_fibre_map_of_kind(cs_fibre_axis axis, const cs_marginal_
     return cs_fibre_place(&axis, t, along, x);
 }
 
-/* One axis of the map for a signed shear: chooses the kind of marginal. */
+/* One axis of the equal-area map. `across` and `along`, in [0, 1), choose the fibre and the place
+ * on it; `negative` is not 0 for a negative shear. Returns the lens coordinate; `x` receives the
+ * film's, in pixels from the pixel's centre. */
 CS_INLINED cs_vfloat cs_fibre_map(cs_fibre_axis axis, cs_vfloat across, cs_vfloat along,
                                   int negative, cs_vfloat *x)
 {
@@ -201,5 +209,7 @@ CS_INLINED cs_vfloat cs_fibre_map(cs_fibre_axis axis, cs_vfloat across, cs_vfloa
     if (negative) *x = -*x;
     return lens;
 }
+
+#include "fp_contract_restore.h"
 
 #endif

@@ -1,8 +1,10 @@
-/* Integer hashing and keyed permutations: everything random in a sample comes from here. Shared. */
-#ifndef CS_HASH_H
-#define CS_HASH_H
+/* Integer hashing and keyed permutations: everything random in a sample comes from here. */
+#ifndef CLSHEAR_DEVICE_HASH_H
+#define CLSHEAR_DEVICE_HASH_H
 
 #include "packet.h"
+
+#include "fp_contract_off.h"
 
 /* A bijective mixer of 32 bits with low bias: two rounds of xor-shift and odd multiplication, with
  * multipliers found by C. Wellons' search ("Prospecting for Hash Functions", 2018). */
@@ -20,22 +22,25 @@
 CS_DEFINE_HASH(cs_hash, cs_u32)
 CS_DEFINE_HASH(cs_hash_lanes, cs_vuint)
 
-/* Key number `index` of the family `seed`; distinct indices give distinct keys. */
+/* Key number `index` of the family `seed`, any 32 bits. Different indices give different keys. */
 static inline cs_u32 cs_key(cs_u32 seed, cs_u32 index)
 {
     return cs_hash(seed + 0x9e3779b9u * (index + 1u));
 }
+
+/* The same for an index in each lane. */
 static inline cs_vuint cs_key_lanes(cs_u32 seed, cs_vuint index)
 {
     return cs_hash_lanes(seed + 0x9e3779b9u * (index + 1u));
 }
 
-/* The power-of-two box in which cs_permute works: for every size up to `mask` + 1. */
+/* A box [0, mask] of a power of two of integers, in which cs_permute works. */
 typedef struct cs_domain {
-    cs_u32 mask;
-    cs_u32 shift;
+    cs_u32 mask;  /* the largest integer of the box */
+    cs_u32 shift; /* half the box's bits, 1 or more */
 } cs_domain;
 
+/* The smallest box that holds [0, size). `size` is 1 to 2^31. */
 static inline cs_domain cs_domain_of(cs_u32 size)
 {
     cs_domain domain;
@@ -72,8 +77,10 @@ static inline cs_vuint cs_permute_round(cs_vuint x, cs_domain domain, cs_vuint k
     return x ^ (x >> domain.shift);
 }
 
-/* Image of `index` under a random permutation of [0, size) chosen by `key`, a hash. Needs
- * index < size (in every lane, or the walk does not end) and size <= domain.mask + 1.
+/* Image of `index` under the permutation of [0, size) that `key`, a hash, chooses.
+ *
+ * In every lane, index must be below size and size at most domain.mask + 1. Otherwise the walk
+ * below need not end, and the kernel hangs.
  *
  * Keyed addition, keyed odd multiplication and xor-shift are bijections of the power-of-two box;
  * walking the cycle until it is back inside [0, size) restricts them to it (Black & Rogaway 2002,
@@ -90,5 +97,7 @@ static inline cs_vuint cs_permute(cs_vuint index, cs_vuint size, cs_domain domai
     x += cs_mul_hi(step ^ (step >> 15), size);
     return x >= size ? x - size : x;
 }
+
+#include "fp_contract_restore.h"
 
 #endif

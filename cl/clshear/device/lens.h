@@ -1,18 +1,22 @@
-/* From a point of the film and a point of the lens to a ray: the thin lens. Shared. */
-#ifndef CS_LENS_H
-#define CS_LENS_H
+/* From a point of the film and a point of the lens to a ray: the thin lens. */
+#ifndef CLSHEAR_DEVICE_LENS_H
+#define CLSHEAR_DEVICE_LENS_H
 
 #include "camera.h"
 #include "packet.h"
 
+#include "fp_contract_off.h"
+
 typedef struct cs_ray {
-    cs_vfloat origin[3];
-    cs_vfloat direction[3]; /* its component along the camera's forward axis is 1 */
+    cs_vfloat origin[3];    /* on the lens, units of the scene */
+    cs_vfloat direction[3]; /* not a unit vector: its part along the camera's forward axis is 1 */
 } cs_ray;
 
-/* The ray through raster position (x, y), in pixels from the image's top left corner, and through
- * the lens point (u, v), in aperture widths from the lens centre, u squeezed. All rays through (x,
- * y) meet on the focal plane; a distance along the ray is a camera depth. */
+/* The ray that leaves the lens at (u, v) and belongs to raster position (x, y).
+ *
+ * x, y: pixels from the image's top left corner: the pixel's number plus cs_camera_sample.x or y.
+ * u, v: cs_camera_sample.u and v. All rays of one (x, y) meet on the focal plane. A distance along
+ * the ray, in lengths of its direction, is a camera depth. */
 static inline cs_ray cs_lens_ray(cs_camera camera, cs_vfloat x, cs_vfloat y, cs_vfloat u,
                                  cs_vfloat v)
 {
@@ -31,12 +35,15 @@ static inline cs_ray cs_lens_ray(cs_camera camera, cs_vfloat x, cs_vfloat y, cs_
     return ray;
 }
 
-/* The shear of a surface at camera depth `depth` > 0: the signed circle of confusion, in pixels per
- * aperture width. A point seen through (x, u) projects, through the lens centre, to raster
- * x + shear * squeeze * u, and y + shear * v. Positive in front of the focal plane. */
+/* The shear for a surface at camera depth `depth`, above 0: its signed circle of confusion, in
+ * pixels per lens unit. It is positive in front of the focal plane and negative behind it. A point
+ * that is seen at raster (x, y) through (u, v) is seen through the middle of the lens at (x + shear
+ * * squeeze * u, y + shear * v). */
 static inline cs_f32 cs_shear_of_depth(cs_camera camera, cs_f32 depth)
 {
     return camera.aperture_width / camera.pixel_width * (camera.focal_distance / depth - 1.0f);
 }
+
+#include "fp_contract_restore.h"
 
 #endif

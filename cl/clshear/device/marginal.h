@@ -1,40 +1,54 @@
-/* Distributions of one lens coordinate: their mass, its integral and its inverse. Shared.
+/* Marginal distributions of one lens coordinate: density, cumulative distribution, its integral,
+ * and its inverse.
  *
- * Uniform on [-1/2, 1/2]; the marginal of the disk of area 1; or tabulated, where a row has what
- * holds from the start of a segment on: the density is linear in a segment of a polygon and
- * constant in a texel of an image. */
-#ifndef CS_MARGINAL_H
-#define CS_MARGINAL_H
+ * There are four kinds: uniform on [-1/2, 1/2]; the marginal of the disk of area 1; and two that
+ * are tabulated, where the density is linear in each segment (polygon) or constant in each texel
+ * (image).
+ *
+ * Layout of a lens table, which clshear_lens_table makes:
+ * - CS_FILTER_STEPS floats: the filter's density, per pixel, on each of its filter_steps steps.
+ * - For a polygon, segments[0] + 1 rows of CS_MARGINAL_COLUMNS floats: the marginal of u.
+ * - For an image, segments[0] + 1 such rows for the marginal of u, then for each of the segments[0]
+ *   columns of texels segments[1] + 1 rows for the distribution of v in that column.
+ * A row tells of the segment that begins at it; the last row of a marginal is its right end. */
+#ifndef CLSHEAR_DEVICE_MARGINAL_H
+#define CLSHEAR_DEVICE_MARGINAL_H
 
 #include "camera.h"
 #include "disk.h"
 #include "packet.h"
 
-/* The table of a cs_optics. */
+#include "fp_contract_off.h"
+
+/* A lens table. Disk and square in closed form (has_closed_form) do not read it: any pointer will
+ * do.
+ */
 typedef CS_GLOBAL const cs_f32 *cs_optics_table;
 
-/* Columns of a row; the last row of a marginal ends it. */
+/* Columns of a row. */
 enum {
-    CS_MARGINAL_START = 0,    /* lens coordinate */
-    CS_MARGINAL_CDF = 1,      /* left of the start */
-    CS_MARGINAL_INTEGRAL = 2, /* of the mass, from the left end to the start */
-    CS_MARGINAL_DENSITY = 3,  /* at the start; of a polygon: the chord's length, as its area is 1 */
-    CS_MARGINAL_SLOPE = 4,    /* of the density */
-    CS_MARGINAL_LOW = 5,      /* polygon: the chord's lower end */
-    CS_MARGINAL_LOW_SLOPE = 6
+    CS_MARGINAL_START = 0,    /* lens coordinate at which the segment begins */
+    CS_MARGINAL_CDF = 1,      /* probability left of the start */
+    CS_MARGINAL_INTEGRAL = 2, /* integral of the cumulative distribution up to the start */
+    CS_MARGINAL_DENSITY = 3,  /* density at the start; for a polygon also the chord's length */
+    CS_MARGINAL_SLOPE = 4,    /* derivative of the density; for a polygon only */
+    CS_MARGINAL_LOW = 5,      /* lower end of the chord at the start; for a polygon only */
+    CS_MARGINAL_LOW_SLOPE = 6 /* derivative of the lower end; for a polygon only */
 };
 
+/* A marginal distribution. */
 typedef struct cs_marginal {
-    cs_marginal_kind kind;
-    cs_f32 low; /* its ends */
-    cs_f32 high;
-    cs_f32 deviation;
-    cs_optics_table rows; /* the first of all */
-    cs_u32 segments;
-    cs_f32 inverse_width; /* of a texel */
-    cs_vuint first;       /* the marginal's first row; 0 but for the columns of an image */
+    cs_marginal_kind kind; /* how the others are read */
+    cs_f32 low;            /* left end, lens units */
+    cs_f32 high;           /* right end, lens units */
+    cs_f32 deviation;      /* standard deviation, lens units */
+    cs_optics_table rows;  /* first row of the lens table */
+    cs_u32 segments;       /* number of segments or texels */
+    cs_f32 inverse_width;  /* 1 / width of a texel; for an image only */
+    cs_vuint first;        /* number of the marginal's first row */
 } cs_marginal;
 
+/* A marginal of `kind` from -reach to reach. */
 CS_INLINED cs_marginal cs_marginal_of(cs_marginal_kind kind, cs_f32 reach, cs_f32 deviation,
                                       cs_optics_table table)
 {
@@ -50,7 +64,7 @@ CS_INLINED cs_marginal cs_marginal_of(cs_marginal_kind kind, cs_f32 reach, cs_f3
     return marginal;
 }
 
-/* The marginal of u of an aperture. */
+/* The marginal of u of an aperture. `table` is the lens table of `optics`. */
 CS_INLINED cs_marginal cs_marginal_across(const cs_optics *optics, cs_optics_table table)
 {
     cs_marginal_kind kind = (cs_marginal_kind)optics->marginal;
@@ -65,6 +79,7 @@ CS_INLINED cs_marginal cs_marginal_across(const cs_optics *optics, cs_optics_tab
     return marginal;
 }
 
+/* A row of the table, a lane for each sample. Members are the columns above. */
 typedef struct cs_marginal_row {
     cs_vfloat start;
     cs_vfloat mass;
@@ -75,8 +90,8 @@ typedef struct cs_marginal_row {
     cs_vfloat low_slope;
 } cs_marginal_row;
 
-/* The last row whose entry in `column` is not above `key`. Polygons have few rows: looking at all
- * of them needs no gathering. */
+/* The last row whose entry in column `column` is not above `key`. It looks at all rows, which for a
+ * polygon are few, and so needs no gathering. */
 CS_INLINED cs_marginal_row cs_marginal_pick(const cs_marginal *marginal, cs_u32 column,
                                             cs_vfloat key)
 {
@@ -103,7 +118,7 @@ CS_INLINED cs_marginal_row cs_marginal_pick(const cs_marginal *marginal, cs_u32 
     return picked;
 }
 
-/* Entries of different rows. */
+/* Entries in column `column` of rows `row`, 0 to segments. */
 CS_INLINED cs_vfloat cs_marginal_gather(const cs_marginal *marginal, cs_vuint row, cs_u32 column)
 {
     cs_vuint place = (marginal->first + row) * (cs_u32)CS_MARGINAL_COLUMNS + column;
@@ -119,7 +134,7 @@ CS_INLINED cs_vfloat cs_marginal_gather(const cs_marginal *marginal, cs_vuint ro
 #endif
 }
 
-/* Number of the texel at u. */
+/* Number of the texel at u; beyond the ends, of the outermost one. */
 static inline cs_vuint cs_marginal_texel(const cs_marginal *marginal, cs_vfloat u)
 {
     cs_f32 last = (cs_f32)marginal->segments - 0.5f;
@@ -127,7 +142,7 @@ static inline cs_vuint cs_marginal_texel(const cs_marginal *marginal, cs_vfloat 
                                 (cs_vfloat)(last)));
 }
 
-/* The last texel with no more than `mass` left of it, by bisection. */
+/* The last texel that has at most the probability `mass`, in [0, 1], left of it, by bisection. */
 static inline cs_vuint cs_marginal_texel_at_mass(const cs_marginal *marginal, cs_vfloat mass)
 {
     cs_u32 step = 1u;
@@ -142,7 +157,7 @@ static inline cs_vuint cs_marginal_texel_at_mass(const cs_marginal *marginal, cs
     return texel;
 }
 
-/* The row of an image's texel: its density does not change. */
+/* The row of texel `texel` of an image. */
 CS_INLINED cs_marginal_row cs_marginal_texel_row(const cs_marginal *marginal, cs_vuint texel)
 {
     cs_marginal_row row;
@@ -174,12 +189,14 @@ CS_INLINED cs_marginal_row cs_marginal_texel_row(const cs_marginal *marginal, cs
     return row;
 }
 
+/* What a marginal is at a place u. */
 typedef struct cs_marginal_value {
-    cs_vfloat density;  /* of U at u */
+    cs_vfloat density;  /* density of U at u */
     cs_vfloat below;    /* P(U < u) */
-    cs_vfloat integral; /* of it, from the left */
+    cs_vfloat integral; /* integral of P(U < u) from the left end to u */
 } cs_marginal_value;
 
+/* The values at any u of a marginal that is tabulated. */
 CS_INLINED cs_marginal_value cs_marginal_tabulated(const cs_marginal *marginal, cs_vfloat u)
 {
     cs_vfloat inside = cs_clamp(u, (cs_vfloat)(marginal->low), (cs_vfloat)(marginal->high));
@@ -198,6 +215,7 @@ CS_INLINED cs_marginal_value cs_marginal_tabulated(const cs_marginal *marginal, 
     return mass;
 }
 
+/* The values at any u. */
 CS_INLINED cs_marginal_value cs_marginal_at(const cs_marginal *marginal, cs_vfloat u)
 {
     cs_marginal_value mass;
@@ -217,7 +235,7 @@ CS_INLINED cs_marginal_value cs_marginal_at(const cs_marginal *marginal, cs_vflo
     return cs_marginal_tabulated(marginal, u);
 }
 
-/* The u with P(U < u) = mass. */
+/* The u with P(U < u) = mass, for mass in [0, 1]. */
 CS_INLINED cs_vfloat cs_marginal_quantile(const cs_marginal *marginal, cs_vfloat mass)
 {
     if (marginal->kind == CS_MARGINAL_UNIFORM) return mass - 0.5f;
@@ -233,13 +251,14 @@ CS_INLINED cs_vfloat cs_marginal_quantile(const cs_marginal *marginal, cs_vfloat
     return cs_clamp(row.start + step, (cs_vfloat)(marginal->low), (cs_vfloat)(marginal->high));
 }
 
-/* What of the aperture lies at u: v = centre + length * (a variable of `marginal`). */
+/* The part of the aperture at one u: there v = centre + length * V. */
 typedef struct cs_chord {
-    cs_marginal marginal;
-    cs_vfloat centre;
-    cs_vfloat length;
+    cs_marginal marginal; /* distribution of V */
+    cs_vfloat centre;     /* lens units */
+    cs_vfloat length;     /* 0 or more; 1 for an image, whose V is v itself */
 } cs_chord;
 
+/* The chord at u. `across` must be cs_marginal_across(optics, table). */
 static inline cs_chord cs_chord_at(const cs_optics *optics, cs_optics_table table,
                                    const cs_marginal *across, cs_vfloat u)
 {
@@ -266,5 +285,7 @@ static inline cs_chord cs_chord_at(const cs_optics *optics, cs_optics_table tabl
     }
     return chord;
 }
+
+#include "fp_contract_restore.h"
 
 #endif

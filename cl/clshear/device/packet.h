@@ -1,13 +1,15 @@
-/* Lanes: cs_vfloat, cs_vint, cs_vuint hold one value for each of the CS_PACKET samples of a packet.
+/* Packets: cs_vfloat, cs_vint and cs_vuint hold a value in a lane for each of CS_PACKET samples.
  *
- * Conditions are cs_vint "masks", made by comparisons only and used by cs_any and the ternary
- * operator only: a true lane is 1 for one lane and -1 for several. Shared: at width 1 this is plain
- * C. */
-#ifndef CS_PACKET_H
-#define CS_PACKET_H
+ * A comparison makes a cs_vint, a mask, in which a true lane is 1 if there is one lane and -1 if
+ * there are several. Use masks for nothing but cs_any and the ternary operator. At width 1 this is
+ * plain C. */
+#ifndef CLSHEAR_DEVICE_PACKET_H
+#define CLSHEAR_DEVICE_PACKET_H
 
 #include "constants.h"
 #include "dialect.h"
+
+#include "fp_contract_off.h"
 
 #ifdef CS_DEVICE
 
@@ -36,22 +38,23 @@ typedef CS_VECTOR(uint) cs_vuint;
 #define cs_as_vint(x) CS_OVER_LANES(as_int)(x)
 #define cs_as_vuint(x) CS_OVER_LANES(as_uint)(x)
 #define cs_as_vfloat(x) CS_OVER_LANES(as_float)(x)
-/* Value of an unsigned integer below 2^31; the signed conversion is one instruction on x86. */
+/* Unsigned integers below 2^31 as floats: the signed conversion is one instruction on x86. */
 #define cs_to_vfloat(x) CS_OVER_LANES(convert_float)(cs_as_vint(x))
-/* Integer part of a float in [0, 2^31). */
+/* Integer parts of floats in [0, 2^31). */
 #define cs_to_vuint(x) cs_as_vuint(CS_OVER_LANES(convert_int)(x))
 #define cs_mul_hi(a, b) mul_hi((cs_vuint)(a), (cs_vuint)(b))
 #define cs_sqrt(x) sqrt(x)
 #define cs_abs(x) fabs(x)
 #define cs_floor(x) floor(x)
 
-#else /* C17, one lane */
+#else /* C or C++, one lane */
 
 typedef cs_f32 cs_vfloat;
 typedef cs_i32 cs_vint;
 typedef cs_u32 cs_vuint;
 
 #define CS_LANE_INDEX ((cs_vuint)0u)
+/* The bits of an unsigned integer as a signed one, of a float as an integer, and back. */
 static inline cs_i32 cs_as_vint(cs_u32 x)
 {
     cs_i32 y;
@@ -77,6 +80,7 @@ static inline cs_f32 cs_as_vfloat(cs_u32 x)
 #define cs_sqrt(x) sqrtf(x)
 #define cs_abs(x) fabsf(x)
 #define cs_floor(x) floorf(x)
+/* Whether any lane of a mask is true: here there is one. */
 static inline int cs_any(cs_i32 mask)
 {
     return mask != 0;
@@ -84,19 +88,20 @@ static inline int cs_any(cs_i32 mask)
 
 #endif
 
-/* Packets that are drawn together: as many as lie between two updates of a pixel. One lane keeps to
- * registers. */
+/* Packets that are mapped together at most (cs_shear_together): as many as lie between two updates
+ * of a pixel. With one lane there is one, which keeps to registers. */
 #if CS_PACKET == 1
 #define CS_TOGETHER 1
 #else
 #define CS_TOGETHER (CS_FLUSH_BLOCKS * CS_BLOCK / CS_PACKET)
 #endif
 
-/* Not fmin and fmax: those must order NaN, which costs two more instructions. A NaN in the first
- * argument gives the second. */
+/* Smaller and larger of two values; arguments are evaluated twice. A NaN in the first argument
+ * gives the second. fmin and fmax must order NaN, which costs two more instructions. */
 #define cs_min(a, b) ((a) < (b) ? (a) : (b))
 #define cs_max(a, b) ((a) > (b) ? (a) : (b))
 
+/* `value` limited to [low, high]. A NaN becomes `low`. */
 static inline cs_vfloat cs_clamp(cs_vfloat value, cs_vfloat low, cs_vfloat high)
 {
     return cs_min(cs_max(value, low), high);
@@ -125,6 +130,7 @@ static inline cs_vfloat cs_clamp(cs_vfloat value, cs_vfloat low, cs_vfloat high)
 #define CS_PREFETCH(address) (void)(address)
 #endif
 
+/* Unions give the lanes one by one. They exist on devices only. */
 typedef union cs_float_lanes {
     cs_vfloat all;
     cs_f32 lane[CS_PACKET];
@@ -157,6 +163,7 @@ static inline int cs_any(cs_vint mask)
 #endif
 }
 
+/* Sum of the lanes, in an order that the width fixes. */
 static inline cs_f32 cs_reduce_add(cs_vfloat x)
 {
 #if CS_PACKET == 1
@@ -175,6 +182,7 @@ static inline cs_f32 cs_reduce_add(cs_vfloat x)
 #endif
 }
 
+/* Largest lane. */
 static inline cs_i32 cs_reduce_max(cs_vint x)
 {
 #if CS_PACKET == 1
@@ -194,5 +202,7 @@ static inline cs_i32 cs_reduce_max(cs_vint x)
 }
 
 #endif
+
+#include "fp_contract_restore.h"
 
 #endif

@@ -1,5 +1,5 @@
 /* Shears: measure-preserving maps of a tuple ((a, b), (c, d)) in [0, 1)^4 to a point of the pixel
- * and a point of the lens. Shared.
+ * and a point of the lens.
  *
  * A surface at one depth shows the same point along the fibres x + s * u = const of the (pixel,
  * lens) domain, where s, in pixels per unit of aperture width, is the signed circle of confusion
@@ -8,16 +8,18 @@
  * coordinate x + s * u depends on the tuple's first pair alone, the second pair moves along the
  * fibre.
  *
- * Pixel coordinates are in [0, 1). Lens coordinates are centred: the square [-1/2, 1/2]^2 or the
- * disk of area 1. */
-#ifndef CS_SHEAR_H
-#define CS_SHEAR_H
+ * Programs call cs_shear. Those that map several packets at once, which is faster for a disk, call
+ * cs_shear_alone for each of them and then cs_shear_together once. */
+#ifndef CLSHEAR_DEVICE_SHEAR_H
+#define CLSHEAR_DEVICE_SHEAR_H
 
 #include "camera.h"
 #include "camera_sample.h"
 #include "disk_map.h"
 #include "fibre.h"
 #include "packet.h"
+
+#include "fp_contract_off.h"
 
 /* One axis of the equal-area map for a pixel of width 1 and a blur of width `blur` > 0: `across` in
  * [0, 1) picks the fibre, `along` in [0, 1) the place on it; returns x in [0, 1] through `x` and
@@ -50,6 +52,7 @@ static inline cs_vfloat cs_trapezoid(cs_vfloat across, cs_vfloat along, cs_f32 b
     return (t - *x) * inverse;
 }
 
+/* The equal-area map of a square with a box filter one pixel wide. a, b, c, d: the tuple. */
 static inline cs_camera_sample cs_equal_area_square(cs_vfloat a, cs_vfloat b, cs_vfloat c,
                                                     cs_vfloat d, cs_blur blur)
 {
@@ -59,8 +62,9 @@ static inline cs_camera_sample cs_equal_area_square(cs_vfloat a, cs_vfloat b, cs
     return point;
 }
 
-/* Any aperture with any filter, in the order t_x, u | t_x, t_y | u, v | t_y, u: simpler than the
- * disk's own map, but for a square of one chord everywhere the second pair moves t_y a little. */
+/* The equal-area map of any aperture with any filter, in the order t_x, u | t_x, t_y | u, v | t_y,
+ * u: simpler than the disk's own map, but for a square of one chord everywhere the second pair
+ * moves t_y a little. */
 static inline cs_camera_sample cs_equal_area_any(cs_vfloat a, cs_vfloat b, cs_vfloat c, cs_vfloat d,
                                                  const cs_optics *optics, cs_optics_table table,
                                                  cs_blur blur)
@@ -86,7 +90,7 @@ static inline cs_camera_sample cs_equal_area_any(cs_vfloat a, cs_vfloat b, cs_vf
     return point;
 }
 
-/* Without any shear. */
+/* The point of film and lens that a tuple (a, b, c, d) stands for without any shear. */
 static inline cs_camera_sample cs_unsheared(cs_vfloat a, cs_vfloat b, cs_vfloat c, cs_vfloat d,
                                             const cs_optics *optics, cs_optics_table table)
 {
@@ -96,7 +100,7 @@ static inline cs_camera_sample cs_unsheared(cs_vfloat a, cs_vfloat b, cs_vfloat 
     point.u = c - 0.5f;
     point.v = d - 0.5f;
     if (optics->marginal == CS_MARGINAL_DISK) cs_disk_from_square(&point.u, &point.v);
-    if (optics->closed) return point;
+    if (optics->has_closed_form) return point;
     point.x = cs_filter_quantile(optics, table, a) + 0.5f;
     point.y = cs_filter_quantile(optics, table, b) + 0.5f;
     if (optics->marginal == CS_MARGINAL_DISK || optics->marginal == CS_MARGINAL_UNIFORM)
@@ -128,13 +132,15 @@ static inline void cs_toroidal_axis(cs_vfloat *x, cs_vfloat *u, cs_vfloat half_c
     *u = (cs_wrap(place) - 0.5f) * width;
 }
 
+/* Half the width of a disk or a square at the coordinate `other` of the other axis. */
 static inline cs_vfloat cs_half_chord(cs_vfloat other, cs_u32 marginal)
 {
     if (marginal == CS_MARGINAL_UNIFORM) return (cs_vfloat)(0.5f);
     return cs_sqrt(cs_max(CS_DISK_RADIUS * CS_DISK_RADIUS - other * other, (cs_vfloat)(0.0f)));
 }
 
-/* For closed optics only. */
+/* The toroidal shear of a tuple. `optics` must have a closed form; `shear` is in pixels per unit of
+ * v. */
 static inline cs_camera_sample cs_toroidal(cs_vfloat a, cs_vfloat b, cs_vfloat c, cs_vfloat d,
                                            const cs_optics *optics, cs_optics_table table,
                                            cs_f32 shear)
@@ -146,13 +152,15 @@ static inline cs_camera_sample cs_toroidal(cs_vfloat a, cs_vfloat b, cs_vfloat c
     return point;
 }
 
-/* Whether the map is the disk's own, which takes packets together. */
+/* Whether cs_shear_together does the mapping, which is so for the equal-area shear of a disk with a
+ * box filter one pixel wide; otherwise cs_shear_alone does it. */
 static inline int cs_shears_together(cs_u32 mode, const cs_optics *optics)
 {
-    return mode == CS_SHEAR_EQUAL_AREA && optics->closed && optics->marginal == CS_MARGINAL_DISK;
+    return mode == CS_SHEAR_EQUAL_AREA && optics->has_closed_form &&
+           optics->marginal == CS_MARGINAL_DISK;
 }
 
-/* Rounding may leave what the filter reaches. */
+/* Keeps a point inside the width of the filter, which rounding may leave. */
 static inline void cs_clamp_to_filter(const cs_optics *optics, cs_camera_sample *point)
 {
     cs_vfloat first = (cs_vfloat)(0.5f - 0.5f * optics->filter_width);
@@ -161,9 +169,11 @@ static inline void cs_clamp_to_filter(const cs_optics *optics, cs_camera_sample 
     point->y = cs_clamp(point->y, first, last);
 }
 
-/* Maps a tuple, unless that is done together. `mode` is a CS_SHEAR_ constant, `shear` the signed
- * circle of confusion in pixels per unit of v; `table` belongs to the optics and is not read where
- * they are closed. */
+/* Maps a packet of tuples, unless cs_shears_together.
+ *
+ * p: the tuple, four coordinates in [0, 1). mode: a CS_SHEAR_ constant; CS_SHEAR_TOROIDAL only for
+ * optics that have a closed form. table: the lens table of the optics. shear: signed circle of
+ * confusion, in pixels per unit of v, finite; 0 in focus (cs_shear_of_depth). */
 static inline cs_camera_sample cs_shear_alone(cs_camera_sample p, cs_u32 mode,
                                               const cs_optics *optics, cs_optics_table table,
                                               cs_f32 shear)
@@ -174,7 +184,7 @@ static inline cs_camera_sample cs_shear_alone(cs_camera_sample p, cs_u32 mode,
         p = cs_unsheared(p.x, p.y, p.u, p.v, optics, table);
     else if (mode == CS_SHEAR_TOROIDAL)
         p = cs_toroidal(p.x, p.y, p.u, p.v, optics, table, shear);
-    else if (!optics->closed)
+    else if (!optics->has_closed_form)
         p = cs_equal_area_any(p.x, p.y, p.u, p.v, optics, table, blur);
     else
         p = cs_equal_area_square(p.x, p.y, p.u, p.v, blur);
@@ -182,8 +192,8 @@ static inline cs_camera_sample cs_shear_alone(cs_camera_sample p, cs_u32 mode,
     return p;
 }
 
-/* Maps `count` packets of tuples in place, at most CS_TOGETHER, if that is done together; each has
- * its own shear. */
+/* Maps `count` packets in place, if cs_shears_together, and otherwise leaves them as cs_shear_alone
+ * made them. `count` is 1 to CS_TOGETHER; packet k has the shear shears[k]. */
 static inline void cs_shear_together(cs_camera_sample *points, const cs_f32 *shears, int count,
                                      cs_u32 mode, const cs_optics *optics)
 {
@@ -193,7 +203,9 @@ static inline void cs_shear_together(cs_camera_sample *points, const cs_f32 *she
         cs_clamp_to_filter(optics, points + k);
 }
 
-/* Maps one tuple, whatever the shear. */
+/* Maps the tuples (a, b, c, d) of one packet to points of film and lens. The other arguments are
+ * those of cs_shear_alone. All modes keep measure: the mean of a function of the points is the
+ * same, its variance is not. */
 static inline cs_camera_sample cs_shear(cs_vfloat a, cs_vfloat b, cs_vfloat c, cs_vfloat d,
                                         cs_u32 mode, const cs_optics *optics, cs_optics_table table,
                                         cs_f32 shear)
@@ -207,5 +219,7 @@ static inline cs_camera_sample cs_shear(cs_vfloat a, cs_vfloat b, cs_vfloat c, c
     cs_shear_together(&point, &shear, 1, mode, optics);
     return point;
 }
+
+#include "fp_contract_restore.h"
 
 #endif

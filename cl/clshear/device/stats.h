@@ -1,13 +1,15 @@
-/* Running moments: count, mean and sum of squared deviations. Shared. */
-#ifndef CS_STATS_H
-#define CS_STATS_H
+/* Running moments: count, mean and sum of squared deviations. */
+#ifndef CLSHEAR_DEVICE_STATS_H
+#define CLSHEAR_DEVICE_STATS_H
 
 #include "dialect.h"
 
+#include "fp_contract_off.h"
+
 typedef struct cs_moments {
-    cs_f32 count;
-    cs_f32 mean;
-    cs_f32 m2; /* sum of squared deviations from the mean */
+    cs_f32 count; /* number of values; starts at 0 */
+    cs_f32 mean;  /* of the values; starts at 0 */
+    cs_f32 m2;    /* sum of squared deviations from the mean; starts at 0 */
 } cs_moments;
 
 /* Moments of the union of two disjoint sets (Chan, Golub & LeVeque 1979, eq. 2.1). Either may be
@@ -34,10 +36,10 @@ static inline cs_moments cs_moments_add(cs_moments a, cs_f32 value)
     return cs_moments_merge(a, one);
 }
 
-/* A sum that keeps its rounding error: the value is `sum` + `carry`, about 48 bits. */
+/* A sum of about 48 bits: its value is `sum` + `carry`. */
 typedef struct cs_exact_sum {
-    cs_f32 sum;
-    cs_f32 carry;
+    cs_f32 sum;   /* the value rounded to a float */
+    cs_f32 carry; /* what rounding has lost */
 } cs_exact_sum;
 
 /* Adds by Knuth's two-sum (TAOCP 2, 4.2.2), exact for any order of magnitudes, and renormalises so
@@ -52,5 +54,7 @@ static inline cs_exact_sum cs_exact_add(cs_exact_sum total, cs_f32 value)
     next.carry = carry - (next.sum - sum);
     return next;
 }
+
+#include "fp_contract_restore.h"
 
 #endif

@@ -1,27 +1,29 @@
-/* The grid under a stratified pattern, and the orders in which its cells are walked. Shared.
+/* The grid under a stratified pattern, and the orders in which its cells are walked.
  *
  * A pattern of N points lies on a grid of `columns` columns; rows are bands of `columns` strata of
  * height 1/N. For N that is not columns * rows, the last row is partial: its `extra` points go to
  * columns spread evenly, which are one stratum wider. */
-#ifndef CS_GRID_H
-#define CS_GRID_H
+#ifndef CLSHEAR_DEVICE_SAMPLER_GRID_H
+#define CLSHEAR_DEVICE_SAMPLER_GRID_H
 
 #include "../hash.h"
 #include "../packet.h"
 
+#include "../fp_contract_off.h"
+
 /* The grid of a pattern: everything about N that need not be computed for each sample. */
 typedef struct cs_grid {
-    cs_u32 count; /* N, 1 .. CS_MAX_PATTERN */
-    cs_u32 columns;
-    cs_u32 rows;  /* full rows */
-    cs_u32 extra; /* points in the partial row: count - columns * rows */
-    cs_u32 jitter_shift;
-    cs_f32 jitter_scale;
-    cs_f32 inverse_count;
-    cs_f32 inverse_columns;
-    cs_domain count_domain;
-    cs_domain column_domain;
-    cs_domain row_domain;
+    cs_u32 count;            /* number of points N, 1 to CS_MAX_PATTERN */
+    cs_u32 columns;          /* 1 to N */
+    cs_u32 rows;             /* full rows */
+    cs_u32 extra;            /* points in the partial row: count - columns * rows */
+    cs_u32 jitter_shift;     /* bits that cs_in_stratum drops of 16 */
+    cs_f32 jitter_scale;     /* 1 / (number of places in a stratum) */
+    cs_f32 inverse_count;    /* 1 / count */
+    cs_f32 inverse_columns;  /* 1 / columns */
+    cs_domain count_domain;  /* for permutations of the points */
+    cs_domain column_domain; /* for permutations of the columns */
+    cs_domain row_domain;    /* for permutations of the rows, the partial one included */
 } cs_grid;
 CS_SHARED_WORDS(cs_grid, 14);
 
@@ -37,7 +39,7 @@ static inline cs_u32 cs_grid_columns(cs_u32 count)
     return root * (root + 1u) < count ? root + 1u : root;
 }
 
-/* A grid of `count` points on `columns` columns. */
+/* A grid of `count` points, 1 to CS_MAX_PATTERN, on `columns` columns, 1 to count. */
 static inline cs_grid cs_grid_on(cs_u32 count, cs_u32 columns)
 {
     cs_grid grid;
@@ -67,7 +69,7 @@ static inline cs_grid cs_grid_of(cs_u32 count)
     return cs_grid_on(count, cs_grid_columns(count));
 }
 
-/* a / divisor for a below 2^24, rounded down; `inverse` = 1 / divisor. */
+/* a / divisor rounded down, for `a` below 2^24. `inverse` must be 1.0f / divisor. */
 static inline cs_vuint cs_divide(cs_vuint a, cs_u32 divisor, cs_f32 inverse)
 {
     cs_vuint quotient = cs_to_vuint(cs_to_vfloat(a) * inverse);
@@ -76,9 +78,10 @@ static inline cs_vuint cs_divide(cs_vuint a, cs_u32 divisor, cs_f32 inverse)
     return rest >= (cs_i32)divisor ? quotient + 1u : quotient;
 }
 
+/* A cell of the grid. */
 typedef struct cs_cell {
-    cs_vuint column;
-    cs_vuint row;
+    cs_vuint column; /* 0 to columns - 1 */
+    cs_vuint row;    /* 0 to rows - 1, or rows in the partial row */
 } cs_cell;
 
 /* The partial row's point number e lies in the column where floor(column * extra / columns) steps
@@ -92,7 +95,7 @@ static inline cs_cell cs_partial_row_cell(const cs_grid *grid, cs_vuint point)
     return cell;
 }
 
-/* Cell number `index` in row-major order. */
+/* Cell number `index` < count in row-major order. */
 static inline cs_cell cs_cell_of(const cs_grid *grid, cs_vuint index)
 {
     cs_cell cell;
@@ -106,10 +109,10 @@ static inline cs_cell cs_cell_of(const cs_grid *grid, cs_vuint index)
     return cell;
 }
 
-/* Cell number `index` in an order that keeps CS_GROUP consecutive indices in a block of 4 x 2 cells
- * wherever the grid allows: neighbours on the film and on the lens, so that a packet of them traces
- * coherently. Pairs of rows are cut into blocks; what is left of a pair is a narrower block, what
- * is left of the rows is in row-major order. */
+/* Cell number `index` < count in an order that keeps CS_GROUP consecutive indices in a block of 4 x
+ * 2 cells wherever the grid allows: neighbours on the film and on the lens, so that a packet of
+ * them traces coherently. Pairs of rows are cut into blocks; what is left of a pair is a narrower
+ * block, what is left of the rows is in row-major order. */
 static inline cs_cell cs_cell_in_block_order(const cs_grid *grid, cs_vuint index)
 {
     cs_u32 pair = 2u * grid->columns;
@@ -136,22 +139,25 @@ static inline cs_cell cs_cell_in_block_order(const cs_grid *grid, cs_vuint index
     return cell;
 }
 
-/* Strata before `column`, beyond `rows` for each: floor(column * extra / columns). */
+/* Number of columns before `column` that are one stratum wider: floor(column * extra / columns). */
 static inline cs_vuint cs_extra_before(const cs_grid *grid, cs_vuint column)
 {
     return cs_divide(column * grid->extra, grid->columns, grid->inverse_columns);
 }
 
+/* Two coordinates in [0, 1): a slot of a tuple. */
 typedef struct cs_pair {
     cs_vfloat x;
     cs_vfloat y;
 } cs_pair;
 
-/* A place in stratum number `stratum` of the grid's N; the jitter is 16 random bits. */
+/* A place in [0, 1) in stratum number `stratum` of the grid's N, chosen by 16 random bits. */
 static inline cs_vfloat cs_in_stratum(const cs_grid *grid, cs_vuint stratum, cs_vuint bits16)
 {
     cs_vfloat jitter = (cs_to_vfloat(bits16 >> grid->jitter_shift) + 0.5f) * grid->jitter_scale;
     return (cs_to_vfloat(stratum) + jitter) * grid->inverse_count;
 }
+
+#include "../fp_contract_restore.h"
 
 #endif

@@ -1,4 +1,4 @@
-/* Multi-jittered pairs of any count. Shared.
+/* Multi-jittered pairs of any count.
  *
  * With N = columns * rows: one point in each cell of the grid, one in each of the N strata of x and
  * of y. `mj` has an independent permutation for every column and every row (Chiu, Shirley & Wang
@@ -9,12 +9,16 @@
  * `oa` is `mj` with the second pair's cell chosen by an orthogonal array instead of at random: with
  * N = q^2 runs of levels (i, j, i + j, i + a j) of the field of q elements, every two coordinates
  * have one point in each of q x q cells (Bose 1938; Jarosz et al. 2019, section 4). */
-#ifndef CS_MULTIJITTER_H
-#define CS_MULTIJITTER_H
+#ifndef CLSHEAR_DEVICE_SAMPLER_MULTIJITTER_H
+#define CLSHEAR_DEVICE_SAMPLER_MULTIJITTER_H
 
 #include "pattern.h"
 
-/* The point of `cell`, in [0, 1)^2, of the pair named by `key`. */
+#include "../fp_contract_off.h"
+
+/* The point in [0, 1)^2 of cell `cell` of the pair named by `key`. `correlated` is 0 for
+ * independent permutations (mj) and 1 for one permutation of all columns and one of all rows (cmj).
+ */
 static inline cs_pair cs_multijitter(const cs_grid *grid, cs_cell cell, cs_u32 key, int correlated)
 {
     cs_vuint column_key =
@@ -53,37 +57,84 @@ static inline cs_vuint cs_array_level(const cs_grid *grid, cs_u32 key, cs_u32 di
 }
 
 /* The cell of the second pair that the orthogonal array gives to the sample in `first`. */
-static inline cs_cell cs_array_cell(const cs_pattern *pattern, cs_sample_table rows, cs_u32 key,
+static inline cs_cell cs_array_cell(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
                                     cs_cell first)
 {
     const cs_grid *grid = &pattern->grid;
     cs_vuint run = cs_array_level(grid, key, 0u, first.column) * grid->columns +
                    cs_array_level(grid, key, 1u, first.row);
-    cs_vuint levels = cs_sample_word_anywhere(pattern, rows, 0u, run);
+    cs_vuint levels = cs_sample_word_anywhere(pattern, table, 0u, run);
     cs_cell cell;
     cell.column = cs_array_level(grid, key, 2u, levels >> 16);
     cell.row = cs_array_level(grid, key, 3u, levels & 0xffffu);
     return cell;
 }
 
-static inline void cs_draw_multijitter(const cs_pattern *pattern, cs_sample_table rows, cs_u32 key,
-                                       cs_vuint index, cs_u32 pairs, cs_vfloat *tuple)
+/* The point of slot `slot` in cell `cell`. */
+static inline cs_pair cs_multijitter_slot(const cs_pattern *pattern, cs_cell cell, cs_u32 key,
+                                          cs_u32 slot, int correlated)
 {
-    const cs_grid *grid = &pattern->grid;
-    int correlated = pattern->sampler == CS_SAMPLER_CMJ;
-    cs_cell first = cs_cell_in_block_order(grid, index);
-    for (cs_u32 pair = 0u; pair < pairs; pair++) {
-        cs_cell cell = first;
-        if (pair == CS_PAIR_FIBRE)
-            cell = first;
-        else if (pair == CS_PAIR_LENS && pattern->sampler == CS_SAMPLER_OA)
-            cell = cs_array_cell(pattern, rows, key, first);
-        else
-            cell = cs_cell_of(grid, cs_partner(pattern, key, pair, index));
-        cs_pair point = cs_multijitter(grid, cell, cs_key(key, CS_KEY_PAIR + pair), correlated);
-        tuple[2u * pair] = point.x;
-        tuple[2u * pair + 1u] = point.y;
-    }
+    return cs_multijitter(&pattern->grid, cell, cs_key(key, CS_KEY_PAIR + slot), correlated);
+}
+
+/* The cell of a slot's point that goes with sample `index` at random. */
+static inline cs_cell cs_partner_cell(const cs_pattern *pattern, cs_u32 key, cs_u32 slot,
+                                      cs_vuint index)
+{
+    return cs_cell_of(&pattern->grid, cs_partner(pattern, key, slot, index));
+}
+
+/* A multi-jittered point of slot `slot`, combined with the sample at random. */
+static inline cs_pair cs_extra_multijittered(const cs_pattern *pattern, cs_sample_table table,
+                                             cs_u32 key, cs_vuint index, cs_u32 slot)
+{
+    (void)table;
+    return cs_multijitter_slot(pattern, cs_partner_cell(pattern, key, slot, index), key, slot, 0);
+}
+
+/* A correlated multi-jittered point of slot `slot`, combined with the sample at random. */
+static inline cs_pair cs_extra_correlated(const cs_pattern *pattern, cs_sample_table table,
+                                          cs_u32 key, cs_vuint index, cs_u32 slot)
+{
+    (void)table;
+    return cs_multijitter_slot(pattern, cs_partner_cell(pattern, key, slot, index), key, slot, 1);
+}
+
+/* Film and lens from their cells. */
+static inline void cs_draw_cells(const cs_pattern *pattern, cs_cell film, cs_cell lens, cs_u32 key,
+                                 int correlated, cs_vfloat *tuple)
+{
+    cs_put_slot(cs_multijitter_slot(pattern, film, key, CS_SLOT_FILM, correlated), CS_SLOT_FILM,
+                tuple);
+    cs_put_slot(cs_multijitter_slot(pattern, lens, key, CS_SLOT_LENS, correlated), CS_SLOT_LENS,
+                tuple);
+}
+
+/* mj: multi-jittered pairs, combined at random. */
+static inline void cs_draw_multijittered(const cs_pattern *pattern, cs_sample_table table,
+                                         cs_u32 key, cs_vuint index, cs_vfloat *tuple)
+{
+    cs_cell film = cs_cell_in_block_order(&pattern->grid, index);
+    (void)table;
+    cs_draw_cells(pattern, film, cs_partner_cell(pattern, key, CS_SLOT_LENS, index), key, 0, tuple);
+}
+
+/* cmj: correlated multi-jittered pairs, combined at random. */
+static inline void cs_draw_correlated(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
+                                      cs_vuint index, cs_vfloat *tuple)
+{
+    cs_cell film = cs_cell_in_block_order(&pattern->grid, index);
+    (void)table;
+    cs_draw_cells(pattern, film, cs_partner_cell(pattern, key, CS_SLOT_LENS, index), key, 1, tuple);
+}
+
+/* oa: multi-jittered pairs, combined by an orthogonal array. The table has one word for each run of
+ * the array: level of the third column in the upper, of the fourth in the lower 16 bits. */
+static inline void cs_draw_array(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
+                                 cs_vuint index, cs_vfloat *tuple)
+{
+    cs_cell film = cs_cell_in_block_order(&pattern->grid, index);
+    cs_draw_cells(pattern, film, cs_array_cell(pattern, table, key, film), key, 0, tuple);
 }
 
 /* A value in one of N = q^3 strata: in those of `level`, the samples of a level in random order;
@@ -97,10 +148,10 @@ static inline cs_vfloat cs_ranked(const cs_grid *grid, cs_vuint level, cs_vuint 
 
 /* Orthogonal array of strength 3, N = q^3 runs (a, b, c) with the levels of a + b x + c x^2 at four
  * places x: every three coordinates have one point in each of q^3 cells (Bush 1952; Jarosz et al.
- * 2019, section 4.2). a and c are the levels of the first pair, in blocks; b runs fastest. The pair
- * of the light is multi-jittered. */
-static inline void cs_draw_strong_array(const cs_pattern *pattern, cs_sample_table rows, cs_u32 key,
-                                        cs_vuint index, cs_u32 pairs, cs_vfloat *tuple)
+ * 2019, section 4.2). a and c are the levels of the first pair, in blocks; b runs fastest. The
+ * table has one word for each run: third level in the upper, fourth in the lower 16 bits. */
+static inline void cs_draw_strong_array(const cs_pattern *pattern, cs_sample_table table,
+                                        cs_u32 key, cs_vuint index, cs_vfloat *tuple)
 {
     const cs_grid *grid = &pattern->grid;
     cs_u32 q = grid->columns;
@@ -112,7 +163,7 @@ static inline void cs_draw_strong_array(const cs_pattern *pattern, cs_sample_tab
     cs_cell first = cs_cell_in_block_order(&cells, place);
     cs_vuint run =
         cs_array_level(grid, key, 0u, first.column) * q + cs_array_level(grid, key, 1u, first.row);
-    cs_vuint levels = cs_sample_word_anywhere(pattern, rows, 0u, run * q + middle);
+    cs_vuint levels = cs_sample_word_anywhere(pattern, table, 0u, run * q + middle);
     cs_vuint third = cs_array_level(grid, key, 2u, levels >> 16);
     cs_vuint fourth = cs_array_level(grid, key, 3u, levels & 0xffffu);
     cs_vuint rank =
@@ -121,11 +172,18 @@ static inline void cs_draw_strong_array(const cs_pattern *pattern, cs_sample_tab
     tuple[1] = cs_ranked(grid, first.row, middle * q + first.column, cs_key(key, CS_KEY_PAIR + 1));
     tuple[2] = cs_ranked(grid, third, rank, cs_key(key, CS_KEY_PAIR + 2));
     tuple[3] = cs_ranked(grid, fourth, rank, cs_key(key, CS_KEY_PAIR + 3));
-    if (pairs <= CS_PAIR_EMITTER) return;
-    cs_cell cell = cs_cell_of(grid, cs_partner(pattern, key, CS_PAIR_EMITTER, index));
-    cs_pair point = cs_multijitter(grid, cell, cs_key(key, CS_KEY_PAIR + 4), 0);
-    tuple[4] = point.x;
-    tuple[5] = point.y;
 }
+
+/* oa3: a multi-jittered point of slot `slot`, combined with the sample at random. Its keys lie
+ * behind those of the four coordinates above. */
+static inline cs_pair cs_extra_strong_array(const cs_pattern *pattern, cs_sample_table table,
+                                            cs_u32 key, cs_vuint index, cs_u32 slot)
+{
+    (void)table;
+    return cs_multijitter_slot(pattern, cs_partner_cell(pattern, key, slot, index), key,
+                               CS_SLOT_WIDEST * slot, 0);
+}
+
+#include "../fp_contract_restore.h"
 
 #endif

@@ -1,12 +1,14 @@
-/* Digital nets and sequences in base 2, scrambled. Shared.
+/* Digital nets and sequences in base 2, scrambled.
  *
- * Rows hold coordinates as 32 bits in reverse, most significant digit lowest. In that form nested
+ * Words hold coordinates as 32 bits in reverse, most significant digit lowest. In that form nested
  * uniform (Owen) scrambling is a hash whose bits depend on lower bits only, and the element number
  * is the van der Corput coordinate itself. */
-#ifndef CS_NET_H
-#define CS_NET_H
+#ifndef CLSHEAR_DEVICE_SAMPLER_NET_H
+#define CLSHEAR_DEVICE_SAMPLER_NET_H
 
 #include "pattern.h"
+
+#include "../fp_contract_off.h"
 
 /* Nested uniform scrambling of reversed digits: the hash of Laine & Karras 2011 with constants by
  * N. Vegdahl ("Building a Better LK Hash", 2021), as Burley 2020 uses it. `seed` is a hash. */
@@ -20,6 +22,7 @@ static inline cs_vuint cs_scramble_reversed(cs_vuint digits, cs_u32 seed)
     return digits;
 }
 
+/* The 32 bits of x in reverse order. */
 static inline cs_vuint cs_reverse_bits(cs_vuint x)
 {
     x = (x >> 16) | (x << 16);
@@ -41,45 +44,55 @@ static inline cs_vuint cs_pascal(cs_vuint index)
     return index ^ (index >> 16);
 }
 
+/* A coordinate in [0, 1) from its reversed digits. `dimension` is its number among all slots. */
 static inline cs_vfloat cs_scrambled(cs_vuint digits, cs_u32 key, cs_u32 dimension)
 {
     cs_u32 seed = cs_key(key, CS_KEY_DIMENSION + dimension);
     return cs_unit(cs_reverse_bits(cs_scramble_reversed(digits, seed)));
 }
 
-/* A (0,2)-pair of an element: its place in the sequence is shuffled so that every aligned run of
- * 2^k elements stays one. */
-static inline void cs_draw_shuffled_pair(cs_vuint element, cs_u32 key, cs_u32 pair,
-                                         cs_vfloat *tuple)
+/* A (0,2)-pair of slot `slot` for element `element`. The element's place in the sequence is
+ * shuffled so that every aligned run of 2^k elements stays one. */
+static inline cs_pair cs_shuffled_pair(cs_vuint element, cs_u32 key, cs_u32 slot)
 {
     cs_vuint reversed =
-        cs_scramble_reversed(cs_reverse_bits(element), cs_key(key, CS_KEY_PAIRING + pair));
+        cs_scramble_reversed(cs_reverse_bits(element), cs_key(key, CS_KEY_PAIRING + slot));
     cs_vuint shuffled = cs_reverse_bits(reversed);
-    tuple[2u * pair] = cs_scrambled(shuffled, key, 2u * pair);
-    tuple[2u * pair + 1u] = cs_scrambled(cs_pascal(shuffled), key, 2u * pair + 1u);
+    cs_pair point;
+    point.x = cs_scrambled(shuffled, key, CS_SLOT_WIDEST * slot);
+    point.y = cs_scrambled(cs_pascal(shuffled), key, CS_SLOT_WIDEST * slot + 1u);
+    return point;
 }
 
-/* Four dimensions of one net: `sobol` and `sz`. The light gets a (0,2)-pair. */
-static inline void cs_draw_net(const cs_pattern *pattern, cs_sample_table rows, cs_u32 key,
-                               cs_vuint index, cs_u32 pairs, cs_vfloat *tuple)
+/* A (0,2)-pair of slot `slot`. Word 0 of the table must be the sample's element number. */
+static inline cs_pair cs_extra_net_pair(const cs_pattern *pattern, cs_sample_table table,
+                                        cs_u32 key, cs_vuint index, cs_u32 slot)
 {
-    cs_vuint element = cs_sample_word(pattern, rows, 0u, index);
-    tuple[0] = cs_scrambled(element, key, 0u);
-    for (cs_u32 d = 1u; d < 4u; d++)
-        tuple[d] = cs_scrambled(cs_sample_word(pattern, rows, d, index), key, d);
-    if (pairs > CS_PAIR_EMITTER) cs_draw_shuffled_pair(element, key, CS_PAIR_EMITTER, tuple);
+    return cs_shuffled_pair(cs_sample_word(pattern, table, 0u, index), key, slot);
+}
+
+/* Four dimensions of one net: `sobol` and `sz`. The table's four words are the coordinates,
+ * reversed; the first of them is the element number. */
+static inline void cs_draw_net(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
+                               cs_vuint index, cs_vfloat *tuple)
+{
+    for (cs_u32 d = 0u; d < (cs_u32)CS_MAIN_DIMENSIONS; d++)
+        tuple[d] = cs_scrambled(cs_sample_word(pattern, table, d, index), key, d);
 }
 
 /* Pairs of (0,2)-sequences, each shuffled by itself (Kollig & Keller 2002, section 3; the shuffling
- * of Burley 2020). */
-static inline void cs_draw_net_pairs(const cs_pattern *pattern, cs_sample_table rows, cs_u32 key,
-                                     cs_vuint index, cs_u32 pairs, cs_vfloat *tuple)
+ * of Burley 2020). The table's one word is the element number. */
+static inline void cs_draw_net_pairs(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
+                                     cs_vuint index, cs_vfloat *tuple)
 {
-    cs_vuint element = cs_sample_word(pattern, rows, 0u, index);
-    tuple[0] = cs_scrambled(element, key, 0u);
-    tuple[1] = cs_scrambled(cs_pascal(element), key, 1u);
-    for (cs_u32 pair = 1u; pair < pairs; pair++)
-        cs_draw_shuffled_pair(element, key, pair, tuple);
+    cs_vuint element = cs_sample_word(pattern, table, 0u, index);
+    cs_pair film;
+    film.x = cs_scrambled(element, key, 0u);
+    film.y = cs_scrambled(cs_pascal(element), key, 1u);
+    cs_put_slot(film, CS_SLOT_FILM, tuple);
+    cs_put_slot(cs_shuffled_pair(element, key, CS_SLOT_LENS), CS_SLOT_LENS, tuple);
 }
+
+#include "../fp_contract_restore.h"
 
 #endif

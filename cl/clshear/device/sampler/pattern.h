@@ -1,52 +1,57 @@
-/* A pattern: the tuples of one pixel, named by a sampler and a number of samples. Shared.
+/* A pattern: the tuples of one pixel, named by a sampler and a number of samples.
  *
- * What the samplers draw from: the pattern's constants, a table of rows that the host prepared for
- * every pixel alike, and a key that makes each pixel's pattern its own. */
-#ifndef CS_PATTERN_H
-#define CS_PATTERN_H
+ * Samplers draw from three things: the pattern's constants; the sample table, which the host makes
+ * once for all pixels (clshear/kernels.h); and a key, which makes each pixel's pattern its own. */
+#ifndef CLSHEAR_DEVICE_SAMPLER_PATTERN_H
+#define CLSHEAR_DEVICE_SAMPLER_PATTERN_H
 
 #include "grid.h"
 #include "list.h"
+#include "slots.h"
+
+#include "../fp_contract_off.h"
 
 enum {
-    CS_DIMENSIONS = 6, /* of a tuple: film, lens, and a pair for the light */
-    CS_MOST_WORDS = 4  /* of a row */
+    CS_MOST_WORDS = CS_MAIN_DIMENSIONS /* words that a sample table has for each sample, at most */
 };
 
-/* Pairs of coordinates of a tuple. */
+/* Families of keys: each random choice in a pattern has a key of its own, cs_key(key, number). */
 enum {
-    CS_PAIR_FIBRE = 0, /* film; after an equal-area shear, the position across the fibres */
-    CS_PAIR_LENS = 1,  /* lens; after an equal-area shear, the position along the fibres */
-    CS_PAIR_EMITTER = 2
+    CS_KEY_ORDER = 0,     /* order of the blocks */
+    CS_KEY_PAIRING = 1,   /* + slot: which point of a slot goes with which sample */
+    CS_KEY_PAIR = 8,      /* + slot: the points of a slot; or + coordinate (cs_draw_strong_array) */
+    CS_KEY_DIMENSION = 16 /* + CS_SLOT_WIDEST * slot + coordinate within the slot */
 };
 
-/* What the parts of a pattern's random choices are keyed by. */
-enum {
-    CS_KEY_ORDER = 0,     /* the order of its blocks */
-    CS_KEY_PAIRING = 1,   /* + pair: which of a pair's points goes with which sample */
-    CS_KEY_PAIR = 8,      /* + pair: the points of a pair */
-    CS_KEY_DIMENSION = 16 /* + dimension */
-};
+/* Families must not overlap: these fail to compile when there are too many slots. */
+typedef char cs_pairings_fit[CS_KEY_PAIRING + CS_SLOT_COUNT <= CS_KEY_PAIR ? 1 : -1];
+typedef char
+    cs_pairs_fit[CS_KEY_PAIR + CS_SLOT_WIDEST * CS_SLOT_COUNT <= CS_KEY_DIMENSION ? 1 : -1];
 
+/* The constants of a pattern. Make it by clshear_pattern_make. */
 typedef struct cs_pattern {
-    cs_u32 sampler; /* CS_SAMPLER_ */
-    cs_u32 first;  /* the sequence's element that is sample 0; not 0 in a render that is extended */
-    cs_u32 blocks; /* of CS_BLOCK samples; the last may be partial */
-    cs_domain block_domain;
-    cs_u32 shape[4]; /* jittered4d: strata of each coordinate; halton: digits of each base in use */
-    cs_grid grid;    /* with the number of samples */
+    cs_u32 sampler;         /* CS_SAMPLER_ */
+    cs_u32 first;           /* element of the sampler's sequence that is sample 0 */
+    cs_u32 blocks;          /* number of blocks of CS_BLOCK samples; the last may be partial */
+    cs_domain block_domain; /* of `blocks` */
+    cs_u32
+        shape[CS_MAIN_DIMENSIONS]; /* meaning depends on the sampler; see its cs_draw_ function */
+    cs_grid grid;                  /* grid.count is the number of samples */
 } cs_pattern;
-CS_SHARED_WORDS(cs_pattern, 23);
+CS_SHARED_WORDS(cs_pattern, 19 + CS_MAIN_DIMENSIONS);
 
-/* The rows of a pattern's table: word w of sample i is at words[w * blocks * CS_BLOCK + i]. */
+/* A sample table: word w of sample i is at table[w * blocks * CS_BLOCK + i]. Its words have a
+ * meaning that the sampler gives them. A sampler whose `table` in list.h is `none` reads nothing
+ * and takes any pointer. */
 typedef CS_GLOBAL const cs_u32 *cs_sample_table;
 
-/* A word of the rows of a packet. Its samples must be consecutive in each block, as cs_index_at has
- * them: lanes 0 and 8 say where the loads begin. */
-static inline cs_vuint cs_sample_word(const cs_pattern *pattern, cs_sample_table rows, cs_u32 word,
+/* Word number `word` of the samples `index` of a packet. Within lanes 0 to 7, and within lanes 8 to
+ * 15, the indices must be consecutive, as those of cs_index_at are: only lanes 0 and 8 are looked
+ * at. A packet of 4 lanes must have 4 consecutive indices. */
+static inline cs_vuint cs_sample_word(const cs_pattern *pattern, cs_sample_table table, cs_u32 word,
                                       cs_vuint index)
 {
-    cs_sample_table words = rows + word * pattern->blocks * (cs_u32)CS_BLOCK;
+    cs_sample_table words = table + word * pattern->blocks * (cs_u32)CS_BLOCK;
 #if CS_PACKET == 16
     return (cs_vuint)(vload8(0, words + index.s0), vload8(0, words + index.s8));
 #elif CS_PACKET == 8
@@ -58,11 +63,11 @@ static inline cs_vuint cs_sample_word(const cs_pattern *pattern, cs_sample_table
 #endif
 }
 
-/* The same for samples anywhere in the table. */
-static inline cs_vuint cs_sample_word_anywhere(const cs_pattern *pattern, cs_sample_table rows,
+/* Word number `word` of the samples `index`, which may be any of the table. */
+static inline cs_vuint cs_sample_word_anywhere(const cs_pattern *pattern, cs_sample_table table,
                                                cs_u32 word, cs_vuint index)
 {
-    cs_sample_table words = rows + word * pattern->blocks * (cs_u32)CS_BLOCK;
+    cs_sample_table words = table + word * pattern->blocks * (cs_u32)CS_BLOCK;
 #if CS_PACKET == 1
     return words[index];
 #else
@@ -74,13 +79,27 @@ static inline cs_vuint cs_sample_word_anywhere(const cs_pattern *pattern, cs_sam
 #endif
 }
 
-/* The sample whose point of `pair` goes with the first pair's point of sample `index`: a random
- * permutation. */
-static inline cs_vuint cs_partner(const cs_pattern *pattern, cs_u32 key, cs_u32 pair,
+/* The sample whose point of slot `slot` goes with the main slots of sample `index`: a random
+ * permutation of the pattern. `index` must be below grid.count in every lane. */
+static inline cs_vuint cs_partner(const cs_pattern *pattern, cs_u32 key, cs_u32 slot,
                                   cs_vuint index)
 {
     return cs_permute(index, (cs_vuint)(pattern->grid.count), pattern->grid.count_domain,
-                      (cs_vuint)(cs_key(key, CS_KEY_PAIRING + pair)));
+                      (cs_vuint)(cs_key(key, CS_KEY_PAIRING + slot)));
+}
+
+/* Key of coordinate `coordinate` (0 or 1) of slot `slot`. */
+static inline cs_u32 cs_slot_key(cs_u32 key, cs_u32 slot, cs_u32 coordinate)
+{
+    return cs_key(key, CS_KEY_DIMENSION + CS_SLOT_WIDEST * slot + coordinate);
+}
+
+/* Puts the coordinates of a slot into a tuple. A slot of one coordinate takes point.x. */
+static inline void cs_put_slot(cs_pair point, cs_u32 slot, cs_vfloat *tuple)
+{
+    cs_u32 place = cs_slot_place(slot);
+    tuple[place] = point.x;
+    if (cs_slot_width(slot) > 1u) tuple[place + 1u] = point.y;
 }
 
 /* 32 random bits as a float in [0, 1); 24 of them are kept. */
@@ -88,5 +107,7 @@ static inline cs_vfloat cs_unit(cs_vuint bits)
 {
     return cs_to_vfloat(bits >> 8) * 0x1p-24f;
 }
+
+#include "../fp_contract_restore.h"
 
 #endif

@@ -1,9 +1,9 @@
-/* From (seed, pixel, replicate, index) to a tuple: the samplers' common front. Shared.
+/* From (seed, pixel, replicate, index) to a tuple: the samplers' common front.
  *
  * Every coordinate is a pure function of those four numbers, whatever the order, the work-group or
  * the device in which it is asked for. */
-#ifndef CS_SAMPLER_H
-#define CS_SAMPLER_H
+#ifndef CLSHEAR_DEVICE_SAMPLER_SAMPLER_H
+#define CLSHEAR_DEVICE_SAMPLER_SAMPLER_H
 
 #include "halton.h"
 #include "jitter.h"
@@ -11,15 +11,19 @@
 #include "net.h"
 #include "shifted.h"
 
+#include "../fp_contract_off.h"
+
+/* The key of a pixel's pattern. `seed` belongs to the image, `pixel` numbers its pixels,
+ * `replicate` the independent patterns of one pixel. */
 static inline cs_u32 cs_pattern_key(cs_u32 seed, cs_u32 pixel, cs_u32 replicate)
 {
     return cs_key(cs_key(cs_key(0u, seed), pixel), replicate);
 }
 
-/* Index of the sample at place `position` in the order in which a pixel draws its pattern: blocks
- * in random order, so that the samples drawn first are an unbiased choice from the pattern and an
- * interrupted render is unbiased too. Positions run to CS_BLOCK * blocks; an index of grid.count or
- * more is no sample. */
+/* Index of the sample at place `position` of the order in which a pixel draws its pattern. Blocks
+ * come in random order, so that the samples drawn first are an unbiased choice from the pattern and
+ * an interrupted render is unbiased too. `position` must be below CS_BLOCK * blocks. An index of
+ * grid.count or more is no sample: leave it out. */
 static inline cs_vuint cs_index_at(const cs_pattern *pattern, cs_u32 key, cs_vuint position)
 {
     cs_vuint block = cs_permute(position / (cs_u32)CS_BLOCK, (cs_vuint)(pattern->blocks),
@@ -27,22 +31,54 @@ static inline cs_vuint cs_index_at(const cs_pattern *pattern, cs_u32 key, cs_vui
     return block * (cs_u32)CS_BLOCK + position % (cs_u32)CS_BLOCK;
 }
 
-/* The first `pairs` (2 or 3) pairs of coordinates, in [0, 1), of sample `index` < grid.count of the
- * pattern named by `key`. Samples are numbered so that those of a box of CS_GROUP are neighbours in
- * the first pair wherever the sampler allows, and so are the boxes of a block. In a packet of
- * several lanes, lanes 0 to 7 and 8 to 15 must have consecutive indices each; those that are no
- * sample may have index 0. */
-static inline void cs_draw(const cs_pattern *pattern, cs_sample_table rows, cs_u32 key,
-                           cs_vuint index, cs_u32 pairs, cs_vfloat *tuple)
+/* The film and lens coordinates, in [0, 1), of samples `index` of the pattern named by `key`, into
+ * tuple[0] to tuple[CS_MAIN_DIMENSIONS - 1].
+ *
+ * Every index must be below grid.count. In a packet of several lanes, lanes 0 to 7 and lanes 8 to
+ * 15 must have consecutive indices each, as cs_index_at makes them; lanes that are no sample may
+ * have index 0 if lanes 0 and 8 are right. Samples are numbered so that CS_GROUP consecutive ones
+ * are neighbours on the film wherever the sampler allows, and so are the groups of a block. */
+static inline void cs_draw(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
+                           cs_vuint index, cs_vfloat *tuple)
 {
-#define CS_SAMPLER_CASE(identifier, name, draw, counts, rows_of, progressive, about) \
-    case CS_SAMPLER_##identifier:                                                    \
-        cs_draw_##draw(pattern, rows, key, index, pairs, tuple);                     \
+#define CS_DRAW_CASE(identifier, name, draw, extra, shape, words, progressive, about) \
+    case CS_SAMPLER_##identifier:                                                     \
+        cs_draw_##draw(pattern, table, key, index, tuple);                            \
         break;
     switch (pattern->sampler) {
-        CS_SAMPLER_LIST(CS_SAMPLER_CASE)
+        CS_SAMPLER_LIST(CS_DRAW_CASE)
     }
-#undef CS_SAMPLER_CASE
+#undef CS_DRAW_CASE
 }
+
+/* The coordinates, in [0, 1), of slot `slot` of samples `index`: CS_SLOT_LIGHT or a later slot. The
+ * preconditions are those of cs_draw. A slot of one coordinate has it in x. */
+static inline cs_pair cs_draw_extra(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
+                                    cs_vuint index, cs_u32 slot)
+{
+    cs_pair point;
+    point.x = (cs_vfloat)(0.0f);
+    point.y = (cs_vfloat)(0.0f);
+#define CS_EXTRA_CASE(identifier, name, draw, extra, shape, words, progressive, about) \
+    case CS_SAMPLER_##identifier:                                                      \
+        point = cs_extra_##extra(pattern, table, key, index, slot);                    \
+        break;
+    switch (pattern->sampler) {
+        CS_SAMPLER_LIST(CS_EXTRA_CASE)
+    }
+#undef CS_EXTRA_CASE
+    return point;
+}
+
+/* All slots: CS_DIMENSIONS coordinates. The preconditions are those of cs_draw. */
+static inline void cs_draw_all(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
+                               cs_vuint index, cs_vfloat *tuple)
+{
+    cs_draw(pattern, table, key, index, tuple);
+    for (cs_u32 slot = CS_MAIN_SLOTS; slot < (cs_u32)CS_SLOT_COUNT; slot++)
+        cs_put_slot(cs_draw_extra(pattern, table, key, index, slot), slot, tuple);
+}
+
+#include "../fp_contract_restore.h"
 
 #endif

@@ -1,0 +1,186 @@
+/* clshear/kernels.h: the words that the device headers work on, for programs of others. */
+#include "clshear/kernels.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/arguments.h"
+#include "base/array.h"
+#include "base/status.h"
+#include "device/device.h"
+#include "optics/optics.h"
+#include "pattern/pattern.h"
+#include "scene/camera.h"
+#include "settings/view.h"
+
+_Static_assert((int)CLSHEAR_ORDER_COHERENT == (int)CS_ORDER_COHERENT, "orders have equal numbers");
+_Static_assert((int)CLSHEAR_ORDER_SEQUENCE == (int)CS_ORDER_SEQUENCE, "orders have equal numbers");
+
+const char *clshear_device_source(void)
+{
+    return cs_device_source();
+}
+
+/* Copies a struct of the device headers to a caller who says that it has `size` bytes there. */
+static clshear_status give(const char *type, const void *words, size_t real_size, void *target,
+                           size_t size)
+{
+    if (size != real_size)
+        return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,
+                       "a %s of %zu bytes: this library has %zu; it and the device headers are of "
+                       "different versions",
+                       type, size, real_size);
+    memcpy(target, words, size);
+    return CLSHEAR_OK;
+}
+
+/* ------------------------------------------------------------------------------------------------
+ * Patterns
+ * --------------------------------------------------------------------------------------------- */
+
+struct clshear_pattern {
+    cs_pattern constants;
+    cs_array table; /* cs_u32; never empty */
+};
+
+/* Number of a sampler and of its samples from their names. */
+static clshear_status find_count(const char *name, uint32_t wanted, cs_u32 *sampler,
+                                 uint32_t *count)
+{
+    cs_error *error = cs_thread_error();
+    const clshear_status status = cs_sampler_find(name, sampler, error);
+    if (status != CLSHEAR_OK) return status;
+    const cs_u32 most = cs_sampler_most(*sampler);
+    if (wanted < 1 || wanted > most)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%u samples of sampler %s: must be 1 to %u",
+                       wanted, cs_sampler_name(*sampler), most);
+    *count = cs_sampler_count(*sampler, wanted);
+    return CLSHEAR_OK;
+}
+
+clshear_status clshear_sampler_count(const char *sampler, uint32_t wanted, uint32_t *count)
+{
+    cs_u32 number;
+    return find_count(sampler, wanted, &number, count);
+}
+
+clshear_status clshear_pattern_create(const char *sampler, uint32_t wanted,
+                                      clshear_sample_order order, clshear_pattern **result)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_error *error = cs_thread_error();
+    clshear_pattern *pattern = calloc(1, sizeof *pattern);
+    cs_u32 number = 0;
+    uint32_t count = 0;
+    CS_REQUIRE(pattern != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    CS_REQUIRE(order == CLSHEAR_ORDER_COHERENT || order == CLSHEAR_ORDER_SEQUENCE,
+               CLSHEAR_BAD_ARGUMENT, "sample order %d is not known", (int)order);
+    CS_TRY(find_count(sampler, wanted, &number, &count));
+    pattern->constants = cs_pattern_of(number, 0, count);
+    CS_TRY(
+        cs_sample_table_make(&pattern->constants, (cs_sample_order)order, &pattern->table, error));
+    CS_REQUIRE(pattern->table.count > 0 || cs_array_extend(&pattern->table, 1) != NULL,
+               CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    *result = pattern;
+    pattern = NULL;
+done:
+    clshear_pattern_free(pattern);
+    return status;
+}
+
+void clshear_pattern_free(clshear_pattern *pattern)
+{
+    if (pattern == NULL) return;
+    cs_array_free(&pattern->table);
+    free(pattern);
+}
+
+clshear_status clshear_pattern_constants(const clshear_pattern *pattern, void *constants,
+                                         size_t size)
+{
+    return give("cs_pattern", &pattern->constants, sizeof pattern->constants, constants, size);
+}
+
+const uint32_t *clshear_pattern_table(const clshear_pattern *pattern, size_t *words)
+{
+    *words = pattern->table.count;
+    return pattern->table.items;
+}
+
+/* ------------------------------------------------------------------------------------------------
+ * Lenses
+ * --------------------------------------------------------------------------------------------- */
+
+struct clshear_lens {
+    cs_optics_tables made;
+    cs_camera camera;
+    clshear_status camera_status; /* CLSHEAR_OK where the settings describe a camera */
+    cs_error camera_error;
+};
+
+/* The camera of the settings, if they describe one. */
+static void make_camera(const clshear_settings *settings, const cs_view *view, clshear_lens *lens)
+{
+    lens->camera_status = CLSHEAR_BAD_ARGUMENT;
+    if (!cs_is_set(settings, EYE) || !cs_is_set(settings, TARGET) || !cs_is_set(settings, FOV)) {
+        cs_fail(&lens->camera_error, CLSHEAR_BAD_ARGUMENT,
+                "a camera needs eye, target and fov; they are not set");
+        return;
+    }
+    cs_view upright = *view;
+    if (!cs_is_set(settings, UP)) upright.up[1] = 1.0f;
+    lens->camera_status =
+        cs_camera_frame(&upright, (int)cs_integer(settings, WIDTH),
+                        (int)cs_integer(settings, HEIGHT), &lens->camera, &lens->camera_error);
+    lens->camera.optics = lens->made.optics;
+}
+
+clshear_status clshear_lens_create(const clshear_settings *settings, clshear_lens **result)
+{
+    CS_NEEDS(settings);
+    CS_NEEDS(result);
+    cs_error *error = cs_thread_error();
+    cs_view view;
+    clshear_lens *lens = calloc(1, sizeof *lens);
+    if (lens == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    cs_view_of(settings, &view);
+    const clshear_status status =
+        cs_optics_make(&view, (clshear_filter)cs_integer(settings, FILTER),
+                       (float)cs_number(settings, FILTER_WIDTH), &lens->made, error);
+    if (status != CLSHEAR_OK) {
+        clshear_lens_free(lens);
+        return status;
+    }
+    make_camera(settings, &view, lens);
+    *result = lens;
+    return CLSHEAR_OK;
+}
+
+void clshear_lens_free(clshear_lens *lens)
+{
+    if (lens == NULL) return;
+    cs_optics_free(&lens->made);
+    free(lens);
+}
+
+clshear_status clshear_lens_optics(const clshear_lens *lens, void *optics, size_t size)
+{
+    CS_NEEDS(lens);
+    CS_NEEDS(optics);
+    return give("cs_optics", &lens->made.optics, sizeof lens->made.optics, optics, size);
+}
+
+const float *clshear_lens_table(const clshear_lens *lens, size_t *floats)
+{
+    *floats = lens->made.table.count;
+    return lens->made.table.items;
+}
+
+clshear_status clshear_lens_camera(const clshear_lens *lens, void *camera, size_t size)
+{
+    CS_NEEDS(lens);
+    CS_NEEDS(camera);
+    if (lens->camera_status != CLSHEAR_OK)
+        return cs_fail(cs_thread_error(), lens->camera_status, "%s", lens->camera_error.message);
+    return give("cs_camera", &lens->camera, sizeof lens->camera, camera, size);
+}
