@@ -56,6 +56,29 @@ END
 cmake -S . -B user -DCMAKE_PREFIX_PATH="$PWD/installed" >/dev/null
 cmake --build user >/dev/null
 ./user/user
+# As a subfolder of another project: that one's settings stay, and nothing but library and program is built.
+mkdir subproject
+cat >subproject/CMakeLists.txt <<END
+cmake_minimum_required(VERSION 3.25)
+project(host C CXX)
+add_subdirectory($root clshear)
+foreach(variable CMAKE_BUILD_TYPE CMAKE_C_STANDARD CMAKE_CXX_STANDARD CMAKE_C_VISIBILITY_PRESET
+        CMAKE_EXPORT_COMPILE_COMMANDS BUILD_TESTING)
+    if(DEFINED \${variable} AND NOT "\${\${variable}}" STREQUAL "")
+        message(FATAL_ERROR "\${variable} is \${\${variable}}: clshear changed it")
+    endif()
+endforeach()
+get_property(targets DIRECTORY $root PROPERTY BUILDSYSTEM_TARGETS)
+message(STATUS "targets: \${targets}")
+foreach(name example_render bench_frame test_grid)
+    if(TARGET \${name})
+        message(FATAL_ERROR "\${name} is built in a subproject")
+    endif()
+endforeach()
+add_executable(user ../readme.c)
+target_link_libraries(user PRIVATE clshear::clshear)
+END
+cmake -S subproject -B subproject/build -G Ninja >/dev/null
 PKG_CONFIG_PATH=$(dirname "$(find "$PWD/installed" -name clshear.pc)")
 export PKG_CONFIG_PATH
 # shellcheck disable=SC2046
