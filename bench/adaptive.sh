@@ -1,5 +1,5 @@
 #!/bin/bash
-# The table of docs/oracle.md on --adaptive: image error with samples shared out evenly and by need, on the
+# The table of docs/notes/oracle.md on --adaptive: image error with samples shared out evenly and by need, on the
 # scenes of scripts/oracle and, for the Cornell box, at larger sizes. SMALL=1 leaves those out, which
 # take most of a quarter of an hour (2048 x 2048: 2 GB of renders).
 # bench/adaptive.sh [SEEDS [FOLDER]]

@@ -93,8 +93,7 @@ static double tuples_s(bench *state)
                                      {.buffer = state->table},
                                      {.buffer = state->sums}};
     const double start_s = cs_now_s();
-    must(state,
-         cs_device_run(device, CS_KERNEL_DRAW_SUM, pixels, arguments, 5, &state->context->error));
+    must(state, CS_RUN(device, DRAW_SUM, pixels, arguments, &state->context->error));
     return cs_now_s() - start_s;
 }
 
@@ -114,8 +113,7 @@ static double trace_s(bench *state, int any_hit, const float *reach)
                                      {.buffer = state->scene->world.buffers[1]}};
     must(state, cs_buffer_write(state->distances, 0, count * sizeof *reach, reach, error));
     const double start_s = cs_now_s();
-    must(state, cs_device_run(device, CS_KERNEL_TRACE, count / (size_t)cs_device_packet(device),
-                              arguments, 8, error));
+    must(state, CS_RUN(device, TRACE, count / (size_t)cs_device_packet(device), arguments, error));
     return cs_now_s() - start_s;
 }
 

@@ -8,6 +8,7 @@
 
 #include "kernels/launch.h"
 #include "optics/optics.h"
+#include "optics/shear_mode.h"
 #include "pattern/pattern.h"
 #include "render/handles.h"
 
@@ -51,7 +52,7 @@ static double draw_s(const bench *state, const cs_pattern *pattern, const cs_buf
     const float shear = 3.0f;
     cs_launch frame = {.pattern = *pattern,
                        .pixel_count = SIDE * SIDE,
-                       .shear_mode = (cs_u32)state->options.shear};
+                       .shear_mode = cs_shear_mode(state->options.shear)};
     cs_optics_tables optics = {0};
     cs_buffer *table = NULL;
     must(state, cs_optics_make(&state->camera, state->options.filter, 0.0f, &optics, &error));
@@ -64,8 +65,7 @@ static double draw_s(const bench *state, const cs_pattern *pattern, const cs_buf
                                      {.buffer = table},
                                      {.buffer = sums}};
     const double start_s = cs_now_s();
-    must(state, cs_device_run(state->context->device, CS_KERNEL_DRAW_SUM, SIDE * SIDE, arguments, 5,
-                              &error));
+    must(state, CS_RUN(state->context->device, DRAW_SUM, SIDE * SIDE, arguments, &error));
     const double took_s = cs_now_s() - start_s;
     cs_buffer_free(table);
     cs_optics_free(&optics);

@@ -79,9 +79,8 @@ static double kernel_s(bench *state, int any_hit)
     must(state, cs_buffer_write(state->distances, 0, rays->count * sizeof(float), rays->reach,
                                 &state->error));
     double start_s = cs_now_s();
-    must(state, cs_device_run(state->device, CS_KERNEL_TRACE,
-                              rays->count / (size_t)cs_device_packet(state->device), arguments,
-                              sizeof arguments / sizeof *arguments, &state->error));
+    must(state, CS_RUN(state->device, TRACE, rays->count / (size_t)cs_device_packet(state->device),
+                       arguments, &state->error));
     double took_s = cs_now_s() - start_s;
     must(state, cs_buffer_read(state->distances, 0, rays->count * sizeof(float), state->found[1],
                                &state->error));

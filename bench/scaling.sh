@@ -1,11 +1,11 @@
 #!/bin/bash
 # What a render costs against triangles, samples, pixels, blur and threads: build/bench/scaling.json,
-# a table on standard output, and docs/performance/*.png. Takes a quarter of an hour on an idle
+# a table on standard output, and docs/notes/performance/*.png. Takes a quarter of an hour on an idle
 # machine and 12 GiB; SMALL=1 leaves out what takes long.
 # bench/scaling.sh [FOLDER]
 set -eu
 cd "$(dirname "$0")/.."
-folder=${1:-docs/performance}
+folder=${1:-docs/notes/performance}
 mkdir -p "$folder"
 json=build/bench/scaling.json work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

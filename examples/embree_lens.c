@@ -28,7 +28,7 @@ enum {
 static void check(clshear_status status)
 {
     if (status == CLSHEAR_OK) return;
-    fprintf(stderr, "%s\n", clshear_message(NULL));
+    fprintf(stderr, "%s\n", clshear_message());
     exit(2);
 }
 
@@ -133,20 +133,35 @@ static double measure(const view *view, uint32_t mode, float shear)
     return variance;
 }
 
+/* A camera at the origin that looks down -Z, focused behind the wall. */
+static clshear_lens *make_lens(void)
+{
+    static const double eye[3] = {0, 0, 0}, target[3] = {0, 0, -1};
+    clshear_settings *settings = NULL;
+    clshear_lens *lens = NULL;
+    check(clshear_settings_create(&settings));
+    check(clshear_settings_set_integer(settings, CLSHEAR_WIDTH, IMAGE_SIDE));
+    check(clshear_settings_set_integer(settings, CLSHEAR_HEIGHT, IMAGE_SIDE));
+    check(clshear_settings_set_numbers(settings, CLSHEAR_EYE, eye, 3));
+    check(clshear_settings_set_numbers(settings, CLSHEAR_TARGET, target, 3));
+    check(clshear_settings_set_number(settings, CLSHEAR_FOV, 40.0));
+    check(clshear_settings_set_number(settings, CLSHEAR_LENS_RADIUS, 0.2));
+    check(clshear_settings_set_number(settings, CLSHEAR_FOCAL_DISTANCE, 4.0));
+    check(clshear_lens_create(settings, &lens));
+    clshear_settings_free(settings);
+    return lens;
+}
+
 int main(void)
 {
-    static const float look_at[9] = {0, 0, 0, 0, 0, -1, 0, 1, 0};
     clshear_pattern *pattern = NULL;
-    clshear_lens *lens = NULL;
+    clshear_lens *lens = make_lens();
     view view = {0};
     size_t words, floats;
     check(clshear_pattern_create("sz", SAMPLES, CLSHEAR_ORDER_COHERENT, &pattern));
     check(clshear_pattern_constants(pattern, &view.pattern, sizeof view.pattern));
     view.sample_table = clshear_pattern_table(pattern, &words);
-    check(clshear_lens_create(&lens));
-    check(clshear_lens_set_focus(lens, 0.2f, 4.0f));
-    check(clshear_lens_camera(lens, look_at, 40.0f, IMAGE_SIDE, IMAGE_SIDE, &view.camera,
-                              sizeof view.camera));
+    check(clshear_lens_camera(lens, &view.camera, sizeof view.camera));
     view.lens_table = clshear_lens_table(lens, &floats);
 
     RTCDevice device = rtcNewDevice(NULL);

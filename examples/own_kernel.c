@@ -57,7 +57,7 @@ static void check_cl(cl_int code, const char *what)
 static void check(clshear_status status)
 {
     if (status == CLSHEAR_OK) return;
-    fprintf(stderr, "%s\n", clshear_message(NULL));
+    fprintf(stderr, "%s\n", clshear_message());
     exit(2);
 }
 
@@ -95,24 +95,39 @@ static void open_device(cl_device_id *device, cl_context *context, cl_command_qu
     check_cl(code, "queue");
 }
 
+/* A camera at the origin that looks down -Z, focused behind the wall. */
+static clshear_lens *make_lens(void)
+{
+    static const double eye[3] = {0, 0, 0}, target[3] = {0, 0, -1};
+    clshear_settings *settings = NULL;
+    clshear_lens *lens = NULL;
+    check(clshear_settings_create(&settings));
+    check(clshear_settings_set_integer(settings, CLSHEAR_WIDTH, IMAGE_SIDE));
+    check(clshear_settings_set_integer(settings, CLSHEAR_HEIGHT, IMAGE_SIDE));
+    check(clshear_settings_set_numbers(settings, CLSHEAR_EYE, eye, 3));
+    check(clshear_settings_set_numbers(settings, CLSHEAR_TARGET, target, 3));
+    check(clshear_settings_set_number(settings, CLSHEAR_FOV, 40.0));
+    check(clshear_settings_set_number(settings, CLSHEAR_LENS_RADIUS, 0.2));
+    check(clshear_settings_set_number(settings, CLSHEAR_FOCAL_DISTANCE, 4.0));
+    check(clshear_settings_set_integer(settings, CLSHEAR_BLADES, 6));
+    check(clshear_lens_create(settings, &lens));
+    clshear_settings_free(settings);
+    return lens;
+}
+
 /* Arguments 0 to 3: the samples of a pixel, then a camera with a six-bladed lens. The buffers must
  * live as long as the kernel is run. */
 static void set_words(cl_context context, cl_kernel kernel, cl_mem *sample_table,
                       cl_mem *lens_table)
 {
-    static const float look_at[9] = {0, 0, 0, 0, 0, -1, 0, 1, 0};
     clshear_pattern *pattern = NULL;
-    clshear_lens *lens = NULL;
+    clshear_lens *lens = make_lens();
     cs_pattern constants;
     cs_camera camera;
     size_t words, floats;
     check(clshear_pattern_create("sz", SAMPLES, CLSHEAR_ORDER_COHERENT, &pattern));
     check(clshear_pattern_constants(pattern, &constants, sizeof constants));
-    check(clshear_lens_create(&lens));
-    check(clshear_lens_set_aperture(lens, "polygon", 6, 0.0f));
-    check(clshear_lens_set_focus(lens, 0.2f, 4.0f));
-    check(
-        clshear_lens_camera(lens, look_at, 40.0f, IMAGE_SIDE, IMAGE_SIDE, &camera, sizeof camera));
+    check(clshear_lens_camera(lens, &camera, sizeof camera));
     const uint32_t *sample_words = clshear_pattern_table(pattern, &words);
     const float *lens_floats = clshear_lens_table(lens, &floats);
     *sample_table = buffer_of(context, sample_words, words * sizeof *sample_words);

@@ -2,47 +2,46 @@
 #include <clshear/clshear.h>
 #include <stdio.h>
 
-static int show_progress(void *user, const clshear_progress *progress)
+static int show_progress(void *user, const clshear_progress *state)
 {
     (void)user;
-    printf("%3d %%\r", (int)(100.0 * progress->fraction));
+    printf("%3d %%\r", (int)(100.0 * state->fraction));
     return 0; /* anything else stops the render */
 }
 
-static int fail(const clshear_context *context)
+/* Renders a scene file with a small image and writes it; prints how noisy it is. */
+static clshear_status render(const char *path, const char *target, clshear_context *context,
+                             clshear_settings *settings)
 {
-    fprintf(stderr, "%s\n", clshear_message(context));
-    return 1;
+    clshear_scene *scene = NULL;
+    clshear_film *film = NULL;
+    clshear_settings_set_progress(settings, show_progress, NULL);
+    clshear_status status = clshear_settings_set_integer(settings, CLSHEAR_WIDTH, 128);
+    if (status == CLSHEAR_OK) status = clshear_settings_set_integer(settings, CLSHEAR_HEIGHT, 128);
+    if (status == CLSHEAR_OK) status = clshear_settings_set_integer(settings, CLSHEAR_SPP, 64);
+    if (status == CLSHEAR_OK) status = clshear_scene_load(context, path, &scene);
+    if (status == CLSHEAR_OK) status = clshear_render(scene, settings, &film);
+    if (status == CLSHEAR_OK) status = clshear_film_write(film, target);
+    if (status == CLSHEAR_OK)
+        printf("mean variance of a pixel: %.3g\n", clshear_film_mean_variance(film));
+    clshear_film_free(film);
+    clshear_scene_free(scene);
+    return status;
 }
 
 int main(int argc, char **argv)
 {
+    clshear_settings *settings = NULL;
     clshear_context *context = NULL;
-    clshear_scene *scene = NULL;
-    clshear_film *film = NULL;
-    clshear_camera camera;
-    if (argc != 3) return fprintf(stderr, "usage: %s SCENE OUT.exr\n", argv[0]), 2;
-    if (clshear_context_create(NULL, &context) != CLSHEAR_OK) return fail(NULL);
-    if (clshear_scene_load(context, argv[1], &scene) != CLSHEAR_OK) return fail(context);
-
-    clshear_options options = clshear_options_defaults();
-    options.width = options.height = 128;
-    options.spp = 64;
-    options.progress = show_progress;
-    if (clshear_scene_camera(scene, options.width, options.height, &camera) != CLSHEAR_OK ||
-        clshear_camera_complete(scene, options.width, options.height, &camera) != CLSHEAR_OK ||
-        clshear_render(scene, &camera, &options, &film) != CLSHEAR_OK)
-        return fail(context);
-
-    const float *variance = clshear_film_channel(film, "Variance.G");
-    double sum = 0.0;
-    for (int i = 0; i < options.width * options.height; i++)
-        sum += (double)variance[i];
-    printf("mean variance of a pixel: %.3g\n", sum / (options.width * options.height));
-
-    if (clshear_film_write(film, argv[2]) != CLSHEAR_OK) return fail(context);
-    clshear_film_free(film);
-    clshear_scene_free(scene);
+    if (argc != 3) {
+        fprintf(stderr, "usage: %s SCENE OUT.exr\n", argv[0]);
+        return 2;
+    }
+    clshear_status status = clshear_settings_create(&settings);
+    if (status == CLSHEAR_OK) status = clshear_context_create(settings, &context);
+    if (status == CLSHEAR_OK) status = render(argv[1], argv[2], context, settings);
+    if (status != CLSHEAR_OK) fprintf(stderr, "%s\n", clshear_message());
     clshear_context_free(context);
-    return 0;
+    clshear_settings_free(settings);
+    return status == CLSHEAR_OK ? 0 : 1;
 }

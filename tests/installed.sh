@@ -26,6 +26,8 @@ cc "${c[@]}" render.c -o render "${libraries[@]}"
 # C++: every public header, and words that agree with the functions.
 {
     echo '#include <clshear/clshear.h>'
+    echo '#include <clshear/analysis.h>'
+    echo '#include <clshear/opencl.h>'
     echo '#include <clshear/kernels.h>'
     (cd installed/include && find clshear/device -name '*.h' | sort | sed 's/.*/#include <&>/')
     cat <<'END'
@@ -37,7 +39,7 @@ int main()
     size_t words;
     if (clshear_pattern_create("halton", 100, CLSHEAR_ORDER_COHERENT, &pattern) != CLSHEAR_OK ||
         clshear_pattern_constants(pattern, &constants, sizeof constants) != CLSHEAR_OK) {
-        std::puts(clshear_message(nullptr));
+        std::puts(clshear_message());
         return 1;
     }
     const uint32_t *table = clshear_pattern_table(pattern, &words);

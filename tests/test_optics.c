@@ -116,8 +116,9 @@ static void extreme_tuples_are_inside(void **state)
             const cs_camera_sample p =
                 cs_shear(ends[i % 5], ends[i / 5 % 5], ends[i / 25 % 5], ends[i / 125 % 5],
                          CS_SHEAR_EQUAL_AREA, o, made.table.items, shears[i / 625]);
-            if (!(fabsf(p.u) <= 1.0001f * o->half_width[0] && fabsf(p.v) <= 1.0001f * o->half_width[1] &&
-                  fabsf(p.x - 0.5f) <= half && fabsf(p.y - 0.5f) <= half))
+            if (!(fabsf(p.u) <= 1.0001f * o->half_width[0] &&
+                  fabsf(p.v) <= 1.0001f * o->half_width[1] && fabsf(p.x - 0.5f) <= half &&
+                  fabsf(p.y - 0.5f) <= half))
                 fail_msg("lens %u, tuple %u: %g %g %g %g", which, i, (double)p.x, (double)p.y,
                          (double)p.u, (double)p.v);
         }
@@ -146,7 +147,7 @@ static void first_pair_fixes_the_fibre(void **state)
                 t[k] = p[k].x + s * o->squeeze * p[k].u;
             assert_true(fabsf(t[0] - t[1]) < tolerance);
             if (a < 0.98f) assert_true(t[2] > t[0] - tolerance);
-            if (o->aperture == CS_APERTURE_SQUARE)
+            if (o->marginal == CS_MARGINAL_UNIFORM)
                 assert_true(fabsf(p[0].y + s * p[0].v - p[1].y - s * p[1].v) < tolerance);
         }
         cs_optics_free(&made);

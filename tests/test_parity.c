@@ -34,8 +34,7 @@ static void run_points(cs_device *device, const cs_launch *frame, const cs_array
                                      {.buffer = table},
                                      {.buffer = profiles},
                                      {.buffer = buffer}};
-    assert_int_equal(cs_device_run(device, CS_KERNEL_POINTS, (count + packet - 1) / packet,
-                                   arguments, 6, &error),
+    assert_int_equal(CS_RUN(device, POINTS, (count + packet - 1) / packet, arguments, &error),
                      CLSHEAR_OK);
     assert_int_equal(cs_buffer_read(buffer, 0, size, points, &error), CLSHEAR_OK);
     cs_buffer_free(buffer);

@@ -54,7 +54,7 @@ static void points_are_inside(void **state)
                                 : random_point(i, mode, aperture, shears[k]);
                     assert_true(p.x >= 0.0f && p.x < 1.0f && p.y >= 0.0f && p.y < 1.0f);
                     cs_f32 radius = sqrtf(p.u * p.u + p.v * p.v);
-                    if (aperture == CS_APERTURE_DISK)
+                    if (aperture == CLSHEAR_APERTURE_DISK)
                         assert_true(radius <= CS_DISK_RADIUS * 1.00001f);
                     else
                         assert_true(fabsf(p.u) <= 0.50001f && fabsf(p.v) <= 0.50001f);
@@ -79,8 +79,8 @@ static void integrands(const cs_camera_sample *p, double *values)
 static void truths(cs_u32 aperture, double *values)
 {
     const double pi = 3.14159265358979, square = 1.0 / 12.0;
-    double second = aperture == CS_APERTURE_DISK ? 1.0 / (4.0 * pi) : square;
-    double mixed = aperture == CS_APERTURE_DISK ? 1.0 / (24.0 * pi * pi) : square * square;
+    double second = aperture == CLSHEAR_APERTURE_DISK ? 1.0 / (4.0 * pi) : square;
+    double mixed = aperture == CLSHEAR_APERTURE_DISK ? 1.0 / (24.0 * pi * pi) : square * square;
     const double all[INTEGRANDS] = {0, square, 0, 0, second, second, mixed, 0, square * second};
     memcpy(values, all, sizeof all);
 }
@@ -128,7 +128,7 @@ static void film_and_lens_stay_independent(void **state)
                 double chi = 0.0;
                 for (cs_u32 i = 0; i < count; i++) {
                     cs_camera_sample p = random_point(i + 7777777u, mode, aperture, shears[k]);
-                    cs_f32 rank = aperture == CS_APERTURE_DISK ? cs_disk_cdf(p.u) : p.u + 0.5f;
+                    cs_f32 rank = aperture == CLSHEAR_APERTURE_DISK ? cs_disk_cdf(p.u) : p.u + 0.5f;
                     cs_u32 column = (cs_u32)(p.x * 8.0f), row = (cs_u32)(rank * 7.99999f);
                     hits[row * 8 + column]++;
                 }
@@ -227,7 +227,8 @@ static void toroidal_slides_along_fibres(void **state)
     for (cs_u32 i = 0; i < 1000; i++) {
         const cs_f32 s = 0.8f;
         cs_f32 a = uniform(i, 0), c = uniform(i, 2);
-        cs_camera_sample p = sheared(a, 0.5f, c, 0.5f, CS_SHEAR_TOROIDAL, CS_APERTURE_SQUARE, s);
+        cs_camera_sample p =
+            sheared(a, 0.5f, c, 0.5f, CS_SHEAR_TOROIDAL, CLSHEAR_APERTURE_SQUARE, s);
         cs_f32 t = p.x + s * p.u;
         cs_f32 wrapped = t - a - roundf(t - a);
         assert_true(fabsf(wrapped) < 1e-5f);

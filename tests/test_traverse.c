@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "accel/accel.h"
+#include "base/vec.h"
 #include "clshear/device/hash.h"
 #include "device/device.h"
 #include "meshes.h"
@@ -60,9 +61,7 @@ static void trace_device(const fixture *made, int packet, int any_hit, const flo
                          CLSHEAR_OK);
         arguments[2 + i].buffer = buffers[i];
     }
-    assert_int_equal(
-        cs_device_run(device, CS_KERNEL_TRACE, RAYS / (size_t)packet, arguments, 8, &error),
-        CLSHEAR_OK);
+    assert_int_equal(CS_RUN(device, TRACE, RAYS / (size_t)packet, arguments, &error), CLSHEAR_OK);
     assert_int_equal(cs_buffer_read(buffers[2], 0, plane, distances, &error), CLSHEAR_OK);
     for (int i = 0; i < 6; i++)
         cs_buffer_free(buffers[i]);
@@ -76,24 +75,18 @@ static double nearest_by_hand(const cs_scene *scene, const double *o, const doub
     const float(*positions)[3] = scene->positions.items;
     double nearest = INFINITY;
     for (size_t i = 0; i < scene->indices.count; i++) {
-        double v[3][3], e1[3], e2[3], n[3], c[3], q[3];
-        for (int k = 0; k < 3; k++)
-            for (int axis = 0; axis < 3; axis++)
-                v[k][axis] = (double)positions[indices[i][k]][axis];
-        for (int axis = 0; axis < 3; axis++) {
-            e1[axis] = v[1][axis] - v[0][axis];
-            e2[axis] = v[2][axis] - v[0][axis];
-            c[axis] = v[0][axis] - o[axis];
-        }
-        for (int a = 0; a < 3; a++) {
-            int b = (a + 1) % 3, k = (a + 2) % 3;
-            n[a] = e1[b] * e2[k] - e1[k] * e2[b];
-            q[a] = c[b] * d[k] - c[k] * d[b];
-        }
-        double along = n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
-        double u = (q[0] * e2[0] + q[1] * e2[1] + q[2] * e2[2]) / along;
-        double w = -(q[0] * e1[0] + q[1] * e1[1] + q[2] * e1[2]) / along;
-        double t = (n[0] * c[0] + n[1] * c[1] + n[2] * c[2]) / along;
+        const float *first = positions[indices[i][0]];
+        double e1[3], e2[3], n[3], c[3], q[3];
+        cs_vec_subtract_double(positions[indices[i][1]], first, e1);
+        cs_vec_subtract_double(positions[indices[i][2]], first, e2);
+        for (int axis = 0; axis < 3; axis++)
+            c[axis] = (double)first[axis] - o[axis];
+        cs_vec_cross_double(e1, e2, n);
+        cs_vec_cross_double(c, d, q);
+        const double along = cs_vec_dot_double(n, d);
+        const double u = cs_vec_dot_double(q, e2) / along;
+        const double w = -cs_vec_dot_double(q, e1) / along;
+        const double t = cs_vec_dot_double(n, c) / along;
         if (u >= 0 && w >= 0 && u + w <= 1 && t > 0 && t < nearest) nearest = t;
     }
     return nearest;

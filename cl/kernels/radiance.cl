@@ -1,7 +1,7 @@
 /* The integrand itself: radiance at points of one pixel and the lens that the caller chooses. */
 #include "clshear/device/lens.h"
 #include "clshear/device/shear.h"
-#include "kernels/shade.h"
+#include "kernels/radiance.h"
 #include "launch.h"
 
 /* One work-item computes CS_PACKET points. Global size: count / CS_PACKET; `count` is a multiple of
@@ -14,17 +14,12 @@
  * others: the scene, see cs_scene_buffers. */
 __kernel void cs_radiance_at(const cs_launch launch, const uint x, const uint y, const uint count,
                              const uint tuples, const float shear, cs_optics_table lens_table,
-                             __global const float *points, __global float *radiance,
-                             __global const cs_node *nodes, __global const cs_triangle *triangles,
-                             __global const cs_face *faces, __global const cs_vertex *vertices,
-                             __global const cs_material *materials,
-                             __global const cs_texture *textures, __global const half *texels,
-                             __global const cs_light *lights, __global const cs_emitter *emitters)
+                             __global const float *points,
+                             __global float *radiance CS_SCENE_PARAMETERS)
 {
     size_t first = get_global_id(0) * CS_PACKET;
     if (first >= count) return;
-    const cs_scene_buffers scene = {nodes,    triangles, faces,  vertices, materials,
-                                    textures, texels,    lights, emitters};
+    const cs_scene_buffers scene = CS_SCENE_VALUES;
     cs_vfloat point[CS_DIMENSIONS];
     for (int plane = 0; plane < CS_DIMENSIONS; plane++)
         point[plane] = *(__global const cs_vfloat *)(points + (size_t)plane * count + first);
@@ -42,7 +37,7 @@ __kernel void cs_radiance_at(const cs_launch launch, const uint x, const uint y,
     cs_pair light;
     light.x = point[CS_AT_LIGHT];
     light.y = point[CS_END_LIGHT];
-    cs_radiance found = cs_radiance_along(&scene, launch.lights, launch.emitters, &ray, light,
+    cs_radiance found = cs_radiance_along(&scene, launch.lights, &ray, light,
                                           point[CS_AT_FILM] == point[CS_AT_FILM]);
     for (int channel = 0; channel < 3; channel++)
         *(__global cs_vfloat *)(radiance + (size_t)channel * count + first) =

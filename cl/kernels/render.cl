@@ -2,7 +2,7 @@
 #include "accumulator.h"
 #include "clshear/device/lens.h"
 #include "kernels/draw.h"
-#include "kernels/shade.h"
+#include "kernels/radiance.h"
 
 static inline void cs_trace_packet(const cs_launch *launch, const cs_scene_buffers *scene,
                                    const cs_place *place, const cs_drawn *drawn, int packet,
@@ -11,8 +11,8 @@ static inline void cs_trace_packet(const cs_launch *launch, const cs_scene_buffe
     cs_camera_sample point = drawn->point[packet];
     cs_ray ray = cs_lens_ray(launch->camera, point.x + (cs_f32)place->x, point.y + (cs_f32)place->y,
                              point.u, point.v);
-    *radiance = cs_radiance_along(scene, launch->lights, launch->emitters, &ray,
-                                  drawn->light[packet], drawn->active[packet]);
+    *radiance =
+        cs_radiance_along(scene, launch->lights, &ray, drawn->light[packet], drawn->active[packet]);
 }
 
 /* Samples at places `start` to `end` of the order of a few pixels, gathered and merged into them.
@@ -51,17 +51,12 @@ static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *sc
  * lens_table: the optics'. The others: the scene, see cs_scene_buffers. */
 __kernel void cs_render(const cs_launch launch, __global cs_pixel *pixels,
                         __global const uint *order, __global const float *shears,
-                        __global const uint *sample_table, __global const float *lens_table,
-                        __global const cs_node *nodes, __global const cs_triangle *triangles,
-                        __global const cs_face *faces, __global const cs_vertex *vertices,
-                        __global const cs_material *materials, __global const cs_texture *textures,
-                        __global const half *texels, __global const cs_light *lights,
-                        __global const cs_emitter *emitters)
+                        __global const uint *sample_table,
+                        __global const float *lens_table CS_SCENE_PARAMETERS)
 {
     cs_u32 begin = (cs_u32)get_global_id(0) * launch.pixels_each;
     if (begin >= launch.pixel_count) return;
-    const cs_scene_buffers scene = {nodes,    triangles, faces,  vertices, materials,
-                                    textures, texels,    lights, emitters};
+    const cs_scene_buffers scene = CS_SCENE_VALUES;
     cs_place places[CS_TOGETHER];
     int count = (int)min(launch.pixels_each, launch.pixel_count - begin);
     for (int i = 0; i < count; i++) {

@@ -13,13 +13,28 @@ enum {
     CS_LEAF = 1 << 30, /* set in a child reference that names triangles; low bits: first */
     CS_LEAF_SHIFT = 27, /* bits 27 to 29 of a leaf reference: number of triangles, less one */
     CS_NO_TEXTURE = -1,
-    CS_NO_HIT = -1
+    CS_NO_HIT = -1,
+    CS_MATERIAL_PARAMETERS = 4 /* numbers of a material that its BSDF alone knows */
 };
 
-enum {
-    CS_LIGHT_POINT = 0,      /* vector = position, colour = intensity */
-    CS_LIGHT_DIRECTIONAL = 1 /* vector = unit direction towards the light, colour = irradiance */
-};
+/* The buffers of a scene, in the order of kernels' arguments: X(identifier, name, type of the
+ * elements). Structs, kernel parameters and the host's arrays are made from it. */
+#define CS_SCENE_BUFFER_LIST(X)          \
+    X(NODES, nodes, cs_node)             \
+    X(TRIANGLES, triangles, cs_triangle) \
+    X(FACES, faces, cs_face)             \
+    X(VERTICES, vertices, cs_vertex)     \
+    X(MATERIALS, materials, cs_material) \
+    X(TEXTURES, textures, cs_texture)    \
+    X(TEXELS, texels, half)              \
+    X(LIGHTS, lights, cs_light)          \
+    X(EMITTERS, emitters, cs_emitter)
+
+#define CS_SCENE_IDENTIFIER(identifier, name, type) CS_SCENE_##identifier,
+
+typedef enum cs_scene_buffer {
+    CS_SCENE_BUFFER_LIST(CS_SCENE_IDENTIFIER) CS_SCENE_BUFFERS
+} cs_scene_buffer;
 
 /* A node of the binary hierarchy: the boxes of both children, so that one fetch decides both. */
 typedef struct cs_node {
@@ -65,9 +80,10 @@ typedef struct cs_material {
     cs_f32 diffuse[3];  /* albedo, linear Rec.709; multiplies the texture if there is one */
     cs_i32 texture;     /* index, or CS_NO_TEXTURE */
     cs_f32 emission[3]; /* radiance, both sides */
-    cs_u32 padding;
+    cs_u32 bsdf;        /* CS_BSDF_ kind */
+    cs_f32 parameters[CS_MATERIAL_PARAMETERS]; /* as the BSDF's kind says */
 } cs_material;
-CS_SHARED_WORDS(cs_material, 8);
+CS_SHARED_WORDS(cs_material, 12);
 
 typedef struct cs_texture {
     cs_u32 first; /* index of its top left texel; texels are 4 halves, linear Rec.709 */
@@ -77,13 +93,16 @@ typedef struct cs_texture {
 } cs_texture;
 CS_SHARED_WORDS(cs_texture, 4);
 
+/* A light; its kind says which members count and what its colour is (light/). */
 typedef struct cs_light {
-    cs_f32 vector[3];
-    cs_u32 kind;
+    cs_f32 position[3];
+    cs_u32 kind;    /* CS_LIGHT_ */
+    cs_f32 axis[3]; /* unit vector from what is lit towards the light */
+    cs_u32 count;   /* emissive triangles */
     cs_f32 colour[3];
-    cs_u32 padding;
+    cs_f32 parameters[5]; /* numbers that the kind alone knows */
 } cs_light;
-CS_SHARED_WORDS(cs_light, 8);
+CS_SHARED_WORDS(cs_light, 16);
 
 /* An emissive triangle in the table from which area-light samples are drawn. */
 typedef struct cs_emitter {

@@ -4,6 +4,7 @@
 #define CS_ACCEL_ACCEL_H
 
 #include "base/array.h"
+#include "base/depth.h"
 #include "base/status.h"
 #include "clshear/device/camera.h"
 #include "kernels/scene.h"
@@ -28,15 +29,6 @@ void cs_accel_free(cs_accel *accel);
 /* Builds the hierarchy by the surface area heuristic (rtcBuildBVH), with spatial splits in small
  * scenes. */
 clshear_status cs_accel_build_bvh(const cs_accel *accel, cs_flat_bvh *bvh, cs_error *error);
-
-/* What a pixel sees, as camera depths; infinite where that is nothing. */
-typedef struct cs_depth {
-    cs_f32 centre; /* through the pixel's centre and the lens's */
-    cs_f32 near;   /* the nearest, median and farthest hit of rays all over pixel and lens */
-    cs_f32 median;
-    cs_f32 far;
-    cs_f32 misses; /* fraction of those rays that see nothing */
-} cs_depth;
 
 /* Depths of the pixels of a window, row by row, from a centre ray and `lens_rays` others each (0:
  * the statistics repeat the centre; the optics are not used). optics: their table. window: x0, x1,

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "accel/embree.h"
+#include "base/vec.h"
 
 enum {
     LEAF_SIZE = 2,        /* packets test two triangles as cheaply as a node */
@@ -142,16 +143,10 @@ static void flatten_triangle(const cs_scene *scene, uint32_t index, cs_triangle 
     const float *a = corner_of(scene, index, 0);
     const float *b = corner_of(scene, index, 1);
     const float *c = corner_of(scene, index, 2);
-    for (int i = 0; i < 3; i++) {
-        triangle->corner[i] = a[i];
-        triangle->edge1[i] = b[i] - a[i];
-        triangle->edge2[i] = c[i] - a[i];
-    }
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        triangle->normal[i] =
-            triangle->edge1[j] * triangle->edge2[k] - triangle->edge1[k] * triangle->edge2[j];
-    }
+    memcpy(triangle->corner, a, sizeof triangle->corner);
+    cs_vec_subtract(b, a, triangle->edge1);
+    cs_vec_subtract(c, a, triangle->edge2);
+    cs_vec_cross(triangle->edge1, triangle->edge2, triangle->normal);
     triangle->face = index;
     triangle->material = ((const uint32_t *)scene->triangle_materials.items)[index];
     triangle->flags = ((const uint8_t *)scene->triangle_flags.items)[index];

@@ -3,7 +3,7 @@
 #define CS_ANALYSIS_ENERGY_H
 
 #include "base/status.h"
-#include "clshear/clshear.h"
+#include "clshear/analysis.h"
 
 /* What is asked of a function: its mean over all other coordinates, on a grid of side^rank cells.
  */

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "analysis/fit.h"
 #include "base/status.h"
 #include "clshear/device/hash.h"
 
@@ -81,9 +82,9 @@ static clshear_status check(const uint32_t *counts, size_t sizes, size_t values,
     return CLSHEAR_OK;
 }
 
-clshear_status clshear_fit_slope(const uint32_t *counts, size_t sizes, const double *means,
-                                 size_t replicates, const double *reference, double *errors,
-                                 clshear_fit *fit)
+clshear_status cs_fit_slope(const uint32_t *counts, size_t sizes, const double *means,
+                            size_t replicates, const double *reference, double *errors,
+                            clshear_fit *fit)
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
@@ -108,8 +109,8 @@ done:
     return status;
 }
 
-clshear_status clshear_fit_slope_of_parts(const uint32_t *counts, size_t sizes, const double *parts,
-                                          size_t count, double *errors, clshear_fit *fit)
+clshear_status cs_fit_slope_of_parts(const uint32_t *counts, size_t sizes, const double *parts,
+                                     size_t count, double *errors, clshear_fit *fit)
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();

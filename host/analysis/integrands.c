@@ -3,27 +3,33 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "analysis/integrands.h"
 #include "base/parallel.h"
 #include "base/status.h"
 #include "clshear/device/hash.h"
 
 static const double pi = 3.14159265358979323846;
 
+/* A row of CLSHEAR_INTEGRAND_LIST; its number is its place. */
 static const struct {
     const char *name;
-    double size;
-} known[] = {{"step", 0.0},     {"box", 0.53}, {"disk", 0.6},
-             {"gaussian", 0.6}, {"tent", 0.8}, {"plane-wave", 0.2}};
+    double extent;
+} known[] = {
+#define CS_INTEGRAND(identifier, number, name, extent, meaning) {name, extent},
+    CLSHEAR_INTEGRAND_LIST(CS_INTEGRAND)
+#undef CS_INTEGRAND
+};
 enum {
     KNOWN = sizeof known / sizeof *known
 };
 
-clshear_status clshear_integrand_find(const char *name, clshear_integrand *integrand)
+clshear_status cs_integrand_find(const char *name, clshear_integrand *integrand)
 {
     for (int i = 0; i < KNOWN; i++)
         if (strcmp(name, known[i].name) == 0) {
-            *integrand =
-                (clshear_integrand){.kind = (clshear_integrand_kind)i, .size = known[i].size};
+            *integrand = (clshear_integrand){.struct_size = sizeof *integrand,
+                                             .kind = (clshear_integrand_kind)i,
+                                             .extent = known[i].extent};
             return CLSHEAR_OK;
         }
     return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,
@@ -31,9 +37,9 @@ clshear_status clshear_integrand_find(const char *name, clshear_integrand *integ
                    name);
 }
 
-double clshear_integrand_at(const clshear_integrand *integrand, double x, double y)
+double cs_integrand_at(const clshear_integrand *integrand, double x, double y)
 {
-    const double angle = integrand->angle_deg * pi / 180.0, size = integrand->size;
+    const double angle = integrand->angle_deg * pi / 180.0, size = integrand->extent;
     const double along = (x - 0.5) * cos(angle) + (y - 0.5) * sin(angle);
     const double across = (y - 0.5) * cos(angle) - (x - 0.5) * sin(angle);
     switch (integrand->kind) {
@@ -74,7 +80,7 @@ static void tabulate_rows(void *user, size_t begin, size_t end)
                 const double x = step * ((double)(column * PARTS + part % PARTS) + 0.5);
                 const size_t down = part / PARTS;
                 const double y = step * ((double)(row * PARTS + down) + 0.5);
-                const double value = clshear_integrand_at(job->integrand, x, y);
+                const double value = cs_integrand_at(job->integrand, x, y);
                 sum += value;
                 job->squares[row] += value * value;
             }
@@ -82,8 +88,8 @@ static void tabulate_rows(void *user, size_t begin, size_t end)
         }
 }
 
-clshear_status clshear_integrand_tabulate(const clshear_integrand *integrand, size_t side,
-                                          float *cells, double *mean_square)
+clshear_status cs_integrand_tabulate(const clshear_integrand *integrand, size_t side, float *cells,
+                                     double *mean_square)
 {
     tabulation job = {integrand, side, cells, calloc(side, sizeof *job.squares)};
     if (job.squares == NULL)
@@ -116,14 +122,14 @@ static void integrate_sets(void *user, size_t begin, size_t end)
         for (size_t i = 0; i < points->count; i++) {
             const float *point = points->values + (set * points->count + i) * points->dimensions;
             const double x = (double)point[0] + shift[0], y = (double)point[1] + shift[1];
-            sum += clshear_integrand_at(job->integrand, x - floor(x), y - floor(y));
+            sum += cs_integrand_at(job->integrand, x - floor(x), y - floor(y));
         }
         job->means[set] = sum / (double)points->count;
     }
 }
 
-void clshear_points_integrate(const clshear_points *points, const clshear_integrand *integrand,
-                              int homogenise, uint32_t seed, double *means)
+void cs_points_integrate(const clshear_points *points, const clshear_integrand *integrand,
+                         int homogenise, uint32_t seed, double *means)
 {
     integration job = {points, integrand, homogenise, seed, means};
     if (points->dimensions < 2) {
@@ -146,8 +152,8 @@ static void shifted(const clshear_points *points, size_t index, int homogenise, 
     }
 }
 
-clshear_status clshear_points_integrate_4d(const clshear_points *points, clshear_function function,
-                                           void *user, int homogenise, uint32_t seed, double *means)
+clshear_status cs_points_integrate_4d(const clshear_points *points, clshear_function function,
+                                      void *user, int homogenise, uint32_t seed, double *means)
 {
     enum {
         CHUNK = 1 << 16

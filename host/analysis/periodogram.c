@@ -65,7 +65,7 @@ static clshear_status tabulate(const transform *t, uint32_t count, int side, cs_
                                      {.buffer = table[0]},
                                      {.buffer = table[1]}};
     const size_t items = (size_t)count * t->counts[side] / (size_t)cs_device_packet(t->device);
-    return cs_device_run(t->device, CS_KERNEL_EXPONENTIALS, items, arguments, 7, error);
+    return CS_RUN(t->device, EXPONENTIALS, items, arguments, error);
 }
 
 /* Adds up to CHUNK points of a set of `all`. */
@@ -91,7 +91,7 @@ static clshear_status add_chunk(transform *t, const float *points, uint32_t coun
     CS_TRY(cs_buffer_write(t->points, 0, t->stride * count * sizeof *points, points, error));
     CS_TRY(tabulate(t, count, 0, error));
     CS_TRY(tabulate(t, count, 1, error));
-    CS_TRY(cs_device_run(t->device, CS_KERNEL_PERIODOGRAM, items, arguments, 12, error));
+    CS_TRY(CS_RUN(t->device, PERIODOGRAM, items, arguments, error));
 done:
     return status;
 }

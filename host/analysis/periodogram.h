@@ -3,9 +3,9 @@
 #define CS_ANALYSIS_PERIODOGRAM_H
 
 #include "base/status.h"
-#include "clshear/clshear.h"
 #include "device/device.h"
 #include "kernels/frequencies.h"
+#include "points/points.h"
 
 /* What columns and rows stand for: the frequency of a cell is the sum of both. */
 typedef struct cs_lattice {

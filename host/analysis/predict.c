@@ -5,17 +5,23 @@
 #include <stdlib.h>
 
 #include "analysis/fourier.h"
+#include "analysis/predict.h"
 #include "base/status.h"
 
 static const double pi = 3.14159265358979323846;
+
+/* Cones by their angles in eighths of a half turn. */
+static const char *const part_names[CS_CONES + 1] = {"cone 0",    "cone 22.5",  "cone 45",
+                                                     "cone 67.5", "cone 90",    "cone 112.5",
+                                                     "cone 135",  "cone 157.5", "tail"};
 
 /* Which cone a frequency lies in; f and -f in the same. */
 static int cone_of(double x, double y)
 {
     double angle = atan2(y, x) / pi; /* half turns */
     angle -= floor(angle);
-    const int cone = (int)(angle * CLSHEAR_CONES);
-    return cone < CLSHEAR_CONES ? cone : 0;
+    const int cone = (int)(angle * CS_CONES);
+    return cone < CS_CONES ? cone : 0;
 }
 
 /* Energy of the integrand at (x, y), from the half plane of columns that FFTW returns. That the
@@ -68,14 +74,16 @@ static void sum_up(const clshear_spectrum *samples, const fftw_complex *transfor
         if (f.radius == 0) continue;
         const double energy = energy_at(transform, side, f.x, f.y);
         seen += energy;
-        p->cones[cone_of((double)f.x, (double)f.y)] += inverse * energy * (double)samples->power[i];
+        p->variances[cone_of((double)f.x, (double)f.y)] +=
+            inverse * energy * (double)samples->power[i];
         p->isotropic += inverse * energy * rings[f.radius];
     }
-    p->tail = inverse * fmax(p->energy - seen, 0.0);
-    p->isotropic += p->tail;
-    p->variance = p->tail;
-    for (int cone = 0; cone < CLSHEAR_CONES; cone++)
-        p->variance += p->cones[cone];
+    const double tail = inverse * fmax(p->energy - seen, 0.0);
+    p->variances[CS_CONES] = tail;
+    p->isotropic += tail;
+    p->variance = tail;
+    for (int cone = 0; cone < CS_CONES; cone++)
+        p->variance += p->variances[cone];
 }
 
 static size_t longer_side(const clshear_spectrum *samples)
@@ -83,14 +91,13 @@ static size_t longer_side(const clshear_spectrum *samples)
     return samples->width > samples->height ? samples->width : samples->height;
 }
 
-clshear_status clshear_predict_variance(const clshear_spectrum *samples, const float *integrand,
-                                        size_t side, double mean_square,
-                                        clshear_prediction *prediction)
+clshear_status cs_predict_variance(const clshear_spectrum *samples, const float *integrand,
+                                   size_t side, double mean_square, clshear_prediction *prediction)
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
     const size_t rings = longer_side(samples) + 2;
-    clshear_prediction p = {0};
+    clshear_prediction p = {.parts = CS_CONES + 1};
     double *values = NULL, *means = NULL, mean = 0.0;
     fftw_complex *transform = NULL;
     fftw_plan plan = NULL;
@@ -115,51 +122,15 @@ clshear_status clshear_predict_variance(const clshear_spectrum *samples, const f
     p.energy = fmax(mean_square - mean * mean, 0.0);
     ring_means(samples, means, means + rings, rings);
     sum_up(samples, (const fftw_complex *)transform, side, means, &p);
+    for (size_t part = 0; part < p.parts; part++) {
+        p.names[part] = part_names[part];
+        p.energies[part] = NAN;
+    }
     *prediction = p;
 done:
     if (plan != NULL) fftw_destroy_plan(plan);
     fftw_free(values);
     fftw_free(transform);
     free(means);
-    return status;
-}
-
-clshear_status clshear_spectrum_of_grid(const float *values, size_t width, size_t height,
-                                        clshear_spectrum *spectrum)
-{
-    clshear_status status = CLSHEAR_OK;
-    cs_error *error = cs_thread_error();
-    fftw_complex *data = NULL;
-    fftw_plan plan = NULL;
-    double sum = 0.0;
-    clshear_spectrum made = {.width = width, .height = height, .sets = 1, .count = width * height};
-    CS_REQUIRE(width >= 2 && height >= 2 && width <= 8192 && height <= 8192, CLSHEAR_BAD_ARGUMENT,
-               "a spectrum of %zu x %zu values: each side must be 2 to 8192", width, height);
-    data = fftw_malloc(made.count * sizeof *data);
-    made.power = malloc(made.count * sizeof *made.power);
-    CS_REQUIRE(data != NULL && made.power != NULL, CLSHEAR_OUT_OF_MEMORY,
-               "out of memory for %zu x %zu values", width, height);
-    cs_fourier_start();
-    plan = fftw_plan_dft_2d((int)height, (int)width, data, data, FFTW_FORWARD, FFTW_ESTIMATE);
-    CS_REQUIRE(plan != NULL, CLSHEAR_OUT_OF_MEMORY, "no transform of %zu x %zu values", width,
-               height);
-    for (size_t i = 0; i < made.count; i++)
-        data[i][0] = (double)values[i], data[i][1] = 0.0;
-    fftw_execute(plan);
-    for (size_t i = 1; i < made.count; i++)
-        sum += data[i][0] * data[i][0] + data[i][1] * data[i][1];
-    const double scale = sum > 0.0 ? (double)(made.count - 1) / sum : 0.0;
-    for (size_t i = 0; i < made.count; i++) { /* frequency 0 goes to the middle */
-        const size_t column = (i % width + width / 2) % width;
-        const size_t row = (i / width + height / 2) % height;
-        made.power[row * width + column] =
-            (float)(scale * (data[i][0] * data[i][0] + data[i][1] * data[i][1]));
-    }
-    *spectrum = made;
-    made.power = NULL;
-done:
-    if (plan != NULL) fftw_destroy_plan(plan);
-    fftw_free(data);
-    free(made.power);
     return status;
 }

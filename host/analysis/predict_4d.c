@@ -6,7 +6,7 @@
 
 #include "analysis/energy.h"
 #include "analysis/periodogram.h"
-#include "context/context.h"
+#include "analysis/predict.h"
 
 enum {
     AXES = 4,
@@ -21,7 +21,7 @@ static const struct {
     const char *name;
     int rank;
     int coordinate[4];
-} parts[CLSHEAR_PARTS] = {{"x", 1, {0}},
+} parts[CS_MOST_PARTS] = {{"x", 1, {0}},
                           {"y", 1, {1}},
                           {"u", 1, {2}},
                           {"v", 1, {3}},
@@ -33,11 +33,6 @@ static const struct {
                           {"uv", 2, {2, 3}},
                           {"block", 4, {0, 1, 2, 3}},
                           {"tail", 0, {0}}};
-
-const char *clshear_prediction_part(int part)
-{
-    return part >= 0 && part < CLSHEAR_PARTS ? parts[part].name : NULL;
-}
 
 static int reach_of(const clshear_reach *reach, int rank)
 {
@@ -93,7 +88,7 @@ static int weight_of(int rank, int reach, const int *k)
 }
 
 static void add_up(int part, int reach, const cs_lattice *lattice, const float *power,
-                   const cs_energy *energy, double count, clshear_prediction_4d *p)
+                   const cs_energy *energy, double count, clshear_prediction *p)
 {
     const int rank = parts[part].rank;
     for (size_t row = 0; row < lattice->counts[1]; row++)
@@ -104,7 +99,7 @@ static void add_up(int part, int reach, const cs_lattice *lattice, const float *
             if (weight == 0) continue;
             const double part_energy = weight * cs_energy_at(energy, k);
             p->energies[part] += part_energy;
-            p->parts[part] +=
+            p->variances[part] +=
                 part_energy * (double)power[row * lattice->counts[0] + column] / count;
         }
 }
@@ -123,10 +118,10 @@ static cs_part_marginal marginal_of(int part, int reach)
 
 static clshear_status predict_part(clshear_context *context, const clshear_points *samples,
                                    clshear_function function, void *user, int part, int reach,
-                                   clshear_prediction_4d *p)
+                                   clshear_prediction *p)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_error *error = &context->error;
+    cs_error *error = cs_thread_error();
     const cs_lattice lattice = lattice_of(part, reach);
     const cs_part_marginal marginal = marginal_of(part, reach);
     cs_energy energy = {0};
@@ -152,9 +147,9 @@ static clshear_status measure_energy(clshear_function function, void *user, doub
     clshear_points points = {0};
     float *values = malloc(count * sizeof *values);
     CS_REQUIRE(values != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    status = clshear_points_draw("sz", count, sets, 0, &points);
-    if (status == CLSHEAR_OK) status = clshear_points_select(&points, "xyuv");
-    CS_REQUIRE(status == CLSHEAR_OK, status, "%s", clshear_message(NULL));
+    status = cs_points_draw("sz", count, sets, 0, &points);
+    if (status == CLSHEAR_OK) status = cs_points_select(&points, "xyuv");
+    CS_REQUIRE(status == CLSHEAR_OK, status, "%s", cs_thread_error()->message);
     for (size_t set = 0; set < sets; set++) {
         CS_TRY(function(user, points.values + set * count * 4, count, values));
         for (size_t i = 0; i < count; i++) {
@@ -165,19 +160,18 @@ static clshear_status measure_energy(clshear_function function, void *user, doub
     }
     *energy = fmax(mean_square - mean * mean, 0.0);
 done:
-    clshear_points_free(&points);
+    cs_points_free(&points);
     free(values);
     return status;
 }
 
-clshear_status clshear_predict_variance_4d(clshear_context *context, const clshear_points *samples,
-                                           clshear_function function, void *user,
-                                           const clshear_reach *reach,
-                                           clshear_prediction_4d *prediction)
+clshear_status cs_predict_variance_4d(clshear_context *context, const clshear_points *samples,
+                                      clshear_function function, void *user,
+                                      const clshear_reach *reach, clshear_prediction *prediction)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_error *error = &context->error;
-    clshear_prediction_4d p = {0};
+    cs_error *error = cs_thread_error();
+    clshear_prediction p = {.parts = CS_MOST_PARTS, .isotropic = NAN};
     double seen = 0.0;
     CS_REQUIRE(samples->dimensions >= 4 && strncmp(samples->names, "xyuv", 4) == 0,
                CLSHEAR_BAD_ARGUMENT, "samples of %s: must begin with x, y, u, v", samples->names);
@@ -191,11 +185,13 @@ clshear_status clshear_predict_variance_4d(clshear_context *context, const clshe
         const int far = reach_of(reach, parts[part].rank);
         CS_TRY(predict_part(context, samples, function, user, part, far, &p));
         seen += p.energies[part];
-        p.variance += p.parts[part];
+        p.variance += p.variances[part];
     }
     p.energies[TAIL] = fmax(p.energy - seen, 0.0);
-    p.parts[TAIL] = p.energies[TAIL] / (double)samples->count;
-    p.variance += p.parts[TAIL];
+    p.variances[TAIL] = p.energies[TAIL] / (double)samples->count;
+    p.variance += p.variances[TAIL];
+    for (size_t part = 0; part < p.parts; part++)
+        p.names[part] = parts[part].name;
     *prediction = p;
 done:
     return status;

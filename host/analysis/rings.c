@@ -5,10 +5,10 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/status.h"
+#include "analysis/spectrum.h"
 #include "image/image_io.h"
 
-size_t clshear_spectrum_radius(const clshear_spectrum *spectrum)
+size_t cs_spectrum_radius(const clshear_spectrum *spectrum)
 {
     const size_t shorter = spectrum->width < spectrum->height ? spectrum->width : spectrum->height;
     return (shorter - 1) / 2;
@@ -38,9 +38,9 @@ static void sum_ring(const clshear_spectrum *spectrum, ptrdiff_t radius, double 
         }
 }
 
-void clshear_spectrum_radial(const clshear_spectrum *spectrum, float *mean, float *anisotropy_db)
+void cs_spectrum_radial(const clshear_spectrum *spectrum, float *mean, float *anisotropy_db)
 {
-    const size_t radii = clshear_spectrum_radius(spectrum);
+    const size_t radii = cs_spectrum_radius(spectrum);
     for (size_t i = 0; i < radii; i++) {
         double sums[3] = {0};
         sum_ring(spectrum, (ptrdiff_t)i + 1, sums);
@@ -53,9 +53,9 @@ void clshear_spectrum_radial(const clshear_spectrum *spectrum, float *mean, floa
     }
 }
 
-void clshear_spectrum_along(const clshear_spectrum *spectrum, double x, double y, float *power)
+void cs_spectrum_along(const clshear_spectrum *spectrum, double x, double y, float *power)
 {
-    const size_t radii = clshear_spectrum_radius(spectrum);
+    const size_t radii = cs_spectrum_radius(spectrum);
     const double length = hypot(x, y);
     const int whole = x == floor(x) && y == floor(y) && length <= (double)radii;
     for (size_t i = 0; i < radii; i++) {
@@ -72,8 +72,7 @@ static float before_curve(double grey)
     return (float)(grey <= 0.04045 ? grey / 12.92 : pow((grey + 0.055) / 1.055, 2.4));
 }
 
-clshear_status clshear_spectrum_write(const clshear_spectrum *spectrum, int keep_dc,
-                                      const char *path)
+clshear_status cs_spectrum_write(const clshear_spectrum *spectrum, int keep_dc, const char *path)
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
@@ -104,8 +103,8 @@ done:
     return status;
 }
 
-clshear_status clshear_image_write(const char *path, int width, int height, size_t channels,
-                                   const char *const *names, const float *const *planes)
+clshear_status cs_planes_write(const char *path, int width, int height, size_t channels,
+                               const char *const *names, const float *const *planes)
 {
     const cs_picture picture = {.width = width,
                                 .height = height,

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "analysis/periodogram.h"
-#include "context/context.h"
+#include "analysis/spectrum.h"
 
 enum {
     MOST_SIDE = 8192
@@ -38,11 +38,11 @@ static clshear_status check(const clshear_points *points, size_t width, size_t h
     return CLSHEAR_OK;
 }
 
-clshear_status clshear_spectrum_measure(clshear_context *context, const clshear_points *points,
-                                        size_t width, size_t height, clshear_spectrum *spectrum)
+clshear_status cs_spectrum_measure(clshear_context *context, const clshear_points *points,
+                                   size_t width, size_t height, clshear_spectrum *spectrum)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_error *error = &context->error;
+    cs_error *error = cs_thread_error();
     float *half = NULL;
     clshear_spectrum made = {
         .width = width, .height = height, .sets = points->sets, .count = points->count};
@@ -65,7 +65,7 @@ done:
     return status;
 }
 
-void clshear_spectrum_free(clshear_spectrum *spectrum)
+void cs_spectrum_free(clshear_spectrum *spectrum)
 {
     if (spectrum == NULL) return;
     free(spectrum->power);

@@ -1,16 +1,17 @@
 /* clshear/kernels.h: the words that the device headers work on, for programs of others. */
 #include "clshear/kernels.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "api/arguments.h"
 #include "base/array.h"
 #include "base/status.h"
 #include "device/device.h"
 #include "optics/optics.h"
 #include "pattern/pattern.h"
 #include "scene/camera.h"
+#include "settings/view.h"
 
 _Static_assert((int)CLSHEAR_ORDER_COHERENT == (int)CS_ORDER_COHERENT, "orders have equal numbers");
 _Static_assert((int)CLSHEAR_ORDER_SEQUENCE == (int)CS_ORDER_SEQUENCE, "orders have equal numbers");
@@ -31,11 +32,6 @@ static clshear_status give(const char *type, const void *words, size_t real_size
                        type, size, real_size);
     memcpy(target, words, size);
     return CLSHEAR_OK;
-}
-
-static clshear_status out_of_memory(void)
-{
-    return cs_fail(cs_thread_error(), CLSHEAR_OUT_OF_MEMORY, "out of memory");
 }
 
 /* ------------------------------------------------------------------------------------------------
@@ -115,45 +111,47 @@ const uint32_t *clshear_pattern_table(const clshear_pattern *pattern, size_t *wo
  * Lenses
  * --------------------------------------------------------------------------------------------- */
 
-/* What was asked for, and what was made of it. */
 struct clshear_lens {
-    clshear_camera request;
-    clshear_aperture_image image; /* owned; request.image points to it if there is one */
-    clshear_filter filter;
-    float filter_width_px;
     cs_optics_tables made;
+    cs_camera camera;
+    clshear_status camera_status; /* CLSHEAR_OK where the settings describe a camera */
+    cs_error camera_error;
 };
 
-static clshear_status make(const clshear_lens *lens, cs_optics_tables *made)
+/* The camera of the settings, if they describe one. */
+static void make_camera(const clshear_settings *settings, const cs_view *view, clshear_lens *lens)
 {
-    const clshear_status status = cs_optics_make(&lens->request, lens->filter,
-                                                 lens->filter_width_px, made, cs_thread_error());
-    if (status != CLSHEAR_OK) cs_optics_free(made);
-    return status;
+    lens->camera_status = CLSHEAR_BAD_ARGUMENT;
+    if (!cs_is_set(settings, EYE) || !cs_is_set(settings, TARGET) || !cs_is_set(settings, FOV)) {
+        cs_fail(&lens->camera_error, CLSHEAR_BAD_ARGUMENT,
+                "a camera needs eye, target and fov; they are not set");
+        return;
+    }
+    cs_view upright = *view;
+    if (!cs_is_set(settings, UP)) upright.up[1] = 1.0f;
+    lens->camera_status =
+        cs_camera_frame(&upright, (int)cs_integer(settings, WIDTH),
+                        (int)cs_integer(settings, HEIGHT), &lens->camera, &lens->camera_error);
+    lens->camera.optics = lens->made.optics;
 }
 
-/* The lens becomes `changed` if the tables for that can be made. */
-static clshear_status change(clshear_lens *lens, clshear_lens changed)
+clshear_status clshear_lens_create(const clshear_settings *settings, clshear_lens **result)
 {
-    changed.made = (cs_optics_tables){0};
-    const clshear_status status = make(&changed, &changed.made);
-    if (status != CLSHEAR_OK) return status;
-    cs_optics_free(&lens->made);
-    *lens = changed;
-    return CLSHEAR_OK;
-}
-
-clshear_status clshear_lens_create(clshear_lens **result)
-{
+    CS_NEEDS(settings);
+    CS_NEEDS(result);
+    cs_error *error = cs_thread_error();
+    cs_view view;
     clshear_lens *lens = calloc(1, sizeof *lens);
-    if (lens == NULL) return out_of_memory();
-    lens->request.anamorphic = 1.0f;
-    lens->request.focal_distance = 1.0f;
-    const clshear_status status = change(lens, *lens);
+    if (lens == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    cs_view_of(settings, &view);
+    const clshear_status status =
+        cs_optics_make(&view, (clshear_filter)cs_integer(settings, FILTER),
+                       (float)cs_number(settings, FILTER_WIDTH), &lens->made, error);
     if (status != CLSHEAR_OK) {
         clshear_lens_free(lens);
         return status;
     }
+    make_camera(settings, &view, lens);
     *result = lens;
     return CLSHEAR_OK;
 }
@@ -161,89 +159,14 @@ clshear_status clshear_lens_create(clshear_lens **result)
 void clshear_lens_free(clshear_lens *lens)
 {
     if (lens == NULL) return;
-    free(lens->image.luminance);
     cs_optics_free(&lens->made);
     free(lens);
 }
 
-clshear_status clshear_lens_set_aperture(clshear_lens *lens, const char *aperture, int blades,
-                                         float rotation_deg)
-{
-    clshear_lens changed = *lens;
-    for (int kind = CLSHEAR_APERTURE_DISK; kind < CLSHEAR_APERTURE_IMAGE; kind++)
-        if (strcmp(aperture, cs_aperture_name((clshear_aperture)kind)) == 0) {
-            changed.request.aperture = (clshear_aperture)kind;
-            changed.request.blades = blades;
-            changed.request.blade_rotation_deg = rotation_deg;
-            return change(lens, changed);
-        }
-    return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,
-                   "aperture \"%s\" is not known; there are disk, square, polygon", aperture);
-}
-
-clshear_status clshear_lens_set_image(clshear_lens *lens, const float *luminance, int width,
-                                      int height)
-{
-    clshear_lens changed = *lens;
-    const clshear_aperture_image given = {(float *)luminance, width, height};
-    cs_optics_tables made = {0};
-    changed.request.aperture = CLSHEAR_APERTURE_IMAGE;
-    changed.request.image = &given;
-    const clshear_status status = make(&changed, &made); /* which checks the image */
-    if (status != CLSHEAR_OK) return status;
-    const size_t size = (size_t)width * (size_t)height * sizeof *luminance;
-    float *copy = malloc(size);
-    if (copy == NULL) {
-        cs_optics_free(&made);
-        return out_of_memory();
-    }
-    memcpy(copy, luminance, size);
-    free(lens->image.luminance);
-    cs_optics_free(&lens->made);
-    lens->image = (clshear_aperture_image){copy, width, height};
-    lens->request.aperture = CLSHEAR_APERTURE_IMAGE;
-    lens->request.image = &lens->image;
-    lens->made = made;
-    return CLSHEAR_OK;
-}
-
-clshear_status clshear_lens_set_anamorphic(clshear_lens *lens, float ratio)
-{
-    clshear_lens changed = *lens;
-    if (!(ratio > 0.0f)) ratio = -1.0f; /* out of range; 0 would mean 1 */
-    changed.request.anamorphic = ratio;
-    return change(lens, changed);
-}
-
-clshear_status clshear_lens_set_filter(clshear_lens *lens, const char *filter, float width_px)
-{
-    clshear_lens changed = *lens;
-    for (int kind = 0; cs_filter_name((clshear_filter)kind) != NULL; kind++)
-        if (strcmp(filter, cs_filter_name((clshear_filter)kind)) == 0) {
-            changed.filter = (clshear_filter)kind;
-            changed.filter_width_px = width_px;
-            return change(lens, changed);
-        }
-    return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,
-                   "filter \"%s\" is not known; there are box, tent, gaussian, blackman-harris",
-                   filter);
-}
-
-clshear_status clshear_lens_set_focus(clshear_lens *lens, float radius, float focal_distance)
-{
-    if (!(radius >= 0.0f) || !isfinite(radius))
-        return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT, "lens radius %g: must be 0 or more",
-                       (double)radius);
-    if (!(focal_distance > 0.0f) || !isfinite(focal_distance))
-        return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,
-                       "focal distance %g: must be above 0", (double)focal_distance);
-    lens->request.lens_radius = radius;
-    lens->request.focal_distance = focal_distance;
-    return CLSHEAR_OK;
-}
-
 clshear_status clshear_lens_optics(const clshear_lens *lens, void *optics, size_t size)
 {
+    CS_NEEDS(lens);
+    CS_NEEDS(optics);
     return give("cs_optics", &lens->made.optics, sizeof lens->made.optics, optics, size);
 }
 
@@ -253,21 +176,11 @@ const float *clshear_lens_table(const clshear_lens *lens, size_t *floats)
     return lens->made.table.items;
 }
 
-clshear_status clshear_lens_camera(const clshear_lens *lens, const float look_at[9], float fov_deg,
-                                   int width, int height, void *camera, size_t size)
+clshear_status clshear_lens_camera(const clshear_lens *lens, void *camera, size_t size)
 {
-    cs_error *error = cs_thread_error();
-    clshear_camera request = lens->request;
-    cs_camera made;
-    if (width < 1 || height < 1)
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "image of %d x %d pixels: must be 1 x 1 or more", width, height);
-    memcpy(request.eye, look_at, sizeof request.eye);
-    memcpy(request.target, look_at + 3, sizeof request.target);
-    memcpy(request.up, look_at + 6, sizeof request.up);
-    request.fov_deg = fov_deg;
-    const clshear_status status = cs_camera_frame(&request, width, height, &made, error);
-    if (status != CLSHEAR_OK) return status;
-    made.optics = lens->made.optics;
-    return give("cs_camera", &made, sizeof made, camera, size);
+    CS_NEEDS(lens);
+    CS_NEEDS(camera);
+    if (lens->camera_status != CLSHEAR_OK)
+        return cs_fail(cs_thread_error(), lens->camera_status, "%s", lens->camera_error.message);
+    return give("cs_camera", &lens->camera, sizeof lens->camera, camera, size);
 }

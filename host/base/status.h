@@ -2,7 +2,7 @@
 #ifndef CS_BASE_STATUS_H
 #define CS_BASE_STATUS_H
 
-#include "clshear/clshear.h"
+#include "clshear/common.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -16,8 +16,12 @@ typedef struct cs_error {
 clshear_status cs_fail(cs_error *error, clshear_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Where functions without a context keep the reason: one for each thread. */
+/* The reason of the calling thread's last failure: what public functions pass down. */
 cs_error *cs_thread_error(void);
+
+/* How a render that the progress callback stopped unwinds. It never leaves the library: the render
+ * succeeds with an incomplete film. */
+#define CS_CANCELLED ((clshear_status)1000)
 
 /* Both jump to the label `done`, where what was acquired is released; `status` is the function's.
  */

@@ -1,5 +1,7 @@
 #include "device/device.h"
 
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,12 +10,14 @@
 #include "device/program.h"
 
 struct cs_device {
+    pthread_mutex_t lock; /* of programs, kernels and their arguments */
     cl_device_id id;
     cl_context context;
     cl_command_queue queue;
     cl_program programs[CS_PROGRAM_COUNT];
     cl_kernel kernels[CS_KERNEL_COUNT];
-    size_t local_size;
+    size_t local_size;                   /* of a work-group, where the kernel allows that many */
+    size_t local_sizes[CS_KERNEL_COUNT]; /* of each kernel's work-groups, once it is made */
     int packet;
     int threads;
     int is_partition;
@@ -22,19 +26,18 @@ struct cs_device {
 };
 
 struct cs_buffer {
+    atomic_int references;
     cl_mem memory;
     cl_command_queue queue;
 };
 
-static const char *const kernel_names[CS_KERNEL_COUNT] = {
-    "cs_render",       "cs_trace",       "cs_points",     "cs_draw_sum",
-    "cs_exponentials", "cs_periodogram", "cs_radiance_at"};
-
-static cs_program program_of(cs_kernel kernel)
-{
-    if (kernel == CS_KERNEL_RADIANCE) return CS_PROGRAM_RADIANCE;
-    return kernel < CS_KERNEL_EXPONENTIALS ? CS_PROGRAM_RENDER : CS_PROGRAM_ANALYSIS;
-}
+#define KERNEL_ROW(identifier, name, program, arguments) \
+    {#name, CS_PROGRAM_##program, CS_ARGUMENTS_##identifier},
+static const struct {
+    const char *name;
+    cs_program program;
+    cl_uint arguments;
+} kernel_list[CS_KERNEL_COUNT] = {CS_KERNEL_LIST(KERNEL_ROW)};
 
 static int is_cpu(cl_device_id id)
 {
@@ -63,19 +66,33 @@ static clshear_status limit_threads(cs_device *device, int threads, cs_error *er
     return CLSHEAR_OK;
 }
 
+static clshear_status create_kernel(cs_device *device, cs_kernel kernel, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const char *name = kernel_list[kernel].name;
+    cl_int code;
+    cl_uint arguments = 0;
+    size_t most = device->local_size;
+    cl_kernel made = clCreateKernel(device->programs[kernel_list[kernel].program], name, &code);
+    device->kernels[kernel] = made;
+    CS_OPENCL(code, "kernel %s cannot be created", name);
+    CS_OPENCL(clGetKernelInfo(made, CL_KERNEL_NUM_ARGS, sizeof arguments, &arguments, NULL),
+              "kernel %s: no number of arguments", name);
+    CS_REQUIRE(arguments == kernel_list[kernel].arguments, CLSHEAR_DEVICE_FAILED,
+               "kernel %s has %u arguments, not %u", name, arguments,
+               kernel_list[kernel].arguments);
+    clGetKernelWorkGroupInfo(made, device->id, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL);
+    device->local_sizes[kernel] = most < device->local_size ? most : device->local_size;
+done:
+    return status;
+}
+
 static clshear_status create_kernels(cs_device *device, cs_program program, cs_error *error)
 {
     for (int i = 0; i < CS_KERNEL_COUNT; i++) {
-        cl_int code;
-        if (program_of((cs_kernel)i) != program) continue;
-        device->kernels[i] = clCreateKernel(device->programs[program], kernel_names[i], &code);
-        if (code != CL_SUCCESS)
-            return cs_fail(error, CLSHEAR_DEVICE_FAILED, "kernel %s: %s (OpenCL error %d)",
-                           kernel_names[i], "cannot be created", code);
-        size_t most = device->local_size;
-        clGetKernelWorkGroupInfo(device->kernels[i], device->id, CL_KERNEL_WORK_GROUP_SIZE,
-                                 sizeof most, &most, NULL);
-        if (most < device->local_size) device->local_size = most;
+        if (kernel_list[i].program != program) continue;
+        clshear_status status = create_kernel(device, (cs_kernel)i, error);
+        if (status != CLSHEAR_OK) return status;
     }
     return CLSHEAR_OK;
 }
@@ -104,8 +121,7 @@ clshear_status cs_device_open(const char *wanted, int threads, int packet, cs_de
     cl_int code;
     cs_device *device = calloc(1, sizeof *device);
     CS_REQUIRE(device != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    CS_REQUIRE(packet == 0 || packet == 1 || packet == 4 || packet == 8 || packet == 16,
-               CLSHEAR_BAD_ARGUMENT, "packet width %d: must be 1, 4, 8 or 16", packet);
+    pthread_mutex_init(&device->lock, NULL);
     CS_TRY(cs_opencl_find(wanted, &device->id, error));
     cs_opencl_describe(device->id, device->name, device->driver, sizeof device->name);
     CS_TRY(limit_threads(device, threads, error));
@@ -121,7 +137,36 @@ done:
     return status;
 }
 
-clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_error *error)
+clshear_status cs_device_adopt(cl_context context, cl_device_id id, cl_command_queue queue,
+                               int packet, cs_device **result, cs_error *error)
+{
+    cl_uint units = 1;
+    cs_device *device = calloc(1, sizeof *device);
+    if (device == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    pthread_mutex_init(&device->lock, NULL);
+    device->id = id;
+    device->context = context;
+    device->queue = queue;
+    clRetainContext(context);
+    clRetainCommandQueue(queue);
+    cs_opencl_describe(id, device->name, device->driver, sizeof device->name);
+    clGetDeviceInfo(id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
+    device->threads = (int)units;
+    choose_widths(device, packet);
+    *result = device;
+    return CLSHEAR_OK;
+}
+
+void cs_device_objects(const cs_device *device, cl_context *context, cl_device_id *id,
+                       cl_command_queue *queue)
+{
+    if (context != NULL) *context = device->context;
+    if (id != NULL) *id = device->id;
+    if (queue != NULL) *queue = device->queue;
+}
+
+/* With the device locked. */
+static clshear_status prepare(cs_device *device, cs_program program, cs_error *error)
 {
     if (device->programs[program] != NULL) return CLSHEAR_OK;
     clshear_status status = cs_program_build(device->context, device->id, program, device->packet,
@@ -131,6 +176,14 @@ clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_error
         clReleaseProgram(device->programs[program]);
         device->programs[program] = NULL;
     }
+    return status;
+}
+
+clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_error *error)
+{
+    pthread_mutex_lock(&device->lock);
+    const clshear_status status = prepare(device, program, error);
+    pthread_mutex_unlock(&device->lock);
     return status;
 }
 
@@ -144,6 +197,7 @@ void cs_device_close(cs_device *device)
     if (device->queue != NULL) clReleaseCommandQueue(device->queue);
     if (device->context != NULL) clReleaseContext(device->context);
     if (device->is_partition) clReleaseDevice(device->id);
+    pthread_mutex_destroy(&device->lock);
     free(device);
 }
 
@@ -175,6 +229,7 @@ clshear_status cs_buffer_create(cs_device *device, size_t size, const void *init
     cl_ulong limit = 0;
     cs_buffer *buffer = calloc(1, sizeof *buffer);
     CS_REQUIRE(buffer != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    atomic_init(&buffer->references, 1);
     clGetDeviceInfo(device->id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof limit, &limit, NULL);
     if (size < 4) size = 4; /* kernels never look into an absent table, but OpenCL wants one */
     CS_REQUIRE(size <= limit, CLSHEAR_OUT_OF_MEMORY,
@@ -222,20 +277,31 @@ done:
     return status;
 }
 
+cs_buffer *cs_buffer_retain(cs_buffer *buffer)
+{
+    atomic_fetch_add(&buffer->references, 1);
+    return buffer;
+}
+
 void cs_buffer_free(cs_buffer *buffer)
 {
-    if (buffer == NULL) return;
+    if (buffer == NULL || atomic_fetch_sub(&buffer->references, 1) > 1) return;
     if (buffer->memory != NULL) clReleaseMemObject(buffer->memory);
     free(buffer);
 }
 
-clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
-                             const cs_argument *arguments, size_t argument_count, cs_error *error)
+/* Sets the kernel's arguments and starts it, with the device locked: the arguments are the
+ * kernel's, whichever thread set them. */
+static clshear_status start(cs_device *device, cs_kernel kernel, size_t count,
+                            const cs_argument *arguments, size_t argument_count, cl_event *done_at,
+                            cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    const char *name = kernel_names[kernel];
-    CS_TRY(cs_device_prepare(device, program_of(kernel), error));
-    size_t local = device->local_size;
+    const char *name = kernel_list[kernel].name;
+    CS_REQUIRE(argument_count == kernel_list[kernel].arguments, CLSHEAR_DEVICE_FAILED,
+               "kernel %s: %zu arguments", name, argument_count);
+    CS_TRY(prepare(device, kernel_list[kernel].program, error));
+    size_t local = device->local_sizes[kernel];
     size_t global = (count + local - 1) / local * local;
     for (cl_uint i = 0; i < argument_count; i++) {
         const cs_argument *argument = &arguments[i];
@@ -246,9 +312,24 @@ clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
                   "kernel %s: argument %u is not accepted", name, i);
     }
     CS_OPENCL(clEnqueueNDRangeKernel(device->queue, device->kernels[kernel], 1, NULL, &global,
-                                     &local, 0, NULL, NULL),
+                                     &local, 0, NULL, done_at),
               "kernel %s cannot be started", name);
-    CS_OPENCL(clFinish(device->queue), "kernel %s failed", name);
 done:
+    return status;
+}
+
+clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
+                             const cs_argument *arguments, size_t argument_count, cs_error *error)
+{
+    cl_event done_at = NULL;
+    pthread_mutex_lock(&device->lock);
+    clshear_status status =
+        start(device, kernel, count, arguments, argument_count, &done_at, error);
+    pthread_mutex_unlock(&device->lock);
+    if (status != CLSHEAR_OK) return status;
+    clFlush(device->queue);
+    CS_OPENCL(clWaitForEvents(1, &done_at), "kernel %s failed", kernel_list[kernel].name);
+done:
+    clReleaseEvent(done_at);
     return status;
 }

@@ -7,28 +7,10 @@
 #include <stddef.h>
 
 #include "base/status.h"
+#include "device/kernel_list.h"
 
 typedef struct cs_device cs_device;
 typedef struct cs_buffer cs_buffer;
-
-typedef enum cs_kernel {
-    CS_KERNEL_RENDER,
-    CS_KERNEL_TRACE,
-    CS_KERNEL_POINTS,
-    CS_KERNEL_DRAW_SUM,
-    CS_KERNEL_EXPONENTIALS,
-    CS_KERNEL_PERIODOGRAM,
-    CS_KERNEL_RADIANCE,
-    CS_KERNEL_COUNT
-} cs_kernel;
-
-/* What is compiled at once. */
-typedef enum cs_program {
-    CS_PROGRAM_RENDER,
-    CS_PROGRAM_ANALYSIS,
-    CS_PROGRAM_RADIANCE,
-    CS_PROGRAM_COUNT
-} cs_program;
 
 /* The text of the public headers, cl/clshear/device, with which every program begins. */
 const char *cs_device_source(void);
@@ -40,7 +22,10 @@ typedef struct cs_argument {
     size_t size;
 } cs_argument;
 
-/* Arguments as in clshear_context_options. Nothing is compiled yet. */
+/* Opens the device that `wanted` names: its number in cs_device_list, or part of its name, case
+ * ignored; NULL: the first. `threads`: compute units of a CPU to use, 0 for all. `packet`: 1, 4, 8
+ * or 16 lanes, 0 for what suits the device. Nothing is compiled yet. All functions of a device may
+ * be called by several threads at the same time. */
 clshear_status cs_device_open(const char *wanted, int threads, int packet, cs_device **device,
                               cs_error *error);
 void cs_device_close(cs_device *device);
@@ -60,13 +45,27 @@ clshear_status cs_buffer_read(const cs_buffer *buffer, size_t offset, size_t siz
                               cs_error *error);
 clshear_status cs_buffer_write(cs_buffer *buffer, size_t offset, size_t size, const void *source,
                                cs_error *error);
+/* Each retain is undone by a cs_buffer_free. */
+cs_buffer *cs_buffer_retain(cs_buffer *buffer);
 void cs_buffer_free(cs_buffer *buffer);
 
 /* Compiles a program, if that is not done yet. Running a kernel of it does so too. */
 clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_error *error);
 
-/* Runs a kernel on `count` work-items (more are started, to fill the last work-group) and waits. */
+/* Runs a kernel on `count` work-items (more are started, to fill the last work-group) and waits.
+ * argument_count: the kernel's number of arguments; anything else fails. */
 clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
                              const cs_argument *arguments, size_t argument_count, cs_error *error);
+
+/* The same for CS_KERNEL_<kernel> and an array of arguments, whose length is checked when this is
+ * compiled. */
+#define CS_RUN(device, kernel, count, arguments, error)         \
+    cs_device_run(device, CS_KERNEL_##kernel, count, arguments, \
+                  CS_LENGTH_CHECKED(arguments, CS_ARGUMENTS_##kernel), error)
+#define CS_LENGTH_CHECKED(array, length)                                                    \
+    (sizeof(struct {                                                                        \
+        _Static_assert(sizeof(array) / sizeof *(array) == (length), "number of arguments"); \
+        char each[length];                                                                  \
+    }))
 
 #endif

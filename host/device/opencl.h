@@ -5,7 +5,7 @@
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 
-#include "base/status.h"
+#include "device/device.h"
 
 /* Fails with the formatted message and the code's name unless `call` is CL_SUCCESS. */
 #define CS_OPENCL(call, ...)                                          \
@@ -23,6 +23,14 @@ clshear_status cs_opencl_fail(cs_error *error, cl_int code, const char *format, 
 /* The device that `wanted` names: its number in cs_device_list, or part of "name (platform)", case
  * ignored; NULL: the first. */
 clshear_status cs_opencl_find(const char *wanted, cl_device_id *device, cs_error *error);
+
+/* A device made from the caller's objects, which it retains. The queue is in order. */
+clshear_status cs_device_adopt(cl_context context, cl_device_id id, cl_command_queue queue,
+                               int packet, cs_device **device, cs_error *error);
+
+/* The device's objects; any pointer may be NULL. */
+void cs_device_objects(const cs_device *device, cl_context *context, cl_device_id *id,
+                       cl_command_queue *queue);
 
 /* "name (platform)" and "driver version", each at most `size` bytes. */
 void cs_opencl_describe(cl_device_id device, char *name, char *driver, size_t size);

@@ -18,10 +18,9 @@ const char *cs_device_source(void)
 /* What a program has besides the public headers. */
 static const char *private_text(cs_program which)
 {
-    static const unsigned char *const texts[CS_PROGRAM_COUNT] = {
-        [CS_PROGRAM_RENDER] = cs_kernel_text,
-        [CS_PROGRAM_ANALYSIS] = cs_analysis_text,
-        [CS_PROGRAM_RADIANCE] = cs_radiance_text};
+#define CS_PROGRAM_TEXT(identifier, text) text,
+    static const unsigned char *const texts[CS_PROGRAM_COUNT] = {CS_PROGRAM_LIST(CS_PROGRAM_TEXT)};
+#undef CS_PROGRAM_TEXT
     return (const char *)texts[which];
 }
 

@@ -12,7 +12,8 @@ clshear_status cs_film_create(const int *window, int full_width, int full_height
         cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
         return CLSHEAR_OUT_OF_MEMORY;
     }
-    film->error = error;
+    cs_message_init(&film->message);
+    film->info.complete = 1;
     film->channels.item_size = sizeof(cs_channel);
     film->attributes.item_size = sizeof(cs_attribute);
     memcpy(film->window, window, sizeof film->window);
@@ -54,15 +55,15 @@ static cs_attribute *attribute_named(clshear_film *film, const char *name)
     return added;
 }
 
-static clshear_status out_of_memory(clshear_film *film)
+static clshear_status out_of_memory(void)
 {
-    return cs_fail(film->error, CLSHEAR_OUT_OF_MEMORY, "out of memory for metadata");
+    return cs_fail(cs_thread_error(), CLSHEAR_OUT_OF_MEMORY, "out of memory for metadata");
 }
 
 clshear_status cs_film_set_int(clshear_film *film, const char *name, int32_t value)
 {
     cs_attribute *attribute = attribute_named(film, name);
-    if (attribute == NULL) return out_of_memory(film);
+    if (attribute == NULL) return out_of_memory();
     attribute->kind = CS_ATTRIBUTE_INT;
     attribute->integer = value;
     return CLSHEAR_OK;
@@ -71,7 +72,7 @@ clshear_status cs_film_set_int(clshear_film *film, const char *name, int32_t val
 clshear_status cs_film_set_float(clshear_film *film, const char *name, float value)
 {
     cs_attribute *attribute = attribute_named(film, name);
-    if (attribute == NULL) return out_of_memory(film);
+    if (attribute == NULL) return out_of_memory();
     attribute->kind = CS_ATTRIBUTE_FLOAT;
     attribute->numbers[0] = value;
     return CLSHEAR_OK;
@@ -80,19 +81,19 @@ clshear_status cs_film_set_float(clshear_film *film, const char *name, float val
 clshear_status cs_film_set_matrix(clshear_film *film, const char *name, const float *matrix)
 {
     cs_attribute *attribute = attribute_named(film, name);
-    if (attribute == NULL) return out_of_memory(film);
+    if (attribute == NULL) return out_of_memory();
     attribute->kind = CS_ATTRIBUTE_MATRIX;
     memcpy(attribute->numbers, matrix, sizeof attribute->numbers);
     return CLSHEAR_OK;
 }
 
-clshear_status clshear_film_annotate(clshear_film *film, const char *name, const char *text)
+clshear_status cs_film_annotate(clshear_film *film, const char *name, const char *text)
 {
     char *copy = strdup(text);
     cs_attribute *attribute = copy != NULL ? attribute_named(film, name) : NULL;
     if (attribute == NULL) {
         free(copy);
-        return out_of_memory(film);
+        return out_of_memory();
     }
     attribute->kind = CS_ATTRIBUTE_TEXT;
     attribute->text = copy;
@@ -119,18 +120,13 @@ int cs_film_int(const clshear_film *film, const char *name, int *value)
     return 0;
 }
 
-clshear_film_info clshear_film_describe(const clshear_film *film)
-{
-    return film->info;
-}
-
-const char *clshear_film_channel_name(const clshear_film *film, size_t index)
+const char *cs_film_channel_name(const clshear_film *film, size_t index)
 {
     const cs_channel *channels = film->channels.items;
     return index < film->channels.count ? channels[index].name : NULL;
 }
 
-const float *clshear_film_channel(const clshear_film *film, const char *name)
+const float *cs_film_channel(const clshear_film *film, const char *name)
 {
     const cs_channel *channels = film->channels.items;
     for (size_t i = 0; i < film->channels.count; i++)
@@ -159,20 +155,20 @@ static clshear_status write_channels(const clshear_film *film, const char *path,
         .attribute_count = film->attributes.count,
         .attributes = film->attributes.items,
     };
-    return cs_image_write(path, &picture, film->error);
+    return cs_image_write(path, &picture, cs_thread_error());
 }
 
-clshear_status clshear_film_write(clshear_film *film, const char *path)
+clshear_status cs_film_write(clshear_film *film, const char *path)
 {
     if (!cs_image_can_write(path))
-        return cs_fail(film->error, CLSHEAR_BAD_FILE,
+        return cs_fail(cs_thread_error(), CLSHEAR_BAD_FILE,
                        "%s: unknown image format; use .exr, .png, .jpg or .tif", path);
     const char **names = malloc(film->channels.count * sizeof *names);
     const float **planes = malloc(film->channels.count * sizeof *planes);
     clshear_status status =
         names != NULL && planes != NULL
             ? write_channels(film, path, names, planes)
-            : cs_fail(film->error, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
+            : cs_fail(cs_thread_error(), CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
     free(names);
     free(planes);
     return status;
@@ -183,13 +179,13 @@ static clshear_status copy_picture(clshear_film *film, const cs_picture *picture
     const size_t pixels = (size_t)picture->width * (size_t)picture->height;
     for (size_t c = 0; c < picture->channel_count; c++) {
         float *plane = cs_film_add_channel(film, picture->names[c]);
-        if (plane == NULL) return out_of_memory(film);
+        if (plane == NULL) return out_of_memory();
         memcpy(plane, picture->planes[c], pixels * sizeof *plane);
     }
     for (size_t i = 0; i < picture->attribute_count; i++) {
         const cs_attribute *a = &picture->attributes[i];
         clshear_status status =
-            a->kind == CS_ATTRIBUTE_TEXT  ? clshear_film_annotate(film, a->name, a->text)
+            a->kind == CS_ATTRIBUTE_TEXT  ? cs_film_annotate(film, a->name, a->text)
             : a->kind == CS_ATTRIBUTE_INT ? cs_film_set_int(film, a->name, a->integer)
                                           : cs_film_set_float(film, a->name, a->numbers[0]);
         if (status != CLSHEAR_OK) return status;
@@ -211,11 +207,11 @@ clshear_status cs_film_read(const char *path, cs_error *error, clshear_film **re
     film = NULL;
 done:
     cs_image_free(&loaded);
-    clshear_film_free(film);
+    cs_film_free(film);
     return status;
 }
 
-void clshear_film_free(clshear_film *film)
+void cs_film_free(clshear_film *film)
 {
     if (film == NULL) return;
     cs_channel *channels = film->channels.items;
@@ -224,7 +220,36 @@ void clshear_film_free(clshear_film *film)
     cs_attribute *attributes = film->attributes.items;
     for (size_t i = 0; i < film->attributes.count; i++)
         free(attributes[i].text);
+    cs_message_destroy(&film->message);
     cs_array_free(&film->channels);
     cs_array_free(&film->attributes);
     free(film);
+}
+
+static void copy_channel(const clshear_film *film, const float *plane, char *target,
+                         size_t pixel_stride, size_t row_stride)
+{
+    for (size_t y = 0; y < (size_t)film->info.height; y++)
+        for (size_t x = 0; x < (size_t)film->info.width; x++)
+            memcpy(target + y * row_stride + x * pixel_stride,
+                   &plane[y * (size_t)film->info.width + x], sizeof *plane);
+}
+
+clshear_status cs_film_copy(const clshear_film *film, const char *const *channels, size_t count,
+                            void *target, size_t pixel_stride, size_t row_stride)
+{
+    cs_error *error = cs_thread_error();
+    const size_t row = (size_t)(film->info.width - 1) * pixel_stride + count * sizeof(float);
+    if (pixel_stride < count * sizeof(float) || (film->info.height > 1 && row_stride < row))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "strides of %zu and %zu bytes: too small for %zu channels of %d pixels",
+                       pixel_stride, row_stride, count, film->info.width);
+    for (size_t c = 0; c < count; c++) {
+        if (cs_film_channel(film, channels[c]) == NULL)
+            return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "the film has no channel %s", channels[c]);
+    }
+    for (size_t c = 0; c < count; c++)
+        copy_channel(film, cs_film_channel(film, channels[c]), (char *)target + c * sizeof(float),
+                     pixel_stride, row_stride);
+    return CLSHEAR_OK;
 }

@@ -3,7 +3,9 @@
 #define CS_FILM_FILM_H
 
 #include "base/array.h"
+#include "base/message.h"
 #include "base/status.h"
+#include "clshear/clshear.h"
 #include "image/image_io.h"
 
 typedef struct cs_channel {
@@ -12,7 +14,7 @@ typedef struct cs_channel {
 } cs_channel;
 
 struct clshear_film {
-    cs_error *error;     /* of the context */
+    cs_message message;
     cs_array channels;   /* cs_channel */
     cs_array attributes; /* cs_attribute */
     int window[4];       /* x0, x1, y0, y1 in the full image */
@@ -27,6 +29,20 @@ clshear_status cs_film_create(const int *window, int full_width, int full_height
 /* A film with the channels, texts, integers and floats of a file. */
 clshear_status cs_film_read(const char *path, cs_error *error, clshear_film **film);
 
+/* Functions below fail with the calling thread's message. */
+
+/* Names and planes of channels; NULL where there is none. */
+const char *cs_film_channel_name(const clshear_film *film, size_t index);
+const float *cs_film_channel(const clshear_film *film, const char *name);
+
+/* Writes all channels, or a picture; or one channel in false colours. As the public functions. */
+clshear_status cs_film_write(clshear_film *film, const char *path);
+clshear_status cs_film_write_ratio(clshear_film *film, const char *channel, const char *path);
+/* Copies channels into the caller's memory, as clshear_film_copy does. */
+clshear_status cs_film_copy(const clshear_film *film, const char *const *channels, size_t count,
+                            void *target, size_t pixel_stride, size_t row_stride);
+void cs_film_free(clshear_film *film);
+
 /* Adds a plane of zeros, or NULL when out of memory. */
 float *cs_film_add_channel(clshear_film *film, const char *name);
 
@@ -34,6 +50,7 @@ float *cs_film_add_channel(clshear_film *film, const char *name);
 const char *cs_film_text(const clshear_film *film, const char *name);
 int cs_film_int(const clshear_film *film, const char *name, int *value);
 
+clshear_status cs_film_annotate(clshear_film *film, const char *name, const char *text);
 clshear_status cs_film_set_int(clshear_film *film, const char *name, int32_t value);
 clshear_status cs_film_set_float(clshear_film *film, const char *name, float value);
 clshear_status cs_film_set_matrix(clshear_film *film, const char *name, const float *matrix);

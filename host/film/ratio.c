@@ -17,13 +17,13 @@ static void colour_of(float ratio, float *rgb)
         rgb[c] = 1.0f + fabsf(place) * (end[c] - 1.0f);
 }
 
-clshear_status clshear_film_write_ratio(clshear_film *film, const char *channel, const char *path)
+clshear_status cs_film_write_ratio(clshear_film *film, const char *channel, const char *path)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_error *error = film->error;
+    cs_error *error = cs_thread_error();
     static const char *const names[3] = {"R", "G", "B"};
     const size_t pixels = (size_t)film->info.width * (size_t)film->info.height;
-    const float *values = clshear_film_channel(film, channel);
+    const float *values = cs_film_channel(film, channel);
     float *planes = malloc(3 * pixels * sizeof *planes);
     CS_REQUIRE(planes != NULL, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
     CS_REQUIRE(values != NULL, CLSHEAR_BAD_ARGUMENT, "%s: the film has no channel %s", path,

@@ -1,6 +1,7 @@
 /* Image apertures: the profile of their columns, and one of the texels of each column. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "clshear/device/marginal.h"
 #include "image/image_io.h"
@@ -53,7 +54,7 @@ static double fill_rows(const strip *texels, cs_f32 *rows)
     return square - mean * mean;
 }
 
-static clshear_status check(const clshear_aperture_image *image, cs_error *error)
+clshear_status cs_aperture_image_check(const cs_aperture_image *image, cs_error *error)
 {
     double sum = 0.0;
     if (image == NULL || image->luminance == NULL)
@@ -74,12 +75,13 @@ static clshear_status check(const clshear_aperture_image *image, cs_error *error
     return CLSHEAR_OK;
 }
 
-clshear_status cs_aperture_image_make(const clshear_aperture_image *image, cs_optics_tables *tables,
+clshear_status cs_aperture_image_make(const cs_view *camera, cs_optics_tables *tables,
                                       cs_error *error)
 {
+    const cs_aperture_image *image = camera->image;
     cs_optics *optics = &tables->optics;
     float columns[MOST_TEXELS] = {0};
-    clshear_status status = check(image, error);
+    clshear_status status = cs_aperture_image_check(image, error);
     if (status != CLSHEAR_OK) return status;
     const cs_u32 width = (cs_u32)image->width, height = (cs_u32)image->height;
     const double longer = width > height ? width : height;
@@ -100,6 +102,7 @@ clshear_status cs_aperture_image_make(const clshear_aperture_image *image, cs_op
             fill_rows(&(strip){image->luminance + i, width, height, reach[1]}, row) / width;
         row += (size_t)(height + 1) * CS_MARGINAL_COLUMNS;
     }
+    optics->marginal = CS_MARGINAL_IMAGE;
     optics->segments[0] = width;
     optics->segments[1] = height;
     for (int axis = 0; axis < 2; axis++) {
@@ -109,20 +112,25 @@ clshear_status cs_aperture_image_make(const clshear_aperture_image *image, cs_op
     return CLSHEAR_OK;
 }
 
-clshear_status clshear_aperture_image_read(const char *path, clshear_aperture_image *image)
+clshear_status cs_aperture_image_read(const char *path, cs_aperture_image *image, cs_error *error)
 {
-    cs_error *error = cs_thread_error();
-    clshear_aperture_image read = {0};
-    clshear_status status = cs_image_read_luminance(path, MOST_TEXELS, &read.luminance, &read.width,
-                                                    &read.height, error);
-    if (status != CLSHEAR_OK) return status;
-    *image = read;
+    return cs_image_read_luminance(path, MOST_TEXELS, &image->luminance, &image->width,
+                                   &image->height, error);
+}
+
+clshear_status cs_aperture_image_copy(const cs_aperture_image *from, cs_aperture_image *to,
+                                      cs_error *error)
+{
+    const size_t size = (size_t)from->width * (size_t)from->height * sizeof *from->luminance;
+    float *luminance = malloc(size);
+    if (luminance == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    memcpy(luminance, from->luminance, size);
+    *to = (cs_aperture_image){luminance, from->width, from->height};
     return CLSHEAR_OK;
 }
 
-void clshear_aperture_image_free(clshear_aperture_image *image)
+void cs_aperture_image_free(cs_aperture_image *image)
 {
-    if (image == NULL) return;
     free(image->luminance);
-    *image = (clshear_aperture_image){0};
+    *image = (cs_aperture_image){0};
 }

@@ -1,4 +1,4 @@
-/* The two parts of cs_optics_make. */
+/* The parts of cs_optics_make. */
 #ifndef CS_OPTICS_PARTS_H
 #define CS_OPTICS_PARTS_H
 
@@ -8,10 +8,10 @@
 clshear_status cs_filter_make(clshear_filter filter, float width_px, cs_optics_tables *tables,
                               cs_error *error);
 
-/* Append the profiles of a polygon or an image. */
-clshear_status cs_polygon_make(int blades, float rotation_deg, cs_optics_tables *tables,
-                               cs_error *error);
-clshear_status cs_aperture_image_make(const clshear_aperture_image *image, cs_optics_tables *tables,
+/* Apertures that are tabulated, as rows of the table in optics.c. */
+float cs_polygon_unit(const cs_view *camera);
+clshear_status cs_polygon_make(const cs_view *camera, cs_optics_tables *tables, cs_error *error);
+clshear_status cs_aperture_image_make(const cs_view *camera, cs_optics_tables *tables,
                                       cs_error *error);
 
 #endif

@@ -5,76 +5,94 @@
 #include "clshear/device/disk.h"
 #include "optics/aperture_kinds.h"
 
-static const char *const names[] = {"disk", "square", "polygon", "image"};
+/* What has to be known of an aperture. */
+typedef struct aperture {
+    /* One unit of the lens coordinates as a multiple of the lens radius. */
+    float (*unit)(const cs_view *camera);
 
-const char *cs_aperture_name(clshear_aperture aperture)
+    /* Sets the kind of marginal, reach and deviation; appends the rows of tabulated kinds. */
+    clshear_status (*make)(const cs_view *camera, cs_optics_tables *tables, cs_error *error);
+} aperture;
+
+static float disk_unit(const cs_view *camera)
 {
-    return (cs_u32)aperture <= CLSHEAR_APERTURE_IMAGE ? names[aperture] : NULL;
+    (void)camera;
+    return sqrtf(CS_PI);
 }
 
-float cs_optics_unit(const clshear_camera *camera)
+static float square_unit(const cs_view *camera)
 {
-    const float blades = camera->blades > 2 ? (float)camera->blades : 3.0f;
-    switch (camera->aperture) {
-    case CLSHEAR_APERTURE_DISK:
-        return sqrtf(CS_PI);
-    case CLSHEAR_APERTURE_POLYGON:
-        return sqrtf(0.5f * blades * sinf(2.0f * CS_PI / blades));
-    default:
-        return 2.0f;
-    }
+    (void)camera;
+    return 2.0f;
 }
 
-float clshear_lens_extent(const clshear_camera *camera)
+static void set_closed(cs_optics *optics, cs_marginal_kind kind, cs_f32 reach, cs_f32 deviation)
 {
-    return 2.0f / cs_optics_unit(camera);
-}
-
-/* Reach and deviation of a disk of area 1 or a square. */
-static void set_extent(cs_optics *optics, cs_f32 reach, cs_f32 deviation)
-{
+    optics->marginal = kind;
     for (int axis = 0; axis < 2; axis++) {
         optics->half_width[axis] = reach;
         optics->deviation[axis] = deviation;
     }
 }
 
-static clshear_status make_aperture(const clshear_camera *camera, cs_optics_tables *tables,
-                                    cs_error *error)
+static clshear_status make_disk(const cs_view *camera, cs_optics_tables *tables, cs_error *error)
 {
-    switch (camera->aperture) {
-    case CLSHEAR_APERTURE_DISK:
-        set_extent(&tables->optics, CS_DISK_RADIUS, 0.5f * CS_DISK_RADIUS);
-        return CLSHEAR_OK;
-    case CLSHEAR_APERTURE_SQUARE:
-        set_extent(&tables->optics, 0.5f, 0.288675135f);
-        return CLSHEAR_OK;
-    case CLSHEAR_APERTURE_POLYGON:
-        return cs_polygon_make(camera->blades, camera->blade_rotation_deg, tables, error);
-    case CLSHEAR_APERTURE_IMAGE:
-        return cs_aperture_image_make(camera->image, tables, error);
-    default:
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "aperture %d is not known",
-                       (int)camera->aperture);
-    }
+    (void)camera;
+    (void)error;
+    set_closed(&tables->optics, CS_MARGINAL_DISK, CS_DISK_RADIUS, 0.5f * CS_DISK_RADIUS);
+    return CLSHEAR_OK;
 }
 
-clshear_status cs_optics_make(const clshear_camera *camera, clshear_filter filter, float width_px,
+static clshear_status make_square(const cs_view *camera, cs_optics_tables *tables, cs_error *error)
+{
+    (void)camera;
+    (void)error;
+    set_closed(&tables->optics, CS_MARGINAL_UNIFORM, 0.5f, 0.288675135f);
+    return CLSHEAR_OK;
+}
+
+static const aperture apertures[] = {
+    [CLSHEAR_APERTURE_DISK] = {disk_unit, make_disk},
+    [CLSHEAR_APERTURE_SQUARE] = {square_unit, make_square},
+    [CLSHEAR_APERTURE_POLYGON] = {cs_polygon_unit, cs_polygon_make},
+    [CLSHEAR_APERTURE_IMAGE] = {square_unit, cs_aperture_image_make},
+};
+
+/* NULL for a number that is none. */
+static const aperture *aperture_of(clshear_aperture number)
+{
+    return (size_t)number < sizeof apertures / sizeof *apertures ? &apertures[number] : NULL;
+}
+
+float cs_optics_unit(const cs_view *camera)
+{
+    const aperture *known = aperture_of(camera->aperture);
+    return known != NULL ? known->unit(camera) : square_unit(camera);
+}
+
+float cs_lens_extent(const cs_view *camera)
+{
+    return 2.0f / cs_optics_unit(camera);
+}
+
+clshear_status cs_optics_make(const cs_view *camera, clshear_filter filter, float width_px,
                               cs_optics_tables *tables, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_optics *optics = &tables->optics;
+    const aperture *known = aperture_of(camera->aperture);
     const float anamorphic = camera->anamorphic != 0.0f ? camera->anamorphic : 1.0f;
     tables->table = (cs_array){.item_size = sizeof(cs_f32)};
     CS_REQUIRE(anamorphic >= 0.01f && anamorphic <= 100.0f, CLSHEAR_BAD_ARGUMENT,
                "anamorphic ratio %g: must be 0.01 to 100", (double)anamorphic);
+    CS_REQUIRE(known != NULL, CLSHEAR_BAD_ARGUMENT, "aperture %d is not known",
+               (int)camera->aperture);
     CS_TRY(cs_filter_make(filter, width_px, tables, error));
-    CS_TRY(make_aperture(camera, tables, error));
-    optics->aperture = (cs_u32)camera->aperture;
+    CS_TRY(known->make(camera, tables, error));
     optics->squeeze = 1.0f / anamorphic;
     optics->has_closed_form =
         filter == CLSHEAR_FILTER_BOX && optics->filter_width == 1.0f &&
-        (camera->aperture == CLSHEAR_APERTURE_DISK || camera->aperture == CLSHEAR_APERTURE_SQUARE);
+        (optics->marginal == CS_MARGINAL_UNIFORM || optics->marginal == CS_MARGINAL_DISK);
 done:
     return status;
 }

@@ -4,8 +4,8 @@
 
 #include "base/array.h"
 #include "base/status.h"
-#include "clshear/clshear.h"
 #include "clshear/device/camera.h"
+#include "optics/view.h"
 
 typedef struct cs_optics_tables {
     cs_optics optics;
@@ -13,15 +13,15 @@ typedef struct cs_optics_tables {
 } cs_optics_tables;
 
 /* Filter of `width_px` (0: its usual width) and the camera's aperture. Start from zeros. */
-clshear_status cs_optics_make(const clshear_camera *camera, clshear_filter filter, float width_px,
+clshear_status cs_optics_make(const cs_view *camera, clshear_filter filter, float width_px,
                               cs_optics_tables *tables, cs_error *error);
 void cs_optics_free(cs_optics_tables *tables);
 
 /* One unit of the lens coordinates as a multiple of the lens radius. */
-float cs_optics_unit(const clshear_camera *camera);
+float cs_optics_unit(const cs_view *camera);
 
-/* "disk", "polygon", ... and "box", "tent", ...; NULL for others. */
-const char *cs_aperture_name(clshear_aperture aperture);
-const char *cs_filter_name(clshear_filter filter);
+/* Side of the square around the aperture in units of the lens coordinates: 1 for squares and
+ * images, more for disks and polygons. */
+float cs_lens_extent(const cs_view *view);
 
 #endif

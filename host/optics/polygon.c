@@ -93,9 +93,16 @@ static double fill_rows(const corner *corners, int blades, const double *knots, 
     return moment;
 }
 
-clshear_status cs_polygon_make(int blades, float rotation_deg, cs_optics_tables *tables,
-                               cs_error *error)
+float cs_polygon_unit(const cs_view *camera)
 {
+    const float blades = camera->blades > 2 ? (float)camera->blades : 3.0f;
+    return sqrtf(0.5f * blades * sinf(2.0f * CS_PI / blades));
+}
+
+clshear_status cs_polygon_make(const cs_view *camera, cs_optics_tables *tables, cs_error *error)
+{
+    const int blades = camera->blades;
+    const float rotation_deg = camera->blade_rotation_deg;
     cs_optics *optics = &tables->optics;
     corner corners[MOST_BLADES];
     double knots[MOST_BLADES] = {0};
@@ -110,6 +117,7 @@ clshear_status cs_polygon_make(int blades, float rotation_deg, cs_optics_tables 
     if (rows == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     const double moment = fill_rows(corners, blades, knots, segments, rows);
     const double reach = hypot(corners[0].u, corners[0].v);
+    optics->marginal = CS_MARGINAL_POLYGON;
     optics->segments[0] = segments;
     for (int axis = 0; axis < 2; axis++) {
         optics->half_width[axis] = (cs_f32)reach;

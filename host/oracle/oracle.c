@@ -13,3 +13,13 @@ cs_f32 cs_oracle_shear(const cs_camera *camera, const cs_depth *depth, cs_rule r
     if (rule == CS_RULE_FAR) z = depth->far;
     return isfinite(z) ? cs_shear_of_depth(*camera, z) : 0.0f;
 }
+
+_Static_assert((int)CLSHEAR_ORACLE_CENTRE == CS_RULE_CENTRE, "cs_rule_of casts");
+_Static_assert((int)CLSHEAR_ORACLE_MEDIAN == CS_RULE_MEDIAN, "cs_rule_of casts");
+_Static_assert((int)CLSHEAR_ORACLE_NEAR == CS_RULE_NEAR, "cs_rule_of casts");
+_Static_assert((int)CLSHEAR_ORACLE_FAR == CS_RULE_FAR, "cs_rule_of casts");
+
+cs_rule cs_rule_of(clshear_oracle oracle)
+{
+    return oracle == CLSHEAR_ORACLE_PILOT ? CS_RULE_CENTRE : (cs_rule)oracle;
+}

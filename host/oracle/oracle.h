@@ -3,7 +3,9 @@
 #ifndef CS_ORACLE_ORACLE_H
 #define CS_ORACLE_ORACLE_H
 
-#include "accel/accel.h"
+#include "base/depth.h"
+#include "clshear/choices.h"
+#include "clshear/device/camera.h"
 
 /* Rules, in the order of the public enumeration; then what a pilot may choose besides. */
 typedef enum cs_rule {
@@ -14,6 +16,9 @@ typedef enum cs_rule {
     CS_RULE_NONE, /* no shear */
     CS_RULE_COUNT
 } cs_rule;
+
+/* The rule of an oracle; the pilot begins with the centre. */
+cs_rule cs_rule_of(clshear_oracle oracle);
 
 /* The signed circle of confusion, in pixels, of the depth that the rule takes. Centres that see
  * nothing take the median of what the rest of the pixel and lens sees; 0 where that is nothing. */

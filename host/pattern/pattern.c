@@ -297,13 +297,7 @@ clshear_status cs_sample_table_make(const cs_pattern *pattern, cs_sample_order o
                    samplers[pattern->sampler].name);
 }
 
-int clshear_sampler_describe(size_t index, clshear_sampler_info *info)
+cs_u32 cs_sampler_default(void)
 {
-    if (index >= CS_SAMPLER_COUNT) return 0;
-    const sampler *described = &samplers[index];
-    *info = (clshear_sampler_info){.name = described->name,
-                                   .about = described->about,
-                                   .progressive = described->progressive,
-                                   .is_default = index == default_sampler};
-    return 1;
+    return default_sampler;
 }

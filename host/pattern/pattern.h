@@ -11,6 +11,7 @@
 clshear_status cs_sampler_find(const char *name, cs_u32 *sampler, cs_error *error);
 const char *cs_sampler_name(cs_u32 sampler);
 const char *cs_sampler_about(cs_u32 sampler);
+cs_u32 cs_sampler_default(void);
 
 /* Whether a pattern's first samples do not depend on how many follow. */
 int cs_sampler_is_progressive(cs_u32 sampler);

@@ -174,7 +174,7 @@ static clshear_status read_exr(const char *path, clshear_points *points, cs_erro
         }
 done:
     cs_image_free(&loaded);
-    if (status != CLSHEAR_OK) clshear_points_free(points);
+    if (status != CLSHEAR_OK) cs_points_free(points);
     return status;
 }
 
@@ -208,14 +208,14 @@ done:
     return status;
 }
 
-clshear_status clshear_points_read(const char *path, clshear_points *points)
+clshear_status cs_points_read(const char *path, clshear_points *points)
 {
     cs_error *error = cs_thread_error();
     return has_extension(path, ".exr") ? read_exr(path, points, error)
                                        : read_text(path, points, error);
 }
 
-clshear_status clshear_points_write(const clshear_points *points, const char *path)
+clshear_status cs_points_write(const clshear_points *points, const char *path)
 {
     cs_error *error = cs_thread_error();
     return has_extension(path, ".exr") ? write_exr(points, path, error)

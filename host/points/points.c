@@ -7,6 +7,7 @@
 #include "clshear/device/sampler/sampler.h"
 #include "clshear/device/shear.h"
 #include "optics/optics.h"
+#include "optics/shear_mode.h"
 #include "pattern/pattern.h"
 #include "points/points.h"
 
@@ -24,6 +25,26 @@ clshear_status cs_points_reserve(clshear_points *points, cs_error *error)
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu sets of %zu points",
                        sets, count);
     return CLSHEAR_OK;
+}
+
+clshear_status cs_points_take(const float *values, size_t sets, size_t count, const char *names,
+                              clshear_points *points)
+{
+    cs_error *error = cs_thread_error();
+    const size_t dimensions = strlen(names);
+    if (dimensions < 1 || dimensions > sizeof CS_POINT_NAMES - 1 ||
+        strspn(names, CS_POINT_NAMES) != dimensions)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "points of coordinates \"%s\": must be 1 to 6 letters out of %s", names,
+                       CS_POINT_NAMES);
+    points->sets = sets;
+    points->count = count;
+    points->dimensions = dimensions;
+    memcpy(points->names, names, dimensions + 1);
+    clshear_status status = cs_points_reserve(points, error);
+    if (status == CLSHEAR_OK)
+        memcpy(points->values, values, sets * count * dimensions * sizeof *values);
+    return status;
 }
 
 typedef struct draw_job {
@@ -45,8 +66,8 @@ static void draw_sets(void *user, size_t begin, size_t end)
     }
 }
 
-clshear_status clshear_points_draw(const char *name, size_t wanted, size_t sets, uint32_t seed,
-                                   clshear_points *points)
+clshear_status cs_points_draw(const char *name, size_t wanted, size_t sets, uint32_t seed,
+                              clshear_points *points)
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
@@ -70,7 +91,7 @@ done:
     return status;
 }
 
-clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear, float shear_px)
+clshear_status cs_points_shear(clshear_points *points, clshear_shear shear, float shear_px)
 {
     cs_error *error = cs_thread_error();
     const size_t stride = points->dimensions;
@@ -82,13 +103,13 @@ clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear,
     if (!isfinite(shear_px) || (cs_u32)shear > CLSHEAR_SHEAR_EQUAL_AREA)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "shear %d by %g pixels is not possible",
                        (int)shear, (double)shear_px);
-    const clshear_camera square = {.aperture = CLSHEAR_APERTURE_SQUARE};
+    const cs_view square = {.aperture = CLSHEAR_APERTURE_SQUARE};
     cs_optics_tables optics = {0};
     const clshear_status status = cs_optics_make(&square, CLSHEAR_FILTER_BOX, 0.0f, &optics, error);
     if (status != CLSHEAR_OK) return status;
     for (size_t i = 0; i < points->sets * points->count; i++) {
         float *p = points->values + i * stride;
-        const cs_camera_sample sheared = cs_shear(p[0], p[1], p[2], p[3], (cs_u32)shear,
+        const cs_camera_sample sheared = cs_shear(p[0], p[1], p[2], p[3], cs_shear_mode(shear),
                                                   &optics.optics, optics.table.items, shear_px);
         const float place[CS_MAIN_DIMENSIONS] = {sheared.x, sheared.y, sheared.u + 0.5f,
                                                  sheared.v + 0.5f};
@@ -99,7 +120,7 @@ clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear,
     return CLSHEAR_OK;
 }
 
-clshear_status clshear_points_select(clshear_points *points, const char *names)
+clshear_status cs_points_select(clshear_points *points, const char *names)
 {
     size_t from[sizeof points->names], kept = 0;
     for (; names[kept] != '\0'; kept++) {
@@ -124,7 +145,7 @@ clshear_status clshear_points_select(clshear_points *points, const char *names)
     return CLSHEAR_OK;
 }
 
-void clshear_points_free(clshear_points *points)
+void cs_points_free(clshear_points *points)
 {
     if (points == NULL) return;
     free(points->values);

@@ -39,67 +39,64 @@ done:
 void cs_batch_free(cs_batch *batch)
 {
     cs_buffer_free(batch->order);
+    cs_buffer_free(batch->rows);
     free(batch->page_ends);
     *batch = (cs_batch){0};
 }
 
-enum {
-    BEFORE_WORLD = 6 /* arguments of the kernel that are not the scene's */
-};
-
 clshear_status cs_pass_warm_up(cs_device *device, cs_error *error)
 {
-    const cs_launch frame = {.pixel_count = 0};
-    const cs_argument arguments[BEFORE_WORLD + CS_SCENE_BUFFERS] = {
-        {.value = &frame, .size = sizeof frame}}; /* and no buffers */
-    return cs_device_run(device, CS_KERNEL_RENDER, 1, arguments, BEFORE_WORLD + CS_SCENE_BUFFERS,
-                         error);
+    const cs_launch launch = {.pixel_count = 0};
+    const cs_argument arguments[CS_ARGUMENTS_RENDER] = {
+        {.value = &launch, .size = sizeof launch}}; /* and no buffers */
+    return CS_RUN(device, RENDER, 1, arguments, error);
 }
 
-static clshear_status launch(const cs_pass *pass, const cs_batch *batch, const cs_launch *frame,
-                             cs_error *error)
+static clshear_status run_kernel(const cs_pass *pass, const cs_batch *batch,
+                                 const cs_launch *launch, cs_error *error)
 {
-    cs_argument arguments[BEFORE_WORLD + CS_SCENE_BUFFERS] = {
-        {.value = frame, .size = sizeof *frame},
-        {.buffer = pass->pixels->pages[frame->page_first / pass->pixels->page_pixels]},
+    const cs_buffer *buffers[CS_SCENE_BUFFERS];
+    cs_scene_buffers_of(pass->scene, pass->lights, buffers);
+    const cs_argument arguments[] = {
+        {.value = launch, .size = sizeof *launch},
+        {.buffer = pass->pixels->pages[launch->page_first / pass->pixels->page_pixels]},
         {.buffer = batch->order},
         {.buffer = pass->shears},
         {.buffer = batch->rows},
-        {.buffer = pass->optics}};
-    for (int i = 0; i < CS_SCENE_BUFFERS; i++)
-        arguments[BEFORE_WORLD + i].buffer = pass->scene->world.buffers[i];
-    return cs_device_run(pass->scene->context->device, CS_KERNEL_RENDER,
-                         (frame->pixel_count + frame->pixels_each - 1) / frame->pixels_each,
-                         arguments, BEFORE_WORLD + CS_SCENE_BUFFERS, error);
+        {.buffer = pass->optics},
+        CS_SCENE_BUFFER_LIST(CS_SCENE_ARGUMENT)};
+    return CS_RUN(pass->scene->context->device, RENDER,
+                  (launch->pixel_count + launch->pixels_each - 1) / launch->pixels_each, arguments,
+                  error);
 }
 
 /* Tells the caller how far it is, and asks whether to go on. */
 static clshear_status report(const cs_pass *pass, double now_s, cs_error *error)
 {
-    const clshear_options *options = pass->options;
-    if (options == NULL || options->progress == NULL) return CLSHEAR_OK;
+    const clshear_settings *settings = pass->settings;
+    if (settings == NULL || settings->progress == NULL) return CLSHEAR_OK;
     const double mean_rate = pass->done / (now_s - pass->start_s);
     const clshear_progress progress = {
         .fraction = pass->total > 0.0 ? pass->done / pass->total : 0.0,
         .samples_per_s = mean_rate,
         .remaining_s = pass->total > 0.0 ? (pass->total - pass->done) / mean_rate : 0.0,
     };
-    if (options->progress(options->progress_user, &progress) != 0)
-        return cs_fail(error, CLSHEAR_CANCELLED, "cancelled");
+    if (settings->progress(settings->progress_user, &progress) != 0)
+        return cs_fail(error, CS_CANCELLED, "stopped by the progress callback");
     return CLSHEAR_OK;
 }
 
-static clshear_status timed_launch(cs_pass *pass, const cs_batch *batch, const cs_launch *frame,
+static clshear_status timed_launch(cs_pass *pass, const cs_batch *batch, const cs_launch *launch,
                                    cs_error *error)
 {
     const double before_s = cs_now_s();
-    clshear_status status = launch(pass, batch, frame, error);
+    clshear_status status = run_kernel(pass, batch, launch, error);
     if (status != CLSHEAR_OK) return status;
     const double now_s = cs_now_s(), took_s = now_s - before_s + 1e-6;
-    uint32_t last = frame->last_block * CS_BLOCK;
-    if (last > frame->pattern.grid.count) last = frame->pattern.grid.count;
+    uint32_t last = launch->last_block * CS_BLOCK;
+    if (last > launch->pattern.grid.count) last = launch->pattern.grid.count;
     const double samples =
-        (double)(last - frame->first_block * CS_BLOCK) * (double)frame->pixel_count;
+        (double)(last - launch->first_block * CS_BLOCK) * (double)launch->pixel_count;
     pass->kernel_s += took_s;
     pass->done += samples;
     pass->rate = 0.5 * (pass->rate + samples / took_s);
@@ -111,15 +108,15 @@ static clshear_status pass_batch(cs_pass *pass, const cs_batch *batch, cs_u32 fi
                                  cs_error *error)
 {
     const size_t least = 64;
-    cs_launch frame = pass->frame;
-    frame.pattern = batch->pattern;
-    frame.first_block = first;
-    frame.last_block = last;
-    frame.compact = (cs_u32)batch->compact;
-    frame.pixels_each =
+    cs_launch launch = pass->launch;
+    launch.pattern = batch->pattern;
+    launch.first_block = first;
+    launch.last_block = last;
+    launch.compact = (cs_u32)batch->compact;
+    launch.pixels_each =
         cs_pixels_together(last - first, (cs_u32)cs_device_packet(pass->scene->context->device));
     size_t page = 0;
-    for (size_t pixel = 0; pixel < batch->pixel_count; pixel += frame.pixel_count) {
+    for (size_t pixel = 0; pixel < batch->pixel_count; pixel += launch.pixel_count) {
         while (batch->page_ends[page] <= pixel) /* 0 for pages without pixels of the batch */
             page++;
         const double samples_each = (double)(last - first) * CS_BLOCK;
@@ -129,10 +126,10 @@ static clshear_status pass_batch(cs_pass *pass, const cs_batch *batch, cs_u32 fi
                        : affordable < (double)least ? least
                                                     : (size_t)affordable;
         if (count > left) count = left;
-        frame.page_first = (cs_u32)(page * pass->pixels->page_pixels);
-        frame.first_pixel = (cs_u32)pixel;
-        frame.pixel_count = (cs_u32)count;
-        clshear_status status = timed_launch(pass, batch, &frame, error);
+        launch.page_first = (cs_u32)(page * pass->pixels->page_pixels);
+        launch.first_pixel = (cs_u32)pixel;
+        launch.pixel_count = (cs_u32)count;
+        clshear_status status = timed_launch(pass, batch, &launch, error);
         if (status != CLSHEAR_OK) return status;
     }
     return CLSHEAR_OK;
@@ -160,7 +157,7 @@ clshear_status cs_pass_replicate(cs_pass *pass, const cs_batch *batches, size_t 
         samples += (double)batches[b].pixel_count * batches[b].pattern.grid.count;
         if (flushes_of(&batches[b]) > most) most = flushes_of(&batches[b]);
     }
-    pass->frame.replicate = replicate;
+    pass->launch.replicate = replicate;
     double part = 0.0;
     while (part < 1.0) {
         /* As little as a launch affords, but a flush of the largest pattern at least. */

@@ -4,12 +4,13 @@
 
 #include "kernels/launch.h"
 #include "render/pixels.h"
+#include "settings/settings.h"
 
 /* Pixels that draw patterns of the same size. */
 typedef struct cs_batch {
     cs_pattern pattern;
-    const cs_buffer *rows; /* the pattern's table; of the context */
-    cs_buffer *order;      /* cs_u32: the pixels, numbered in the window row by row; owned */
+    cs_buffer *rows;  /* the pattern's sample table; retained */
+    cs_buffer *order; /* cs_u32: the pixels, numbered in the window row by row; owned */
     size_t pixel_count;
     int compact;       /* whether states lie in this order, not in that of the window */
     size_t *page_ends; /* of each page of pixels: where in the order the next begins; owned */
@@ -18,11 +19,12 @@ typedef struct cs_batch {
 /* What all launches of a render have in common, and how far it is. */
 typedef struct cs_pass {
     clshear_scene *scene;
-    cs_launch frame;         /* camera, seed, window, shear mode, lights */
+    cs_launch launch;        /* camera, seed, window, shear mode, lights */
     const cs_buffer *optics; /* their table */
     const cs_buffer *shears; /* of every pixel of the window */
     const cs_pixels *pixels;
-    const clshear_options *options; /* whose callback is told; NULL: nobody */
+    const cs_buffer *lights;
+    const clshear_settings *settings; /* whose progress callback is called; NULL: no calls */
     double start_s;
     double rate;  /* samples per second of the last launches */
     double done;  /* samples */

@@ -68,10 +68,10 @@ static clshear_status run(cs_job *job, const cs_f32 *shears, const cs_u32 *list,
         CS_TRY(cs_buffer_create(context->device, job->pixel_count * sizeof *shears, shears,
                                 &shear_buffer, error));
         CS_TRY(cs_batch_create(context, &pattern, list, count, width, list != NULL, &batch, error));
-        pass.frame.seed = cs_key(job->options.seed, 0x70696c6fu); /* its own random numbers */
+        pass.launch.seed = cs_key(job->seed, 0x70696c6fu); /* its own random numbers */
         pass.shears = shear_buffer;
         pass.pixels = &pixels;
-        pass.options = &job->options;
+        pass.settings = &job->settings;
         for (cs_u32 replicate = 0; replicate < replicates; replicate++)
             CS_TRY(cs_pass_replicate(&pass, &batch, 1, replicate, error));
         job->pilot_samples += pass.done;
@@ -130,7 +130,7 @@ static int is_candidate(int rule)
 /* The fraction of pixels that the budget affords, when each is tried with all its candidates. */
 static double affordable_part(const cs_job *job, const choice *c)
 {
-    const double budget = 0.06 * (double)job->options.spp * (double)job->pixel_count;
+    const double budget = 0.06 * (double)job->spp * (double)job->pixel_count;
     double tries = 0.0;
     for (size_t i = 0; i < job->pixel_count; i++) {
         int candidates = 0;
@@ -212,8 +212,8 @@ clshear_status cs_pilot_samples(cs_job *job, cs_u32 *samples, cs_error *error)
     /* A sixteenth of the samples, but two patterns at least that say something: smaller ones rank
      * pixels worse, and where packets have 16 lanes they cost as much. */
     const cs_u32 sampler = job->pattern.sampler;
-    const cs_u32 size = cs_sampler_count(sampler, job->options.spp < 256 ? 8 : 16);
-    const cs_u32 patterns = job->options.spp / 16 / size;
+    const cs_u32 size = cs_sampler_count(sampler, job->spp < 256 ? 8 : 16);
+    const cs_u32 patterns = job->spp / 16 / size;
     const cs_u32 replicates = patterns < 2 ? 2 : patterns > 4 ? 4 : patterns;
     CS_TRY(run(job, job->shear_px, NULL, job->pixel_count, size, replicates, &result, error));
     const cs_pilot_picture picture = {.variance = result.variance,

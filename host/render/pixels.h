@@ -4,7 +4,7 @@
 #define CS_RENDER_PIXELS_H
 
 #include "kernels/pixel.h"
-#include "render/handles.h"
+#include "render/objects.h"
 
 /* Pages are whole bands of tiles, so that a walk through tiles (cs_tiled_pixel) does not come back
  * to one. Start from zeros. */

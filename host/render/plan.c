@@ -33,20 +33,17 @@ done:
 /* Rules and shears of all pixels; those of the picture that is extended, if there is one. */
 static clshear_status choose_shears(cs_job *job, cs_error *error)
 {
-    const clshear_options *options = &job->options;
-    const float *extended =
-        options->extend != NULL ? clshear_film_channel(options->extend, "Shear") : NULL;
-    const float *rules =
-        options->extend != NULL ? clshear_film_channel(options->extend, "Oracle") : NULL;
-    const int pilot = options->oracle == CLSHEAR_ORACLE_PILOT;
-    const cs_rule rule = pilot ? CS_RULE_CENTRE : (cs_rule)options->oracle;
+    const float *extended = job->base != NULL ? cs_film_channel(job->base, "Shear") : NULL;
+    const float *rules = job->base != NULL ? cs_film_channel(job->base, "Oracle") : NULL;
+    const int pilot = job->oracle == CLSHEAR_ORACLE_PILOT;
+    const cs_rule rule = cs_rule_of(job->oracle);
     for (size_t i = 0; i < job->pixel_count; i++) {
         job->rule[i] = rules != NULL ? (uint8_t)rules[i] : (uint8_t)rule;
         job->shear_px[i] =
             extended != NULL ? extended[i] : cs_oracle_shear(&job->camera, &job->depth[i], rule);
     }
-    if (!pilot || extended != NULL || options->spp < least_spp_for_pilot ||
-        options->shear != CLSHEAR_SHEAR_EQUAL_AREA)
+    if (!pilot || extended != NULL || job->spp < least_spp_for_pilot ||
+        job->shear_kind != CLSHEAR_SHEAR_EQUAL_AREA)
         return CLSHEAR_OK;
     return cs_pilot_shears(job, error);
 }
@@ -82,11 +79,12 @@ done:
 static clshear_status plan_batches(cs_job *job, cs_error *error)
 {
     const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
-    const int shared = job->options.adaptive && job->options.spp >= CS_LEAST_SPP_TO_ALLOCATE;
-    if (job->options.adaptive && !shared)
+    const int adaptive = cs_integer(&job->settings, ADAPTIVE) != 0;
+    const int shared = adaptive && job->spp >= CS_LEAST_SPP_TO_ALLOCATE;
+    if (adaptive && !shared)
         cs_warn(&job->scene->context->log,
-                "%u samples per pixel are too few to share out adaptively (from %d on)",
-                job->options.spp, CS_LEAST_SPP_TO_ALLOCATE);
+                "%u samples per pixel are too few to allocate adaptively (from %d on)", job->spp,
+                CS_LEAST_SPP_TO_ALLOCATE);
     if (!shared) {
         job->batch_count = 1;
         return cs_batch_create(job->scene->context, &job->pattern, NULL, job->pixel_count, width, 0,
@@ -106,10 +104,10 @@ clshear_status cs_job_plan(cs_job *job, cs_error *error)
     const double start_s = cs_now_s();
     CS_TRY(reserve(job, error));
     CS_TRY(cs_accel_depth(job->scene->accel, &job->camera, job->optics.table.items, job->window,
-                          job->options.lens_rays, job->depth, error));
+                          (int)cs_integer(&job->settings, LENS_RAYS), job->depth, error));
     job->prepass_s = cs_now_s() - start_s;
     CS_TRY(choose_shears(job, error));
-    if (job->options.gain) {
+    if (cs_integer(&job->settings, GAIN) != 0) {
         job->gain = calloc(job->pixel_count, sizeof *job->gain);
         CS_REQUIRE(job->gain != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
                    job->pixel_count);
@@ -142,4 +140,6 @@ void cs_job_free(cs_job *job)
     cs_buffer_free(job->optics_table);
     cs_optics_free(&job->optics);
     cs_buffer_free(job->shears);
+    cs_lighting_free(&job->lighting);
+    cs_settings_free(&job->settings);
 }

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "kernels/launch.h"
-#include "optics/optics.h"
-#include "render/handles.h"
+#include "oracle/oracle.h"
+#include "render/radiance.h"
 #include "render/render_job.h"
 
 enum {
@@ -15,14 +15,13 @@ enum {
 };
 
 typedef struct evaluation {
-    clshear_scene *scene;
-    cs_launch frame;
+    cs_job job;
+    cs_launch launch;
     cs_u32 pixel[2]; /* x, y */
     cs_u32 tuples;   /* not 0: points are what a sampler draws */
     cs_f32 shear_px;
     cs_f32 lens_offset; /* of points that are places: to the centre of the square around the */
     cs_f32 lens_scale;  /* aperture, and from that square to aperture widths */
-    cs_optics_tables optics;
     cs_buffer *table;
     cs_buffer *points;
     cs_buffer *radiance;
@@ -30,26 +29,22 @@ typedef struct evaluation {
     float *planes; /* PLANES * chunk */
 } evaluation;
 
-static clshear_status launch(const evaluation *e, cs_u32 count, cs_error *error)
+static clshear_status run_kernel(const evaluation *e, cs_u32 count, cs_error *error)
 {
-    enum {
-        BEFORE_WORLD = 9
-    };
-    cs_argument arguments[BEFORE_WORLD + CS_SCENE_BUFFERS] = {
-        {.value = &e->frame, .size = sizeof e->frame},
-        {.value = &e->pixel[0], .size = sizeof e->pixel[0]},
-        {.value = &e->pixel[1], .size = sizeof e->pixel[1]},
-        {.value = &count, .size = sizeof count},
-        {.value = &e->tuples, .size = sizeof e->tuples},
-        {.value = &e->shear_px, .size = sizeof e->shear_px},
-        {.buffer = e->table},
-        {.buffer = e->points},
-        {.buffer = e->radiance}};
-    for (int i = 0; i < CS_SCENE_BUFFERS; i++)
-        arguments[BEFORE_WORLD + i].buffer = e->scene->world.buffers[i];
-    cs_device *device = e->scene->context->device;
-    return cs_device_run(device, CS_KERNEL_RADIANCE, count / (cs_u32)cs_device_packet(device),
-                         arguments, BEFORE_WORLD + CS_SCENE_BUFFERS, error);
+    cs_device *device = e->job.scene->context->device;
+    const cs_buffer *buffers[CS_SCENE_BUFFERS];
+    cs_scene_buffers_of(e->job.scene, e->job.lighting.lights, buffers);
+    const cs_argument arguments[] = {{.value = &e->launch, .size = sizeof e->launch},
+                                     {.value = &e->pixel[0], .size = sizeof e->pixel[0]},
+                                     {.value = &e->pixel[1], .size = sizeof e->pixel[1]},
+                                     {.value = &count, .size = sizeof count},
+                                     {.value = &e->tuples, .size = sizeof e->tuples},
+                                     {.value = &e->shear_px, .size = sizeof e->shear_px},
+                                     {.buffer = e->table},
+                                     {.buffer = e->points},
+                                     {.buffer = e->radiance},
+                                     CS_SCENE_BUFFER_LIST(CS_SCENE_ARGUMENT)};
+    return CS_RUN(device, RADIANCE, count / (cs_u32)cs_device_packet(device), arguments, error);
 }
 
 /* Up to `chunk` points; the last packet is filled up with the last point. */
@@ -67,7 +62,7 @@ static clshear_status evaluate(evaluation *e, const float *points, size_t count,
         e->planes[4 * all + i] = e->planes[5 * all + i] = 0.5f;
     }
     CS_TRY(cs_buffer_write(e->points, 0, PLANES * all * sizeof(float), e->planes, error));
-    CS_TRY(launch(e, (cs_u32)all, error));
+    CS_TRY(run_kernel(e, (cs_u32)all, error));
     CS_TRY(cs_buffer_read(e->radiance, 0, 3 * all * sizeof(float), e->planes, error));
     for (size_t i = 0; i < count; i++)
         for (size_t c = 0; c < 3; c++)
@@ -76,34 +71,35 @@ done:
     return status;
 }
 
-static clshear_status prepare(evaluation *e, const clshear_camera *camera,
-                              const clshear_options *options, int x, int y, size_t count,
-                              cs_error *error)
+static clshear_status reserve(evaluation *e, size_t count, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_device *device = e->scene->context->device;
-    cs_job job = {.scene = e->scene, .options = *options, .lens = *camera};
-    job.options.spp = job.options.replicates = 1; /* the points are the caller's */
-    status = cs_job_check(&job, error);
-    e->optics = job.optics;
-    if (status != CLSHEAR_OK) goto done;
-    CS_REQUIRE(x >= 0 && x < options->width && y >= 0 && y < options->height, CLSHEAR_BAD_ARGUMENT,
-               "pixel %d,%d is outside the %d x %d image", x, y, options->width, options->height);
-    e->pixel[0] = (cs_u32)x;
-    e->pixel[1] = (cs_u32)y;
-    e->frame.camera = job.camera;
-    e->frame.shear_mode = (cs_u32)options->shear;
-    e->frame.lights = e->scene->world.lights;
-    e->frame.emitters = e->scene->world.emitters;
+    cs_device *device = e->job.scene->context->device;
+    const cs_array *table = &e->job.optics.table;
     e->chunk = count < MOST ? (count / LANES + 1) * LANES : MOST;
     e->planes = malloc((size_t)PLANES * e->chunk * sizeof *e->planes);
     CS_REQUIRE(e->planes != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    CS_TRY(cs_buffer_create(device, e->optics.table.count * sizeof(cs_f32), e->optics.table.items,
-                            &e->table, error));
+    CS_TRY(cs_buffer_create(device, table->count * sizeof(cs_f32), table->items, &e->table, error));
     CS_TRY(cs_buffer_create(device, (size_t)PLANES * e->chunk * sizeof(float), NULL, &e->points,
                             error));
     CS_TRY(
         cs_buffer_create(device, (size_t)3 * e->chunk * sizeof(float), NULL, &e->radiance, error));
+done:
+    return status;
+}
+
+/* The job of a render that draws nothing: it checks the settings and makes camera and lights. */
+static clshear_status prepare(evaluation *e, clshear_scene *scene, const clshear_settings *settings,
+                              int x, int y, size_t count, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    CS_TRY(cs_job_begin(&e->job, scene, settings, NULL, error));
+    CS_REQUIRE(x >= 0 && x < e->job.width && y >= 0 && y < e->job.height, CLSHEAR_BAD_ARGUMENT,
+               "pixel %d,%d is outside the %d x %d image", x, y, e->job.width, e->job.height);
+    e->pixel[0] = (cs_u32)x;
+    e->pixel[1] = (cs_u32)y;
+    e->launch = cs_job_pass(&e->job).launch;
+    CS_TRY(reserve(e, count, error));
 done:
     return status;
 }
@@ -113,7 +109,7 @@ static void release(evaluation *e)
     cs_buffer_free(e->table);
     cs_buffer_free(e->points);
     cs_buffer_free(e->radiance);
-    cs_optics_free(&e->optics);
+    cs_job_free(&e->job);
     free(e->planes);
 }
 
@@ -128,31 +124,45 @@ done:
     return status;
 }
 
-clshear_status clshear_radiance(clshear_scene *scene, const clshear_camera *camera, int width,
-                                int height, int x, int y, const float *points, size_t count,
-                                float *rgb)
+clshear_status cs_radiance(clshear_scene *scene, const clshear_settings *settings, int x, int y,
+                           const float *points, size_t count, float *rgb, cs_error *error)
 {
-    cs_error *error = &scene->context->error;
-    const clshear_options options = {.width = width, .height = height};
-    evaluation e = {.scene = scene, .lens_offset = 0.5f};
-    clshear_status status = prepare(&e, camera, &options, x, y, count, error);
-    e.lens_scale = camera->lens_radius > 0.0f
-                       ? 2.0f * camera->lens_radius / e.frame.camera.aperture_width
-                       : 1.0f;
-    if (status == CLSHEAR_OK) status = evaluate_all(&e, points, count, rgb, error);
+    evaluation e = {.lens_offset = 0.5f};
+    clshear_status status = prepare(&e, scene, settings, x, y, count, error);
+    if (status == CLSHEAR_OK) {
+        const float radius = (float)cs_number(&e.job.settings, LENS_RADIUS);
+        e.lens_scale = radius > 0.0f ? 2.0f * radius / e.launch.camera.aperture_width : 1.0f;
+        status = evaluate_all(&e, points, count, rgb, error);
+    }
     release(&e);
     return status;
 }
 
-clshear_status clshear_radiance_of_samples(clshear_scene *scene, const clshear_camera *camera,
-                                           const clshear_options *options, int x, int y,
-                                           float shear_px, const float *samples, size_t count,
-                                           float *rgb)
+clshear_status cs_radiance_of_samples(clshear_scene *scene, const clshear_settings *settings, int x,
+                                      int y, float shear_px, const float *samples, size_t count,
+                                      float *rgb, cs_error *error)
 {
-    cs_error *error = &scene->context->error;
-    evaluation e = {.scene = scene, .tuples = 1, .shear_px = shear_px, .lens_scale = 1.0f};
-    clshear_status status = prepare(&e, camera, options, x, y, count, error);
+    evaluation e = {.tuples = 1, .shear_px = shear_px, .lens_scale = 1.0f};
+    clshear_status status = prepare(&e, scene, settings, x, y, count, error);
     if (status == CLSHEAR_OK) status = evaluate_all(&e, samples, count, rgb, error);
     release(&e);
+    return status;
+}
+
+clshear_status cs_pixel_shear(clshear_scene *scene, const clshear_settings *settings, int x, int y,
+                              float *shear_px, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const int window[4] = {x, x + 1, y, y + 1};
+    cs_depth depth;
+    cs_job job = {0};
+    CS_TRY(cs_job_begin(&job, scene, settings, NULL, error));
+    CS_REQUIRE(x >= 0 && x < job.width && y >= 0 && y < job.height, CLSHEAR_BAD_ARGUMENT,
+               "pixel %d,%d is outside the %d x %d image", x, y, job.width, job.height);
+    CS_TRY(cs_accel_depth(scene->accel, &job.camera, job.optics.table.items, window,
+                          (int)cs_integer(&job.settings, LENS_RAYS), &depth, error));
+    *shear_px = cs_oracle_shear(&job.camera, &depth, cs_rule_of(job.oracle));
+done:
+    cs_job_free(&job);
     return status;
 }

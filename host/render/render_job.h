@@ -1,10 +1,11 @@
-/* One render, from checked options to gathered pixels. */
-#ifndef CS_RENDER_JOB_H
-#define CS_RENDER_JOB_H
+/* One render, from checked settings to accumulated pixels. */
+#ifndef CS_RENDER_RENDER_JOB_H
+#define CS_RENDER_RENDER_JOB_H
 
 #include "film/film.h"
 #include "kernels/launch.h"
 #include "optics/optics.h"
+#include "render/lighting.h"
 #include "render/pass.h"
 
 enum {
@@ -13,9 +14,17 @@ enum {
 
 typedef struct cs_job {
     clshear_scene *scene;
-    clshear_options options;
-    clshear_camera lens; /* as the caller gave it */
+    clshear_settings settings; /* the caller's, completed */
+    const clshear_film *base;  /* the film that is continued; NULL: none */
+    cs_u32 spp;
+    cs_u32 replicates;
+    cs_u32 seed;
+    int width; /* of the whole image, px */
+    int height;
+    clshear_shear shear_kind;
+    clshear_oracle oracle;
     cs_camera camera;
+    cs_lighting lighting;
     cs_optics_tables optics;
     cs_buffer *optics_table;
     cs_pattern pattern;
@@ -42,9 +51,13 @@ typedef struct cs_job {
     double kernel_s;
 } cs_job;
 
-/* Checks the options and the lens, chooses window and pattern, and makes the optics and the frame.
- */
-clshear_status cs_job_check(cs_job *job, cs_error *error);
+/* Copies and completes the settings (NULL: fallbacks), checks them, and makes window, lights,
+ * optics and camera. Start from zeros. A failed job is freed as others are. */
+clshear_status cs_job_begin(cs_job *job, clshear_scene *scene, const clshear_settings *settings,
+                            const clshear_film *base, cs_error *error);
+
+/* Resolves samples and replicates, and chooses the pattern of a replicate. */
+clshear_status cs_job_choose_samples(cs_job *job, cs_error *error);
 
 /* Depths, shears, batches and buffers. When it is cancelled, the job can still be resolved. */
 clshear_status cs_job_plan(cs_job *job, cs_error *error);
@@ -57,7 +70,7 @@ cs_pass cs_job_pass(const cs_job *job);
  * watchdogs work; how the work is cut into launches does not change the result. */
 clshear_status cs_job_run_passes(cs_job *job, cs_error *error);
 
-/* Turns the gathered pixels into a film with metadata. */
+/* Turns the accumulated pixels into a film with metadata. */
 clshear_status cs_job_resolve(cs_job *job, clshear_film **film, cs_error *error);
 
 #endif

@@ -1,11 +1,11 @@
-/* From gathered pixels to a film. */
+/* From accumulated pixels to a film. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "oracle/oracle.h"
-#include "pattern/pattern.h"
+#include "render/record.h"
 #include "render/resume.h"
 
 enum {
@@ -46,7 +46,7 @@ static clshear_status add_planes(clshear_film *film, planes *all)
     good &= (all->rule = cs_film_add_channel(film, "Oracle")) != NULL;
     good &= (all->samples = cs_film_add_channel(film, "Samples")) != NULL;
     return good ? CLSHEAR_OK
-                : cs_fail(film->error, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
+                : cs_fail(cs_thread_error(), CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
 }
 
 /* Samples in a finished pattern of a pixel. */
@@ -134,41 +134,21 @@ static void world_to_camera(const cs_camera *camera, float *matrix)
     }
 }
 
-/* What is needed to make the image again. */
+/* Metadata: the settings, and what else is needed to make the image again. */
 static clshear_status describe(const cs_job *job, clshear_film *film)
 {
-    static const char *const shears[] = {"none", "toroidal", "equal-area"};
-    static const char *const rules[] = {"centre", "median", "near", "far", "pilot"};
     clshear_status status = CLSHEAR_OK;
-    clshear_context *context = job->scene->context;
-    char seed[16];
+    const cs_device *device = job->scene->context->device;
     float matrix[16];
-    snprintf(seed, sizeof seed, "%u", job->options.seed);
     world_to_camera(&job->camera, matrix);
-    CS_TRY(clshear_film_annotate(film, "Software", "clshear " CLSHEAR_VERSION));
-    CS_TRY(clshear_film_annotate(film, "clshear.version", CLSHEAR_VERSION));
-    CS_TRY(clshear_film_annotate(film, "clshear.seed", seed));
-    CS_TRY(clshear_film_annotate(film, "clshear.sampler", cs_sampler_name(job->pattern.sampler)));
-    CS_TRY(clshear_film_annotate(film, "clshear.shear", shears[job->options.shear]));
-    CS_TRY(clshear_film_annotate(film, "clshear.device", clshear_device_name(context)));
-    CS_TRY(clshear_film_annotate(film, "clshear.driver", clshear_driver_name(context)));
-    CS_TRY(clshear_film_annotate(film, "clshear.aperture", cs_aperture_name(job->lens.aperture)));
-    if (job->lens.aperture == CLSHEAR_APERTURE_POLYGON) {
-        CS_TRY(cs_film_set_int(film, "clshear.blades", job->lens.blades));
-        CS_TRY(cs_film_set_float(film, "clshear.bladeRotation", job->lens.blade_rotation_deg));
-    }
-    CS_TRY(cs_film_set_float(film, "clshear.anamorphic", 1.0f / job->camera.optics.squeeze));
-    CS_TRY(clshear_film_annotate(film, "clshear.filter", cs_filter_name(job->options.filter)));
-    CS_TRY(cs_film_set_float(film, "clshear.filterWidth", job->camera.optics.filter_width));
-    CS_TRY(clshear_film_annotate(film, "clshear.oracle", rules[job->options.oracle]));
-    CS_TRY(cs_film_set_int(film, "clshear.adaptive", job->options.adaptive != 0));
-    CS_TRY(cs_film_set_int(film, "clshear.replicates", (int32_t)job->options.replicates));
-    CS_TRY(cs_film_set_int(film, "clshear.packet", cs_device_packet(context->device)));
+    CS_TRY(cs_film_annotate(film, "Software", "clshear " CLSHEAR_VERSION_STRING));
+    CS_TRY(cs_film_annotate(film, "clshear.version", CLSHEAR_VERSION_STRING));
+    CS_TRY(cs_record_settings(&job->settings, film));
+    CS_TRY(cs_film_annotate(film, "clshear.device", cs_device_name(device)));
+    CS_TRY(cs_film_annotate(film, "clshear.driver", cs_device_driver(device)));
+    CS_TRY(cs_film_set_int(film, "clshear.packet", cs_device_packet(device)));
     CS_TRY(cs_film_set_int(film, "samplesPerPixel",
                            (int32_t)((double)film->info.samples / (double)job->pixel_count + 0.5)));
-    CS_TRY(cs_film_set_float(film, "clshear.focalDistance", job->camera.focal_distance));
-    CS_TRY(cs_film_set_float(film, "clshear.lensRadius", job->lens.lens_radius));
-    CS_TRY(cs_film_set_float(film, "clshear.fov", job->lens.fov_deg));
     CS_TRY(cs_film_set_matrix(film, "worldtocamera", matrix));
 done:
     return status;
@@ -180,9 +160,8 @@ clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *erro
     clshear_film *film = NULL;
     planes all;
     /* Cancelled before the first pass: what is extended must not be lost. */
-    if (job->options.extend != NULL && job->replicates_begun == 0)
-        CS_TRY(cs_resume_begin(job, 0, error));
-    CS_TRY(cs_film_create(job->window, job->options.width, job->options.height, error, &film));
+    if (job->base != NULL && job->replicates_begun == 0) CS_TRY(cs_resume_begin(job, 0, error));
+    CS_TRY(cs_film_create(job->window, job->width, job->height, error, &film));
     CS_TRY(add_planes(film, &all));
     CS_TRY(read_pixels(job, film, &all, error));
     if (job->gain != NULL) {
@@ -199,6 +178,6 @@ clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *erro
     *result = film;
     film = NULL;
 done:
-    clshear_film_free(film);
+    cs_film_free(film);
     return status;
 }

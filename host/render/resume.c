@@ -7,10 +7,16 @@
 #include <string.h>
 
 #include "pattern/pattern.h"
+#include "render/record.h"
 
 enum {
     SLICE = 1 << 16 /* pixels on their way at once */
 };
+
+static int is_extendable(const cs_job *job)
+{
+    return cs_integer(&job->settings, EXTENDABLE) != 0;
+}
 
 static void plane_name(char *name, size_t size, uint32_t replicate, int colour)
 {
@@ -32,16 +38,15 @@ static void add_array(cs_u32 *fingerprint, const cs_array *array)
     add_words(fingerprint, array->items, array->count * array->item_size);
 }
 
-/* What fixes the samples and the picture, but for their number: "key=value;...". */
+/* What fixes the samples and the picture, but for their number: "name=value;...". */
 static void recipe_of(const cs_job *job, char *text, size_t size)
 {
-    const clshear_options *o = &job->options;
     const cs_scene *scene = &job->scene->scene;
-    cs_u32 camera = 0, lens = 0, light = 0, world = 0;
-    add_words(&camera, &job->camera, offsetof(cs_camera, optics));
-    add_words(&lens, &job->camera.optics, sizeof job->camera.optics);
+    const cs_setting_value *lights = &job->settings.values[CS_INDEX_LIGHT];
+    cs_u32 lens = 0, light = 0, world = 0;
     add_array(&lens, &job->optics.table);
     add_array(&light, &scene->lights);
+    add_words(&light, lights->numbers, lights->count * sizeof *lights->numbers);
     add_array(&world, &scene->positions);
     add_array(&world, &scene->vertices);
     add_array(&world, &scene->indices);
@@ -50,13 +55,10 @@ static void recipe_of(const cs_job *job, char *text, size_t size)
     add_array(&world, &scene->materials);
     add_array(&world, &scene->textures);
     add_array(&world, &scene->texels);
-    snprintf(text, size,
-             "sampler=%s;seed=%u;replicates=%u;shear=%d;oracle=%d;lens "
-             "rays=%u;size=%dx%d;camera=%08x;aperture or "
-             "filter=%08x;lights=%08x;"
-             "scene=%08x",
-             cs_sampler_name(job->pattern.sampler), o->seed, o->replicates, (int)o->shear,
-             (int)o->oracle, o->lens_rays, o->width, o->height, camera, lens, light, world);
+    cs_record_recipe(&job->settings, text, size);
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used, "lens table=%08x;lights=%08x;scene=%08x", lens, light,
+             world);
 }
 
 /* Name of the first thing in which two recipes differ. */
@@ -77,23 +79,22 @@ static int holds_state(const clshear_film *base, uint32_t replicates, int *sampl
     char name[32];
     int good = cs_film_int(base, "samplesPerPixel", samples) && *samples >= (int)replicates;
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
-        good &= clshear_film_channel(base, needed[i]) != NULL;
+        good &= cs_film_channel(base, needed[i]) != NULL;
     for (uint32_t plane = 0; good && plane < 3 * replicates; plane++) {
         plane_name(name, sizeof name, plane / 3, (int)(plane % 3));
-        good &= clshear_film_channel(base, name) != NULL;
+        good &= cs_film_channel(base, name) != NULL;
     }
     return good;
 }
 
 clshear_status cs_resume_check(cs_job *job, cs_error *error)
 {
-    const clshear_film *base = job->options.extend;
-    char mine[512], name[32];
+    const clshear_film *base = job->base;
+    char mine[CS_RECIPE_SIZE], name[32];
     int samples = 0;
-    if ((base != NULL || job->options.extendable) && job->options.adaptive)
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "a render that is shared out adaptively cannot be extended");
-    if (base == NULL && !job->options.extendable) return CLSHEAR_OK;
+    if (base == NULL && !is_extendable(job)) return CLSHEAR_OK;
+    if (cs_integer(&job->settings, ADAPTIVE) != 0)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "an adaptive render cannot be extended");
     if (!cs_sampler_is_progressive(job->pattern.sampler))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "sampler %s cannot extend a render: its points depend on their number; "
@@ -103,24 +104,25 @@ clshear_status cs_resume_check(cs_job *job, cs_error *error)
     recipe_of(job, mine, sizeof mine);
     const char *theirs = cs_film_text(base, "clshear.recipe");
     if (theirs == NULL ||
-        (strcmp(mine, theirs) == 0 && !holds_state(base, job->options.replicates, &samples)))
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "the picture to extend does not hold what that takes; it must be a complete "
-                       "EXR rendered with --extendable");
+        (strcmp(mine, theirs) == 0 && !holds_state(base, job->replicates, &samples)))
+        return cs_fail(
+            error, CLSHEAR_BAD_ARGUMENT,
+            "the image to extend lacks the means of its patterns; it must be a complete EXR "
+            "rendered with --extendable");
     if (strcmp(mine, theirs) != 0) {
         first_difference(mine, theirs, name, sizeof name);
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "the picture to extend was made with another %s; give all flags as before, "
+                       "the image to extend was made with another %s; give all flags as before, "
                        "but for --spp",
                        name);
     }
     if (memcmp(base->window, job->window, sizeof job->window) != 0)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "the picture to extend shows other pixels; give the same --crop");
-    const uint32_t had = (uint32_t)samples / job->options.replicates;
+                       "the image to extend shows other pixels; give the same --crop");
+    const uint32_t had = (uint32_t)samples / job->replicates;
     if (job->pattern.grid.count <= had)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "the picture to extend has %d samples per pixel already; ask for more",
+                       "the image to extend has %d samples per pixel already; ask for more",
                        samples);
     job->pattern = cs_pattern_of(job->pattern.sampler, had, job->pattern.grid.count - had);
     return CLSHEAR_OK;
@@ -153,18 +155,18 @@ static void load(cs_job *job, uint32_t replicate, size_t index, cs_pixel *pixel)
     static const char *const mean[3] = {"R", "G", "B"};
     static const char *const variance[3] = {"SampleVariance.R", "SampleVariance.G",
                                             "SampleVariance.B"};
-    const clshear_film *base = job->options.extend;
-    const uint32_t had = job->pattern.first, all = had * job->options.replicates;
+    const clshear_film *base = job->base;
+    const uint32_t had = job->pattern.first, all = had * job->replicates;
     for (int c = 0; c < 3; c++) {
         char name[32];
         plane_name(name, sizeof name, replicate, c);
-        const double sum = (double)clshear_film_channel(base, name)[index] * had;
+        const double sum = (double)cs_film_channel(base, name)[index] * had;
         pixel->sum[c] = (cs_f32)sum;
         pixel->carry[c] = (cs_f32)(sum - (double)pixel->sum[c]);
         if (replicate > 0) continue;
-        pixel->sample_mean[c] = clshear_film_channel(base, mean[c])[index];
+        pixel->sample_mean[c] = cs_film_channel(base, mean[c])[index];
         pixel->sample_m2[c] =
-            all > 1 ? clshear_film_channel(base, variance[c])[index] * (cs_f32)(all - 1) : 0.0f;
+            all > 1 ? cs_film_channel(base, variance[c])[index] * (cs_f32)(all - 1) : 0.0f;
     }
     pixel->pending = had;
     if (replicate == 0) pixel->samples = all;
@@ -184,13 +186,13 @@ static void keep(cs_job *job, uint32_t replicate, size_t index, cs_pixel *pixel)
 clshear_status cs_resume_prepare(cs_job *job, cs_error *error)
 {
     const uint32_t most = 16;
-    const size_t planes = 3 * (size_t)job->options.replicates;
-    const int extends = job->options.extendable || job->options.extend != NULL;
-    if (!extends && !job->options.keep_patterns) return CLSHEAR_OK;
-    if (extends && job->options.replicates > most)
+    const size_t planes = 3 * (size_t)job->replicates;
+    const int extends = is_extendable(job) || job->base != NULL;
+    if (!extends && !cs_integer(&job->settings, KEEP_PATTERNS)) return CLSHEAR_OK;
+    if (extends && job->replicates > most)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "%u replicates: a render that can be extended has at most %u",
-                       job->options.replicates, most);
+                       job->replicates, most);
     job->pattern_means = malloc(planes * job->pixel_count * sizeof *job->pattern_means);
     job->pattern_sums = calloc(3 * job->pixel_count, sizeof *job->pattern_sums);
     if (job->pattern_means == NULL || job->pattern_sums == NULL)
@@ -202,7 +204,7 @@ clshear_status cs_resume_prepare(cs_job *job, cs_error *error)
 clshear_status cs_resume_begin(cs_job *job, uint32_t replicate, cs_error *error)
 {
     job->replicates_begun = replicate + 1;
-    if (job->options.extend == NULL) return CLSHEAR_OK;
+    if (job->base == NULL) return CLSHEAR_OK;
     return for_pixels(job, replicate, load, 1, error);
 }
 
@@ -217,31 +219,31 @@ clshear_status cs_resume_end(cs_job *job, uint32_t replicate, cs_error *error)
 double cs_resume_missing(const cs_job *job, size_t index, int colour)
 {
     double sum = 0.0;
-    if (job->options.extend == NULL) return 0.0;
-    for (uint32_t r = job->replicates_begun; r < job->options.replicates; r++) {
+    if (job->base == NULL) return 0.0;
+    for (uint32_t r = job->replicates_begun; r < job->replicates; r++) {
         char name[32];
         plane_name(name, sizeof name, r, colour);
-        sum += (double)clshear_film_channel(job->options.extend, name)[index] * job->pattern.first;
+        sum += (double)cs_film_channel(job->base, name)[index] * job->pattern.first;
     }
     return sum;
 }
 
 clshear_status cs_resume_describe(const cs_job *job, clshear_film *film)
 {
-    char text[512];
-    if (job->patterns_kept < job->options.replicates) return CLSHEAR_OK; /* interrupted */
-    for (uint32_t plane = 0; plane < 3 * job->options.replicates; plane++) {
+    char text[CS_RECIPE_SIZE];
+    if (job->patterns_kept < job->replicates) return CLSHEAR_OK; /* interrupted */
+    for (uint32_t plane = 0; plane < 3 * job->replicates; plane++) {
         char name[32];
         plane_name(name, sizeof name, plane / 3, (int)(plane % 3));
         float *pixels = cs_film_add_channel(film, name);
         if (pixels == NULL)
-            return cs_fail(film->error, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
+            return cs_fail(cs_thread_error(), CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
         memcpy(pixels, job->pattern_means + (size_t)plane * job->pixel_count,
                job->pixel_count * sizeof *pixels);
     }
-    if (!job->options.extendable && job->options.extend == NULL) return CLSHEAR_OK;
+    if (!is_extendable(job) && job->base == NULL) return CLSHEAR_OK;
     recipe_of(job, text, sizeof text);
-    return clshear_film_annotate(film, "clshear.recipe", text);
+    return cs_film_annotate(film, "clshear.recipe", text);
 }
 
 void cs_resume_free(cs_job *job)

@@ -1,4 +1,4 @@
-/* Going on with a render, and keeping the means of its patterns. Everything here does nothing for a
+/* Continuing a render, and keeping the means of its patterns. Everything here does nothing for a
  * job that neither extends one nor is to be extended nor keeps patterns. */
 #ifndef CS_RENDER_EXTEND_H
 #define CS_RENDER_EXTEND_H

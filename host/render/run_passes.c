@@ -1,21 +1,23 @@
 /* The passes of a render over its batches. */
+#include "optics/shear_mode.h"
 #include "render/resume.h"
 
 cs_pass cs_job_pass(const cs_job *job)
 {
-    const cs_device_scene *world = &job->scene->world;
+    const cs_lighting *lighting = &job->lighting;
     return (cs_pass){.scene = job->scene,
-                     .frame = {.camera = job->camera,
-                               .seed = job->options.seed,
-                               .image_width = (cs_u32)job->options.width,
-                               .crop_x = (cs_u32)job->window[0],
-                               .crop_y = (cs_u32)job->window[2],
-                               .crop_width = (cs_u32)(job->window[1] - job->window[0]),
-                               .crop_height = (cs_u32)(job->window[3] - job->window[2]),
-                               .shear_mode = (cs_u32)job->options.shear,
-                               .lights = world->lights,
-                               .emitters = world->emitters},
+                     .launch = {.camera = job->camera,
+                                .seed = job->seed,
+                                .image_width = (cs_u32)job->width,
+                                .crop_x = (cs_u32)job->window[0],
+                                .crop_y = (cs_u32)job->window[2],
+                                .crop_width = (cs_u32)(job->window[1] - job->window[0]),
+                                .crop_height = (cs_u32)(job->window[3] - job->window[2]),
+                                .shear_mode = cs_shear_mode(job->shear_kind),
+                                .lights = lighting->count,
+                                .emitters = job->scene->device_scene.emitters},
                      .optics = job->optics_table,
+                     .lights = lighting->lights,
                      .start_s = cs_now_s(),
                      .rate = 1e5};
 }
@@ -23,11 +25,11 @@ cs_pass cs_job_pass(const cs_job *job)
 clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    const cs_u32 replicates = job->options.replicates;
+    const cs_u32 replicates = job->replicates;
     cs_pass pass = cs_job_pass(job);
     pass.shears = job->shears;
     pass.pixels = &job->pixels;
-    pass.options = &job->options;
+    pass.settings = &job->settings;
     for (size_t b = 0; b < job->batch_count; b++)
         pass.total += (double)replicates * (double)job->batches[b].pixel_count *
                       job->batches[b].pattern.grid.count;

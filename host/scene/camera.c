@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vec.h"
 #include "optics/optics.h"
 #include "scene/node.h"
 
@@ -32,7 +33,7 @@ static float vertical_fov(const struct aiCamera *source, int gltf)
 int cs_camera_import(cs_scene *scene, const struct aiScene *file)
 {
     const struct aiCamera *source = file->mCameras[0];
-    clshear_camera *camera = &scene->camera;
+    cs_view *camera = &scene->camera;
     const struct aiMatrix4x4 matrix = cs_node_matrix(file, source->mName.data);
     struct aiVector3D eye = source->mPosition, target = source->mLookAt, up = source->mUp, origin;
     /* A glTF camera is at the origin of its node; Assimp 5.2 repeats the node's translation here.
@@ -60,9 +61,9 @@ static float shorter_fov_deg(float vertical_deg, float aspect)
     return 2.0f * atanf(tanf(0.5f * vertical_deg * degrees) * aspect) / degrees;
 }
 
-clshear_camera cs_camera_of_scene(const cs_scene *scene, int width, int height)
+cs_view cs_camera_of_scene(const cs_scene *scene, int width, int height)
 {
-    clshear_camera camera = scene->camera;
+    cs_view camera = scene->camera;
     const float aspect = (float)width / (float)height;
     camera.lens_radius = -1.0f;
     camera.focal_distance = 0.0f;
@@ -93,23 +94,15 @@ clshear_camera cs_camera_of_scene(const cs_scene *scene, int width, int height)
 
 static int normalise(float *v)
 {
-    float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    float length = sqrtf(cs_vec_dot(v, v));
     if (!(length > 0.0f) || !isfinite(length)) return 0;
     for (int i = 0; i < 3; i++)
         v[i] /= length;
     return 1;
 }
 
-static void cross(const float *a, const float *b, float *c)
-{
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        c[i] = a[j] * b[k] - a[k] * b[j];
-    }
-}
-
-clshear_status cs_camera_frame(const clshear_camera *camera, int width, int height,
-                               cs_camera *frame, cs_error *error)
+clshear_status cs_camera_frame(const cs_view *camera, int width, int height, cs_camera *frame,
+                               cs_error *error)
 {
     float up[3];
     *frame = (cs_camera){0};
@@ -124,10 +117,10 @@ clshear_status cs_camera_frame(const clshear_camera *camera, int width, int heig
     }
     if (!normalise(frame->forward))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "camera: eye and target are the same point");
-    cross(frame->forward, up, frame->right);
+    cs_vec_cross(frame->forward, up, frame->right);
     if (!normalise(up) || !normalise(frame->right))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "camera: up is parallel to the line of sight");
-    cross(frame->forward, frame->right, frame->down);
+    cs_vec_cross(frame->forward, frame->right, frame->down);
     if (!(camera->fov_deg > 0.0f && camera->fov_deg < 180.0f))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "field of view %g degrees: must be above 0 and below 180",

@@ -7,6 +7,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -183,7 +184,7 @@ static clshear_status add_light(cs_scene *scene, const struct aiScene *file,
                              source->mColorDiffuse.b};
     if (light.kind == CLSHEAR_LIGHT_DIRECTIONAL || !(fade > 0.0f)) fade = 1.0f;
     for (int i = 0; i < 3; i++) {
-        light.vector[i] = sign * position[i];
+        light.position[i] = light.direction[i] = sign * position[i];
         light.colour[i] = colour[i] / fade;
     }
     make_colour(light.colour, path, "light", source->mName.data, log);
@@ -269,8 +270,8 @@ static clshear_status check_readable(const char *path, cs_error *error)
     return CLSHEAR_OK;
 }
 
-clshear_status cs_scene_import(const char *path, cs_scene *scene, const cs_log *log,
-                               cs_error *error)
+/* With the importer locked. */
+static clshear_status import(const char *path, cs_scene *scene, const cs_log *log, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const struct aiScene *file = NULL;
@@ -290,5 +291,16 @@ clshear_status cs_scene_import(const char *path, cs_scene *scene, const cs_log *
         cs_warn(log, "%s: %zu triangles without area are left out", path, scene->degenerate);
 done:
     if (file != NULL) aiReleaseImport(file);
+    return status;
+}
+
+clshear_status cs_scene_import(const char *path, cs_scene *scene, const cs_log *log,
+                               cs_error *error)
+{
+    /* Assimp keeps its last error and its log for the whole process. */
+    static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&one_at_a_time);
+    const clshear_status status = import(path, scene, log, error);
+    pthread_mutex_unlock(&one_at_a_time);
     return status;
 }

@@ -2,7 +2,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vec.h"
 #include "scene/scene.h"
+
+_Static_assert((int)CLSHEAR_LIGHT_POINT == CS_LIGHT_POINT, "kinds are cast");
+_Static_assert((int)CLSHEAR_LIGHT_DIRECTIONAL == CS_LIGHT_DIRECTIONAL, "kinds are cast");
 
 int cs_is_colour(const float *colour)
 {
@@ -12,31 +16,43 @@ int cs_is_colour(const float *colour)
     return good;
 }
 
-clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error)
+clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_error *error)
 {
-    if (light->kind != CLSHEAR_LIGHT_POINT && light->kind != CLSHEAR_LIGHT_DIRECTIONAL)
+    const int directional = light->kind == CLSHEAR_LIGHT_DIRECTIONAL;
+    const float *vector = directional ? light->direction : light->position;
+    if (!directional && light->kind != CLSHEAR_LIGHT_POINT)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: kind %d is not known",
                        (int)light->kind);
-    if (!isfinite(light->vector[0]) || !isfinite(light->vector[1]) || !isfinite(light->vector[2]))
+    if (!isfinite(vector[0]) || !isfinite(vector[1]) || !isfinite(vector[2]))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: its position must be finite");
     if (!cs_is_colour(light->colour))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: colour %g,%g,%g: must be 0 to 1e15",
                        (double)light->colour[0], (double)light->colour[1],
                        (double)light->colour[2]);
     float length = 1.0f;
-    if (light->kind == CLSHEAR_LIGHT_DIRECTIONAL) {
-        length = sqrtf(light->vector[0] * light->vector[0] + light->vector[1] * light->vector[1] +
-                       light->vector[2] * light->vector[2]);
+    if (directional) {
+        length = sqrtf(cs_vec_dot(vector, vector));
         if (length == 0.0f)
             return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: its direction has no length");
     }
+    memset(made, 0, sizeof *made);
+    made->kind = (cs_u32)light->kind;
+    float *place = directional ? made->axis : made->position;
+    for (int i = 0; i < 3; i++) {
+        place[i] = vector[i] / length;
+        made->colour[i] = light->colour[i];
+    }
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error)
+{
+    cs_light made;
+    clshear_status status = cs_light_make(light, &made, error);
+    if (status != CLSHEAR_OK) return status;
     cs_light *added = cs_array_extend(&scene->lights, 1);
     if (added == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    added->kind = light->kind == CLSHEAR_LIGHT_DIRECTIONAL ? CS_LIGHT_DIRECTIONAL : CS_LIGHT_POINT;
-    for (int i = 0; i < 3; i++) {
-        added->vector[i] = light->vector[i] / length;
-        added->colour[i] = light->colour[i];
-    }
+    *added = made;
     return CLSHEAR_OK;
 }
 
@@ -50,9 +66,9 @@ cs_light cs_scene_default_light(const cs_scene *scene)
         largest = fmaxf(largest, scene->bounds[1][axis] - scene->bounds[0][axis]);
     for (int axis = 0; axis < 3; axis++) {
         float low = scene->bounds[0][axis], high = scene->bounds[1][axis];
-        light.vector[axis] = axis == 1 ? low + 0.95f * (high - low) : 0.5f * (low + high);
+        light.position[axis] = axis == 1 ? low + 0.95f * (high - low) : 0.5f * (low + high);
         /* Flat scenes are lit from above or from the front, not from within their plane. */
-        if (axis > 0 && high - low < 0.1f * largest) light.vector[axis] = high + 0.5f * largest;
+        if (axis > 0 && high - low < 0.1f * largest) light.position[axis] = high + 0.5f * largest;
         square += 0.25f * (high - low) * (high - low);
     }
     /* A white surface that faces the light from half a diagonal away has radiance 1. */
@@ -73,20 +89,17 @@ static double describe_emitter(const cs_scene *scene, size_t triangle, cs_emitte
     const float(*positions)[3] = scene->positions.items;
     const uint32_t material = ((const uint32_t *)scene->triangle_materials.items)[triangle];
     const cs_material *look = (const cs_material *)scene->materials.items + material;
-    double square = 0.0;
+    memcpy(emitter->corner, positions[corner[0]], sizeof emitter->corner);
+    memcpy(emitter->radiance, look->emission, sizeof emitter->radiance);
+    cs_vec_subtract(positions[corner[1]], positions[corner[0]], emitter->edge1);
+    cs_vec_subtract(positions[corner[2]], positions[corner[0]], emitter->edge2);
+    double e1[3], e2[3], normal[3];
     for (int i = 0; i < 3; i++) {
-        emitter->corner[i] = positions[corner[0]][i];
-        emitter->edge1[i] = positions[corner[1]][i] - positions[corner[0]][i];
-        emitter->edge2[i] = positions[corner[2]][i] - positions[corner[0]][i];
-        emitter->radiance[i] = look->emission[i];
+        e1[i] = (double)emitter->edge1[i];
+        e2[i] = (double)emitter->edge2[i];
     }
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        double normal = (double)emitter->edge1[j] * (double)emitter->edge2[k] -
-                        (double)emitter->edge1[k] * (double)emitter->edge2[j];
-        square += normal * normal;
-    }
-    emitter->area = (float)(0.5 * sqrt(square));
+    cs_vec_cross_double(e1, e2, normal);
+    emitter->area = (float)(0.5 * sqrt(cs_vec_dot_double(normal, normal)));
     return (double)emitter->area * (double)luminance(look->emission);
 }
 

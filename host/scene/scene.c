@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vec.h"
+
 void cs_scene_init(cs_scene *scene)
 {
     memset(scene, 0, sizeof *scene);
@@ -68,18 +70,12 @@ static clshear_status add_vertices(cs_scene *scene, const clshear_mesh *mesh, co
  * and neither too small nor too large for the square of a float's cross product. */
 static int has_area(const float *a, const float *b, const float *c)
 {
-    double e1[3], e2[3], square = 0.0, first = 0.0, second = 0.0;
-    for (int i = 0; i < 3; i++) {
-        e1[i] = (double)b[i] - (double)a[i];
-        e2[i] = (double)c[i] - (double)a[i];
-        first += e1[i] * e1[i];
-        second += e2[i] * e2[i];
-    }
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        double normal = e1[j] * e2[k] - e1[k] * e2[j];
-        square += normal * normal;
-    }
+    double e1[3], e2[3], normal[3];
+    cs_vec_subtract_double(b, a, e1);
+    cs_vec_subtract_double(c, a, e2);
+    cs_vec_cross_double(e1, e2, normal);
+    const double square = cs_vec_dot_double(normal, normal);
+    const double first = cs_vec_dot_double(e1, e1), second = cs_vec_dot_double(e2, e2);
     return square > 1e-14 * first * second && square > 1e-37 && square < 1e37;
 }
 

@@ -4,7 +4,10 @@
 
 #include "base/array.h"
 #include "base/status.h"
+#include "clshear/clshear.h"
+#include "kernels/light/list.h"
 #include "kernels/scene.h"
+#include "optics/view.h"
 
 enum {
     CS_TEXTURE_NAME = 512
@@ -24,7 +27,7 @@ typedef struct cs_scene {
     size_t degenerate;           /* triangles left out */
     float bounds[2][3];          /* low and high corner */
     int has_camera;
-    clshear_camera camera; /* of the file; its fov is vertical until an image size is known */
+    cs_view camera; /* of the file; its fov is vertical until an image size is known */
 } cs_scene;
 
 void cs_scene_init(cs_scene *scene);
@@ -43,7 +46,10 @@ clshear_status cs_scene_finish(cs_scene *scene, const char *name, cs_error *erro
 /* Whether three numbers can be a colour: 0 to 1e15, whose squares and sums are still floats. */
 int cs_is_colour(const float *colour);
 
-/* Checks and appends a light. */
+/* Checks a light and converts it for the device. */
+clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_error *error);
+
+/* The same, appended to the scene. */
 clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error);
 
 /* A white point light under the top of the bounding box, as bright as daylight inside it. */

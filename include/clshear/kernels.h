@@ -5,11 +5,7 @@
  * This file makes those words, on the host and without any OpenCL device. docs/guide/own-kernel.md
  * shows how to put them together.
  *
- * Conventions
- * - Functions that can fail return a clshear_status; on failure they leave their results and
- * handles alone, and clshear_message(NULL) has the reason in one line, for the calling thread.
- * - Handles are freed by the matching _free, which accepts NULL. Different threads may use
- * different handles at the same time. A handle that is not changed may be read by several threads.
+ * Common conventions stand at the head of common.h. Besides:
  * - Functions that write a struct of the device headers take its size, and fail if the headers of
  *   the program and those of the library do not agree on it. */
 #ifndef CLSHEAR_KERNELS_H
@@ -66,52 +62,23 @@ CLSHEAR_API const uint32_t *clshear_pattern_table(const clshear_pattern *pattern
 
 typedef struct clshear_lens clshear_lens;
 
-/* A round aperture and a box filter one pixel wide; no anamorphic squeeze; a pinhole focused at
- * distance 1. */
-CLSHEAR_API clshear_status clshear_lens_create(clshear_lens **lens);
+/* The aperture, the pixel filter and, if eye, target and field of view are set, the camera that the
+ * settings describe. What is not set has its fallback; an unset up is +Y, an unset lens radius a
+ * pinhole, an unset focal distance 1. */
+CLSHEAR_API clshear_status clshear_lens_create(const clshear_settings *settings,
+                                               clshear_lens **lens);
 CLSHEAR_API void clshear_lens_free(clshear_lens *lens);
-
-/* "disk", "square" or "polygon". Only a polygon looks at the others: `blades` is its number of
- * corners, 3 to 32, and `rotation_deg` turns it anticlockwise, as seen from behind the lens; at 0 a
- * corner is on the right. */
-CLSHEAR_API clshear_status clshear_lens_set_aperture(clshear_lens *lens, const char *aperture,
-                                                     int blades, float rotation_deg);
-
-/* An aperture through which `luminance`, width x height values in rows from the top, says how much
- * light passes where. Values are 0 or more and not all 0; only their ratios count. Both sides are 1
- * to 256. The image is copied. */
-CLSHEAR_API clshear_status clshear_lens_set_image(clshear_lens *lens, const float *luminance,
-                                                  int width, int height);
-
-/* Makes the aperture `ratio` times narrower than high: 0.01 to 100, 1 for a round bokeh. */
-CLSHEAR_API clshear_status clshear_lens_set_anamorphic(clshear_lens *lens, float ratio);
-
-/* "box", "tent", "gaussian" or "blackman-harris". `width_px` is its width in pixels, 0.01 to 64, or
- * 0 for the filter's usual width. */
-CLSHEAR_API clshear_status clshear_lens_set_filter(clshear_lens *lens, const char *filter,
-                                                   float width_px);
-
-/* Radius of the lens, 0 or more (0 is a pinhole), and camera depth of the focal plane, above 0,
- * both in units of the scene. Only cs_camera depends on them. */
-CLSHEAR_API clshear_status clshear_lens_set_focus(clshear_lens *lens, float radius,
-                                                  float focal_distance);
 
 /* Writes a cs_optics (clshear/device/camera.h) to `optics`. `size` is sizeof of it. */
 CLSHEAR_API clshear_status clshear_lens_optics(const clshear_lens *lens, void *optics, size_t size);
 
-/* The lens table that belongs to the cs_optics. The lens owns it, until it is next changed.
- * `floats` receives its length, which is never 0. */
+/* The lens table that belongs to the cs_optics. The lens owns it. `floats` receives its length,
+ * which is never 0. */
 CLSHEAR_API const float *clshear_lens_table(const clshear_lens *lens, size_t *floats);
 
 /* Writes a cs_camera (clshear/device/camera.h), with the lens's cs_optics in it, to `camera`.
- * `size` is sizeof of it.
- *
- * look_at: position of the eye, the point in the middle of the image, and the direction up, three
- * coordinates each, right-handed, in units of the scene. fov_deg: angle of view along the shorter
- * image axis, above 0 and below 180. width, height: of the image, in pixels. */
-CLSHEAR_API clshear_status clshear_lens_camera(const clshear_lens *lens, const float look_at[9],
-                                               float fov_deg, int width, int height, void *camera,
-                                               size_t size);
+ * `size` is sizeof of it. Fails if the settings described no camera. */
+CLSHEAR_API clshear_status clshear_lens_camera(const clshear_lens *lens, void *camera, size_t size);
 
 #ifdef __cplusplus
 }

@@ -14,12 +14,14 @@ enum {
     CS_SHEAR_EQUAL_AREA = 2 /* the first pair chooses the fibre, the second the place on it */
 };
 
-enum {
-    CS_APERTURE_DISK = 0,    /* of area 1 */
-    CS_APERTURE_SQUARE = 1,  /* of side 1 */
-    CS_APERTURE_POLYGON = 2, /* convex, of area 1, tabulated by its chords */
-    CS_APERTURE_IMAGE = 3    /* texels of different brightness; the longer side is 1 */
-};
+/* How a lens coordinate is distributed. Kernels know apertures by the kind of u's marginal alone:
+ * it says what the chord at u is as well. */
+typedef enum cs_marginal_kind {
+    CS_MARGINAL_UNIFORM = 0, /* on [-1/2, 1/2]; a square: all chords are alike */
+    CS_MARGINAL_DISK = 1,    /* of the disk of area 1 */
+    CS_MARGINAL_POLYGON = 2, /* of a convex polygon of area 1: tabulated by its chords */
+    CS_MARGINAL_IMAGE = 3    /* of texels: tabulated, and v's marginal too for each column */
+} cs_marginal_kind;
 
 /* Shape of the aperture and the pixel filter. Make it by clshear_lens_optics.
  *
@@ -27,7 +29,7 @@ enum {
  * One unit of them is cs_camera.aperture_width. They are those of the aperture before the squeeze.
  */
 typedef struct cs_optics {
-    cs_u32 aperture;         /* CS_APERTURE_ */
+    cs_u32 marginal;         /* cs_marginal_kind of u */
     cs_u32 has_closed_form;  /* 1 for a disk or a square with a box filter one pixel wide, else 0 */
     cs_f32 squeeze;          /* width of the aperture over the width of its shape, above 0 */
     cs_u32 filter_steps;     /* parts of the filter's width on which it is constant, 1 or 16 */

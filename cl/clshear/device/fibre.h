@@ -177,40 +177,35 @@ CS_INLINED cs_vfloat cs_fibre_place(const cs_fibre_axis *axis, cs_vfloat t, cs_v
     return lens;
 }
 
-/* One axis of the equal-area map for a shear that is not negative. */
-CS_INLINED cs_vfloat cs_fibre_map_known(const cs_fibre_axis *axis, cs_vfloat across,
-                                        cs_vfloat along, cs_vfloat *x)
+/* The map for a marginal of this kind. `kind` must be a literal: once this is inlined the compiler
+ * knows it in every loop over the filter's steps, and leaves nothing of the other kinds there. */
+CS_INLINED cs_vfloat cs_fibre_map_of_kind(cs_fibre_axis axis, const cs_marginal_kind kind,
+                                          cs_vfloat across, cs_vfloat along, cs_vfloat *x)
 {
-    cs_vfloat t = axis->marginal->kind == CS_MARGINAL_IMAGE
-                      ? cs_fibre_quantile_any(axis, across)
-                      : cs_fibre_quantile_unimodal(axis, across);
-    return cs_fibre_place(axis, t, along, x);
+    cs_marginal marginal = *axis.marginal;
+    marginal.kind = kind;
+    axis.marginal = &marginal;
+    cs_vfloat t = kind == CS_MARGINAL_IMAGE ? cs_fibre_quantile_any(&axis, across)
+                                            : cs_fibre_quantile_unimodal(&axis, across);
+    return cs_fibre_place(&axis, t, along, x);
 }
 
 /* One axis of the equal-area map. `across` and `along`, in [0, 1), choose the fibre and the place
  * on it; `negative` is not 0 for a negative shear. Returns the lens coordinate; `x` receives the
- * film's, in pixels from the pixel's centre. The assignments of a kind to itself make it a
- * constant, so that compilers compile the loops over the filter's steps for each kind by itself. */
+ * film's, in pixels from the pixel's centre. */
 CS_INLINED cs_vfloat cs_fibre_map(cs_fibre_axis axis, cs_vfloat across, cs_vfloat along,
                                   int negative, cs_vfloat *x)
 {
-    cs_marginal marginal = *axis.marginal;
     cs_vfloat lens;
-    axis.marginal = &marginal;
     across = negative ? 1.0f - across : across;
-    if (marginal.kind == CS_MARGINAL_UNIFORM) {
-        marginal.kind = CS_MARGINAL_UNIFORM;
-        lens = cs_fibre_map_known(&axis, across, along, x);
-    } else if (marginal.kind == CS_MARGINAL_DISK) {
-        marginal.kind = CS_MARGINAL_DISK;
-        lens = cs_fibre_map_known(&axis, across, along, x);
-    } else if (marginal.kind == CS_MARGINAL_POLYGON) {
-        marginal.kind = CS_MARGINAL_POLYGON;
-        lens = cs_fibre_map_known(&axis, across, along, x);
-    } else {
-        marginal.kind = CS_MARGINAL_IMAGE;
-        lens = cs_fibre_map_known(&axis, across, along, x);
-    }
+    if (axis.marginal->kind == CS_MARGINAL_UNIFORM)
+        lens = cs_fibre_map_of_kind(axis, CS_MARGINAL_UNIFORM, across, along, x);
+    else if (axis.marginal->kind == CS_MARGINAL_DISK)
+        lens = cs_fibre_map_of_kind(axis, CS_MARGINAL_DISK, across, along, x);
+    else if (axis.marginal->kind == CS_MARGINAL_POLYGON)
+        lens = cs_fibre_map_of_kind(axis, CS_MARGINAL_POLYGON, across, along, x);
+    else
+        lens = cs_fibre_map_of_kind(axis, CS_MARGINAL_IMAGE, across, along, x);
     if (negative) *x = -*x;
     return lens;
 }

@@ -36,13 +36,6 @@ enum {
     CS_MARGINAL_LOW_SLOPE = 6 /* derivative of the lower end; for a polygon only */
 };
 
-typedef enum cs_marginal_kind {
-    CS_MARGINAL_UNIFORM,
-    CS_MARGINAL_DISK,
-    CS_MARGINAL_POLYGON,
-    CS_MARGINAL_IMAGE
-} cs_marginal_kind;
-
 /* A marginal distribution. */
 typedef struct cs_marginal {
     cs_marginal_kind kind; /* how the others are read */
@@ -74,10 +67,7 @@ CS_INLINED cs_marginal cs_marginal_of(cs_marginal_kind kind, cs_f32 reach, cs_f3
 /* The marginal of u of an aperture. `table` is the lens table of `optics`. */
 CS_INLINED cs_marginal cs_marginal_across(const cs_optics *optics, cs_optics_table table)
 {
-    cs_marginal_kind kind = optics->aperture == CS_APERTURE_SQUARE    ? CS_MARGINAL_UNIFORM
-                            : optics->aperture == CS_APERTURE_DISK    ? CS_MARGINAL_DISK
-                            : optics->aperture == CS_APERTURE_POLYGON ? CS_MARGINAL_POLYGON
-                                                                      : CS_MARGINAL_IMAGE;
+    cs_marginal_kind kind = (cs_marginal_kind)optics->marginal;
     cs_marginal marginal = cs_marginal_of(kind, optics->half_width[0], optics->deviation[0], table);
     marginal.segments = optics->segments[0];
     if (kind == CS_MARGINAL_IMAGE)
@@ -276,15 +266,15 @@ static inline cs_chord cs_chord_at(const cs_optics *optics, cs_optics_table tabl
     chord.marginal = cs_marginal_of(CS_MARGINAL_UNIFORM, 0.5f, 0.288675135f, table);
     chord.centre = (cs_vfloat)(0.0f);
     chord.length = (cs_vfloat)(1.0f);
-    if (optics->aperture == CS_APERTURE_DISK) {
+    if (optics->marginal == CS_MARGINAL_DISK) {
         cs_vfloat square = (CS_DISK_RADIUS - u) * (CS_DISK_RADIUS + u);
         chord.length = 2.0f * cs_sqrt(cs_max(square, (cs_vfloat)(0.0f)));
-    } else if (optics->aperture == CS_APERTURE_POLYGON) {
+    } else if (optics->marginal == CS_MARGINAL_POLYGON) {
         cs_marginal_row row = cs_marginal_pick(across, CS_MARGINAL_START, u);
         cs_vfloat step = u - row.start;
         chord.length = cs_max(row.density + step * row.slope, (cs_vfloat)(0.0f));
         chord.centre = row.low + step * row.low_slope + 0.5f * chord.length;
-    } else if (optics->aperture == CS_APERTURE_IMAGE) {
+    } else if (optics->marginal == CS_MARGINAL_IMAGE) {
         cs_marginal *marginal = &chord.marginal;
         *marginal =
             cs_marginal_of(CS_MARGINAL_IMAGE, optics->half_width[1], optics->deviation[1], table);

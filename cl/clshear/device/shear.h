@@ -99,11 +99,11 @@ static inline cs_camera_sample cs_unsheared(cs_vfloat a, cs_vfloat b, cs_vfloat 
     point.y = b;
     point.u = c - 0.5f;
     point.v = d - 0.5f;
-    if (optics->aperture == CS_APERTURE_DISK) cs_disk_from_square(&point.u, &point.v);
+    if (optics->marginal == CS_MARGINAL_DISK) cs_disk_from_square(&point.u, &point.v);
     if (optics->has_closed_form) return point;
     point.x = cs_filter_quantile(optics, table, a) + 0.5f;
     point.y = cs_filter_quantile(optics, table, b) + 0.5f;
-    if (optics->aperture == CS_APERTURE_DISK || optics->aperture == CS_APERTURE_SQUARE)
+    if (optics->marginal == CS_MARGINAL_DISK || optics->marginal == CS_MARGINAL_UNIFORM)
         return point;
     cs_marginal across = cs_marginal_across(optics, table);
     point.u = cs_marginal_quantile(&across, c);
@@ -133,9 +133,9 @@ static inline void cs_toroidal_axis(cs_vfloat *x, cs_vfloat *u, cs_vfloat half_c
 }
 
 /* Half the width of a disk or a square at the coordinate `other` of the other axis. */
-static inline cs_vfloat cs_half_chord(cs_vfloat other, cs_u32 aperture)
+static inline cs_vfloat cs_half_chord(cs_vfloat other, cs_u32 marginal)
 {
-    if (aperture == CS_APERTURE_SQUARE) return (cs_vfloat)(0.5f);
+    if (marginal == CS_MARGINAL_UNIFORM) return (cs_vfloat)(0.5f);
     return cs_sqrt(cs_max(CS_DISK_RADIUS * CS_DISK_RADIUS - other * other, (cs_vfloat)(0.0f)));
 }
 
@@ -145,10 +145,10 @@ static inline cs_camera_sample cs_toroidal(cs_vfloat a, cs_vfloat b, cs_vfloat c
                                            const cs_optics *optics, cs_optics_table table,
                                            cs_f32 shear)
 {
-    cs_u32 aperture = optics->aperture;
+    cs_u32 marginal = optics->marginal;
     cs_camera_sample point = cs_unsheared(a, b, c, d, optics, table);
-    cs_toroidal_axis(&point.x, &point.u, cs_half_chord(point.v, aperture), shear * optics->squeeze);
-    cs_toroidal_axis(&point.y, &point.v, cs_half_chord(point.u, aperture), shear);
+    cs_toroidal_axis(&point.x, &point.u, cs_half_chord(point.v, marginal), shear * optics->squeeze);
+    cs_toroidal_axis(&point.y, &point.v, cs_half_chord(point.u, marginal), shear);
     return point;
 }
 
@@ -157,7 +157,7 @@ static inline cs_camera_sample cs_toroidal(cs_vfloat a, cs_vfloat b, cs_vfloat c
 static inline int cs_shears_together(cs_u32 mode, const cs_optics *optics)
 {
     return mode == CS_SHEAR_EQUAL_AREA && optics->has_closed_form &&
-           optics->aperture == CS_APERTURE_DISK;
+           optics->marginal == CS_MARGINAL_DISK;
 }
 
 /* Keeps a point inside the width of the filter, which rounding may leave. */

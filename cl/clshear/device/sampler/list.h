@@ -1,20 +1,20 @@
+/* clang-format off */
 /* The table of samplers. The kernels' switch, the host's tables, the names on the command line and
  * the tests are all made from it.
  *
  * X(identifier, name, draw, extra, shape, table, progressive, about)
  *
- * identifier  CS_SAMPLER_<identifier> is the sampler's number.
- * name        Users call the sampler by it.
- * draw        cs_draw_<draw>, in this folder, makes the film and lens coordinates.
- * extra       cs_extra_<extra>, in this folder, makes the coordinates of any other slot.
- * shape       Rule for the numbers of samples that exist and for the grid under them
- * (host/pattern). table       Rule for the sample table (host/pattern); `none` if the sampler reads
- * no table. progressive 1 if the first n samples do not depend on how many follow, else 0. about
- * One line for users. */
+ * identifier   CS_SAMPLER_<identifier> is the sampler's number.
+ * name         Users call the sampler by it.
+ * draw         cs_draw_<draw>, in this folder, makes the film and lens coordinates.
+ * extra        cs_extra_<extra>, in this folder, makes the coordinates of any other slot.
+ * shape        Rule for the numbers of samples that exist and for the grid under them (host/pattern).
+ * table        Rule for the sample table (host/pattern); `none` if the sampler reads no table.
+ * progressive  1 if the first n samples do not depend on how many follow, else 0.
+ * about        One line for users. */
 #ifndef CLSHEAR_DEVICE_SAMPLER_LIST_H
 #define CLSHEAR_DEVICE_SAMPLER_LIST_H
 
-/* clang-format off */
 #define CS_SAMPLER_LIST(X) \
     X(RANDOM, "random", random, random, any, none, 1, "independent points") \
     X(JITTERED, "jittered", jittered, jittered, grid, none, 0, "2D strata, pairs paired at random") \

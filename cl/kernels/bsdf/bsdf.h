@@ -1,0 +1,72 @@
+/* The BSDF of whatever kinds a packet hit. Shared.
+ *
+ * Directions point away from the surface: `out` to the viewer, `in` to where the light comes from.
+ * Either may have any length above 0; a kind that needs unit vectors divides by their length. */
+#ifndef CS_BSDF_H
+#define CS_BSDF_H
+
+#include "kernels/bsdf/lambert.h"
+
+/* Lanes whose surface is of a kind: all of them, known to the compiler, while there is one kind. */
+static inline cs_vint cs_bsdf_lanes(const cs_surface *surface, cs_i32 kind)
+{
+    return CS_BSDF_KINDS == 1 ? (cs_vint)(-1) : (cs_vint)(surface->bsdf == (cs_vint)(kind));
+}
+
+/* Takes over the lanes in `mine`. */
+static inline void cs_bsdf_take_value(cs_bsdf_value *value, const cs_bsdf_value *from, cs_vint mine)
+{
+    value->scale = mine ? from->scale : value->scale;
+    for (int c = 0; c < 3; c++)
+        value->colour[c] = mine ? from->colour[c] : value->colour[c];
+}
+
+/* The value for two directions on the side of surface->normal; the cosine is not part of it. */
+static inline cs_bsdf_value cs_bsdf_eval(const cs_surface *surface, const cs_vfloat *out,
+                                         const cs_vfloat *in)
+{
+    cs_bsdf_value value;
+    value.scale = (cs_vfloat)(0.0f);
+    for (int c = 0; c < 3; c++)
+        value.colour[c] = (cs_vfloat)(0.0f);
+#define CS_BSDF_EVAL(identifier, name, suffix)                           \
+    {                                                                    \
+        cs_vint mine = cs_bsdf_lanes(surface, CS_BSDF_##identifier);     \
+        if (CS_BSDF_KINDS == 1 || cs_any(mine)) {                        \
+            cs_bsdf_value its = cs_bsdf_eval_##suffix(surface, out, in); \
+            cs_bsdf_take_value(&value, &its, mine);                      \
+        }                                                                \
+    }
+    CS_BSDF_LIST(CS_BSDF_EVAL)
+#undef CS_BSDF_EVAL
+    return value;
+}
+
+/* Draws a direction `in` by a point of the unit square in each lane. */
+static inline cs_bsdf_direction cs_bsdf_sample(const cs_surface *surface, const cs_vfloat *out,
+                                               cs_pair pair)
+{
+    cs_bsdf_direction drawn;
+    drawn.density = (cs_vfloat)(0.0f);
+    drawn.value.scale = (cs_vfloat)(0.0f);
+    for (int axis = 0; axis < 3; axis++) {
+        drawn.in[axis] = surface->normal[axis];
+        drawn.value.colour[axis] = (cs_vfloat)(0.0f);
+    }
+#define CS_BSDF_SAMPLE(identifier, name, suffix)                                 \
+    {                                                                            \
+        cs_vint mine = cs_bsdf_lanes(surface, CS_BSDF_##identifier);             \
+        if (CS_BSDF_KINDS == 1 || cs_any(mine)) {                                \
+            cs_bsdf_direction its = cs_bsdf_sample_##suffix(surface, out, pair); \
+            cs_bsdf_take_value(&drawn.value, &its.value, mine);                  \
+            drawn.density = mine ? its.density : drawn.density;                  \
+            for (int axis = 0; axis < 3; axis++)                                 \
+                drawn.in[axis] = mine ? its.in[axis] : drawn.in[axis];           \
+        }                                                                        \
+    }
+    CS_BSDF_LIST(CS_BSDF_SAMPLE)
+#undef CS_BSDF_SAMPLE
+    return drawn;
+}
+
+#endif

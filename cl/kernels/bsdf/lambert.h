@@ -1,0 +1,40 @@
+/* Lambert's diffuse surface: the same radiance in all directions. Shared. */
+#ifndef CS_BSDF_LAMBERT_H
+#define CS_BSDF_LAMBERT_H
+
+#include "clshear/device/disk.h"
+#include "kernels/bsdf/value.h"
+
+static inline cs_bsdf_value cs_bsdf_eval_lambert(const cs_surface *surface, const cs_vfloat *out,
+                                                 const cs_vfloat *in)
+{
+    cs_bsdf_value value;
+    (void)out;
+    (void)in;
+    value.scale = (cs_vfloat)(CS_INVERSE_PI);
+    for (int c = 0; c < 3; c++)
+        value.colour[c] = surface->albedo[c];
+    return value;
+}
+
+/* The density is proportional to the cosine: a uniform point of the disk, lifted to the hemisphere
+ * (Malley). */
+static inline cs_bsdf_direction cs_bsdf_sample_lambert(const cs_surface *surface,
+                                                       const cs_vfloat *out, cs_pair pair)
+{
+    cs_bsdf_direction drawn;
+    cs_vfloat tangent[3];
+    tangent[0] = pair.x - 0.5f;
+    tangent[1] = pair.y - 0.5f;
+    cs_disk_from_square(&tangent[0], &tangent[1]);
+    tangent[0] /= CS_DISK_RADIUS;
+    tangent[1] /= CS_DISK_RADIUS;
+    cs_vfloat square = 1.0f - tangent[0] * tangent[0] - tangent[1] * tangent[1];
+    tangent[2] = cs_sqrt(cs_max(square, (cs_vfloat)(0.0f)));
+    cs_from_local(surface->normal, tangent, drawn.in);
+    drawn.density = tangent[2] * CS_INVERSE_PI;
+    drawn.value = cs_bsdf_eval_lambert(surface, out, drawn.in);
+    return drawn;
+}
+
+#endif

@@ -1,0 +1,37 @@
+/* Lights that shine from one point or one direction. Device only. */
+#ifndef CS_LIGHT_DELTA_H
+#define CS_LIGHT_DELTA_H
+
+#include "kernels/light/sample.h"
+
+/* colour: radiant intensity. */
+static inline cs_light_sample cs_sample_light_point(CS_GLOBAL const cs_light *light,
+                                                    const cs_surface *surface)
+{
+    cs_light_sample sample;
+    for (int axis = 0; axis < 3; axis++) {
+        sample.towards[axis] = light->position[axis] - surface->point[axis];
+        sample.colour[axis] = (cs_vfloat)(light->colour[axis]);
+    }
+    cs_vfloat cosine = cs_dot(surface->normal, sample.towards);
+    cs_vfloat square = cs_max(cs_dot(sample.towards, sample.towards), (cs_vfloat)(1e-30f));
+    sample.weight = cosine / (square * sqrt(square));
+    sample.reach = 1.0f;
+    return sample;
+}
+
+/* colour: irradiance of a surface that faces the light. */
+static inline cs_light_sample cs_sample_light_directional(CS_GLOBAL const cs_light *light,
+                                                          const cs_surface *surface)
+{
+    cs_light_sample sample;
+    for (int axis = 0; axis < 3; axis++) {
+        sample.towards[axis] = (cs_vfloat)(light->axis[axis]);
+        sample.colour[axis] = (cs_vfloat)(light->colour[axis]);
+    }
+    sample.weight = cs_dot(surface->normal, sample.towards);
+    sample.reach = INFINITY;
+    return sample;
+}
+
+#endif

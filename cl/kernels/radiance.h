@@ -1,0 +1,70 @@
+/* The radiance along a packet of rays. Device only.
+ *
+ * Two-sided surfaces; direct light with shadow rays; emission seen directly counts. */
+#ifndef CS_RADIANCE_H
+#define CS_RADIANCE_H
+
+#include "kernels/bsdf/bsdf.h"
+#include "kernels/hits.h"
+#include "kernels/light/light.h"
+
+typedef struct cs_radiance {
+    cs_vfloat channel[3];
+    cs_vfloat shadow_rays; /* traced, a lane */
+} cs_radiance;
+
+/* Adds what a light reflects from the surface towards `out`. The shadow ray begins at `origin`, off
+ * the surface, and ends where `light->towards` does: what the light gives does not shift. */
+static inline void cs_add_light(const cs_scene_buffers *scene, const cs_surface *surface,
+                                const cs_vfloat *origin, const cs_vfloat *out,
+                                const cs_light_sample *light, cs_radiance *radiance)
+{
+    cs_vint facing =
+        surface->hit & (light->weight > 0.0f) & (cs_dot(surface->outward, light->towards) > 0.0f);
+    if (!cs_any(facing)) return;
+    cs_ray shadow;
+    for (int axis = 0; axis < 3; axis++) {
+        shadow.origin[axis] = origin[axis];
+        shadow.direction[axis] = light->towards[axis];
+        if (light->reach < INFINITY) shadow.direction[axis] += surface->point[axis] - origin[axis];
+    }
+    cs_hit blocked;
+    blocked.distance = facing ? (cs_vfloat)(light->reach) : (cs_vfloat)(-1.0f);
+    cs_traverse(scene->nodes, scene->triangles, &shadow, 1, &blocked);
+    cs_bsdf_value bsdf = cs_bsdf_eval(surface, out, light->towards);
+    cs_vfloat weight = blocked.distance > 0.0f ? light->weight * bsdf.scale : (cs_vfloat)(0.0f);
+    for (int c = 0; c < 3; c++)
+        radiance->channel[c] += weight * light->colour[c] * bsdf.colour[c];
+    radiance->shadow_rays += facing ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
+}
+
+/* Radiance that arrives at the lens along each ray. lights: their number. light_pair: the tuple's
+ * pair for area lights. */
+static inline cs_radiance cs_radiance_along(const cs_scene_buffers *scene, cs_u32 lights,
+                                            const cs_ray *ray, cs_pair light_pair, cs_vint active)
+{
+    cs_hit hit;
+    hit.distance = active ? (cs_vfloat)(INFINITY) : (cs_vfloat)(-1.0f);
+    cs_traverse(scene->nodes, scene->triangles, ray, 0, &hit);
+    cs_radiance radiance;
+    radiance.shadow_rays = (cs_vfloat)(0.0f);
+    for (int c = 0; c < 3; c++)
+        radiance.channel[c] = (cs_vfloat)(0.0f);
+    cs_vint seen = hit.triangle >= 0;
+    if (!cs_any(seen)) return radiance;
+    hit.distance = seen ? hit.distance : (cs_vfloat)(0.0f);
+    cs_surface surface = cs_describe_hits(scene, ray, &hit);
+    cs_vfloat origin[3], out[3];
+    cs_leave_surface(&surface, hit.distance, origin);
+    for (int i = 0; i < 3; i++) {
+        radiance.channel[i] = surface.emission[i];
+        out[i] = -ray->direction[i];
+    }
+    for (cs_u32 i = 0u; i < lights; i++) {
+        cs_light_sample light = cs_sample_light(scene, scene->lights + i, &surface, light_pair);
+        cs_add_light(scene, &surface, origin, out, &light, &radiance);
+    }
+    return radiance;
+}
+
+#endif

@@ -1,0 +1,58 @@
+/* Bilinear lookup in the scene's textures. Device only. */
+#ifndef CS_TEXTURE_H
+#define CS_TEXTURE_H
+
+#include "clshear/device/packet.h"
+#include "kernels/scene_buffers.h"
+
+/* Between which two of `size` texels the repeating coordinate `place` lies, and how far on. */
+typedef struct cs_texel_pair {
+    cs_int_lanes first;
+    cs_int_lanes second;
+    cs_float_lanes part;
+} cs_texel_pair;
+
+static inline cs_texel_pair cs_texels_at(cs_vfloat place, cs_u32 size)
+{
+    cs_f32 last = (cs_f32)size - 1.0f;
+    cs_vfloat centre = (place - floor(place)) * (cs_f32)size - 0.5f;
+    cs_vfloat before = floor(centre);
+    /* Rounding may reach the far edge; the limits also hold what huge coordinates give. */
+    cs_vfloat first = before < 0.0f ? (cs_vfloat)(last) : cs_min(before, (cs_vfloat)(last));
+    cs_vfloat second =
+        before + 1.0f > last ? (cs_vfloat)(0.0f) : cs_max(before + 1.0f, (cs_vfloat)(0.0f));
+    cs_texel_pair pair;
+    pair.first.all = CS_OVER_LANES(convert_int)(first);
+    pair.second.all = CS_OVER_LANES(convert_int)(cs_min(second, (cs_vfloat)(last)));
+    pair.part.all = centre - before;
+    return pair;
+}
+
+/* Bilinear, repeating, at the texture coordinates (s, t) of the lanes that are `wanted`; (0, 0) is
+ * the lower left corner of the image. */
+static inline void cs_texels(const cs_scene_buffers *scene, cs_u32 texture, cs_vfloat s,
+                             cs_vfloat t, cs_int_lanes wanted, cs_float_lanes *colour)
+{
+    CS_GLOBAL const cs_texture *image = scene->textures + texture;
+    cs_texel_pair x = cs_texels_at(s, image->width);
+    cs_texel_pair y = cs_texels_at(1.0f - (t - floor(t)), image->height);
+    y.first.all *= (cs_i32)image->width;
+    y.second.all *= (cs_i32)image->width;
+    CS_GLOBAL const half *texels = scene->texels + 4u * (size_t)image->first;
+    for (int lane = 0; lane < CS_PACKET; lane++) {
+        if (!wanted.lane[lane]) continue;
+        size_t left = (size_t)x.first.lane[lane], right = (size_t)x.second.lane[lane];
+        size_t above = (size_t)y.first.lane[lane], below = (size_t)y.second.lane[lane];
+        cs_f32 across = x.part.lane[lane];
+        float4 upper =
+            mix(vload_half4(above + left, texels), vload_half4(above + right, texels), across);
+        float4 lower =
+            mix(vload_half4(below + left, texels), vload_half4(below + right, texels), across);
+        float4 value = mix(upper, lower, y.part.lane[lane]);
+        colour[0].lane[lane] = value.x;
+        colour[1].lane[lane] = value.y;
+        colour[2].lane[lane] = value.z;
+    }
+}
+
+#endif

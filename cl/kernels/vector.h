@@ -1,0 +1,12 @@
+/* Products of vectors of lanes. Device only. */
+#ifndef CS_KERNELS_VECTOR_H
+#define CS_KERNELS_VECTOR_H
+
+#include "clshear/device/packet.h"
+
+static inline cs_vfloat cs_dot(const cs_vfloat *a, const cs_vfloat *b)
+{
+    return fma(a[0], b[0], fma(a[1], b[1], a[2] * b[2]));
+}
+
+#endif

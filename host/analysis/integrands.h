@@ -1,0 +1,17 @@
+/* Integrands of the unit square, and means of functions over point sets. */
+#ifndef CS_ANALYSIS_INTEGRANDS_H
+#define CS_ANALYSIS_INTEGRANDS_H
+
+#include "points/points.h"
+
+/* As the public functions of these names; fail with the calling thread's message. */
+clshear_status cs_integrand_find(const char *name, clshear_integrand *integrand);
+double cs_integrand_at(const clshear_integrand *integrand, double x, double y);
+clshear_status cs_integrand_tabulate(const clshear_integrand *integrand, size_t side, float *cells,
+                                     double *mean_square);
+void cs_points_integrate(const clshear_points *points, const clshear_integrand *integrand,
+                         int homogenise, uint32_t seed, double *means);
+clshear_status cs_points_integrate_4d(const clshear_points *points, clshear_function function,
+                                      void *user, int homogenise, uint32_t seed, double *means);
+
+#endif

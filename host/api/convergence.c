@@ -1,0 +1,118 @@
+/* Public functions of convergence studies and fits. */
+#include <stdlib.h>
+
+#include "analysis/fit.h"
+#include "api/arguments.h"
+#include "study/convergence.h"
+
+clshear_status clshear_fit_slope(const uint32_t *counts, size_t sizes, const double *means,
+                                 size_t replicates, const double *reference, double *errors,
+                                 clshear_fit *fit)
+{
+    clshear_fit made;
+    CS_NEEDS(counts);
+    CS_NEEDS(means);
+    CS_NEEDS(errors);
+    CS_NEEDS(fit);
+    const clshear_status status =
+        cs_fit_slope(counts, sizes, means, replicates, reference, errors, &made);
+    if (status == CLSHEAR_OK) cs_struct_out(fit, &made, sizeof made);
+    return status;
+}
+
+clshear_status clshear_fit_slope_of_parts(const uint32_t *counts, size_t sizes, const double *parts,
+                                          size_t count, double *errors, clshear_fit *fit)
+{
+    clshear_fit made;
+    CS_NEEDS(counts);
+    CS_NEEDS(parts);
+    CS_NEEDS(errors);
+    CS_NEEDS(fit);
+    const clshear_status status = cs_fit_slope_of_parts(counts, sizes, parts, count, errors, &made);
+    if (status == CLSHEAR_OK) cs_struct_out(fit, &made, sizeof made);
+    return status;
+}
+
+static clshear_status check_study(const cs_study *study)
+{
+    if (study->counts != NULL && study->sizes >= 2 && study->replicates >= 2) return CLSHEAR_OK;
+    return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,
+                   "%zu sizes of %u replicates: must be 2 or more of both", study->sizes,
+                   study->replicates);
+}
+
+/* Hands a result over to the caller, or frees it after a failure. */
+static clshear_status hand_over(clshear_status status, clshear_convergence *made,
+                                clshear_convergence **result)
+{
+    clshear_convergence *handle = cs_handle(&status, made, sizeof *made);
+    if (handle != NULL)
+        *result = handle;
+    else
+        cs_convergence_free(made);
+    return status;
+}
+
+clshear_status clshear_converge_integrand(const clshear_integrand *integrand, const char *sampler,
+                                          uint32_t seed, const uint32_t *counts, size_t sizes,
+                                          uint32_t replicates, const double *reference,
+                                          clshear_convergence **result)
+{
+    CS_NEEDS(integrand);
+    CS_NEEDS(result);
+    clshear_convergence made = {0};
+    const cs_study study = {counts, sizes, replicates};
+    clshear_status status = check_study(&study);
+    if (status == CLSHEAR_OK)
+        status = cs_converge_integrand(integrand, sampler, seed, &study, reference, &made,
+                                       cs_thread_error());
+    return hand_over(status, &made, result);
+}
+
+clshear_status clshear_converge_pixel(clshear_scene *scene, const clshear_settings *settings, int x,
+                                      int y, const uint32_t *counts, size_t sizes,
+                                      uint32_t replicates, const double *reference,
+                                      clshear_convergence **result)
+{
+    CS_NEEDS(scene);
+    CS_NEEDS(result);
+    clshear_convergence made = {0};
+    const cs_study study = {counts, sizes, replicates};
+    clshear_status status = check_study(&study);
+    if (status == CLSHEAR_OK)
+        status =
+            cs_converge_pixel(scene, settings, x, y, &study, reference, &made, cs_thread_error());
+    return cs_message_keep(&scene->message, hand_over(status, &made, result));
+}
+
+clshear_status clshear_converge_image(clshear_scene *scene, const clshear_settings *settings,
+                                      const uint32_t *counts, size_t sizes, uint32_t replicates,
+                                      const clshear_film *reference, clshear_convergence **result)
+{
+    CS_NEEDS(scene);
+    CS_NEEDS(settings);
+    CS_NEEDS(result);
+    clshear_convergence made = {0};
+    const cs_study study = {counts, sizes, replicates};
+    clshear_status status = check_study(&study);
+    if (status == CLSHEAR_OK)
+        status = cs_converge_image(scene, settings, &study, reference, &made, cs_thread_error());
+    return cs_message_keep(&scene->message, hand_over(status, &made, result));
+}
+
+void clshear_convergence_free(clshear_convergence *result)
+{
+    if (result == NULL) return;
+    cs_convergence_free(result);
+    free(result);
+}
+
+CS_GETTER(size_t, convergence, sizes)
+CS_GETTER(double, convergence, mean)
+CS_GETTER_AT(uint32_t, convergence, count, counts)
+CS_GETTER_AT(double, convergence, error, errors)
+
+void clshear_convergence_fit(const clshear_convergence *result, clshear_fit *fit)
+{
+    cs_struct_out(fit, &result->fit, sizeof result->fit);
+}

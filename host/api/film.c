@@ -1,0 +1,86 @@
+/* Public functions of films. */
+#include <math.h>
+#include <stdio.h>
+
+#include "api/arguments.h"
+#include "film/film.h"
+
+void clshear_film_describe(const clshear_film *film, clshear_film_info *info)
+{
+    cs_struct_out(info, &film->info, sizeof film->info);
+}
+
+const char *clshear_film_channel_name(const clshear_film *film, size_t index)
+{
+    return cs_film_channel_name(film, index);
+}
+
+const float *clshear_film_channel(const clshear_film *film, const char *name)
+{
+    return cs_film_channel(film, name);
+}
+
+clshear_status clshear_film_copy(clshear_film *film, const char *const *channels, size_t count,
+                                 void *target, size_t pixel_stride, size_t row_stride)
+{
+    CS_NEEDS(film);
+    CS_NEEDS(channels);
+    CS_NEEDS(target);
+    return cs_message_keep(&film->message,
+                           cs_film_copy(film, channels, count, target, pixel_stride, row_stride));
+}
+
+double clshear_film_mean_variance(const clshear_film *film)
+{
+    const size_t pixels = (size_t)film->info.width * (size_t)film->info.height;
+    double sum = 0.0;
+    for (const char *colour = "RGB"; *colour != '\0'; colour++) {
+        char name[16];
+        snprintf(name, sizeof name, "Variance.%c", *colour);
+        const float *plane = cs_film_channel(film, name);
+        if (plane == NULL) return NAN;
+        for (size_t i = 0; i < pixels; i++)
+            sum += (double)plane[i];
+    }
+    return sum / (3.0 * (double)pixels);
+}
+
+clshear_status clshear_film_annotate(clshear_film *film, const char *name, const char *text)
+{
+    CS_NEEDS(film);
+    CS_NEEDS(name);
+    CS_NEEDS(text);
+    return cs_message_keep(&film->message, cs_film_annotate(film, name, text));
+}
+
+clshear_status clshear_film_read(const char *path, clshear_film **film)
+{
+    CS_NEEDS(path);
+    CS_NEEDS(film);
+    return cs_film_read(path, cs_thread_error(), film);
+}
+
+clshear_status clshear_film_write(clshear_film *film, const char *path)
+{
+    CS_NEEDS(film);
+    CS_NEEDS(path);
+    return cs_message_keep(&film->message, cs_film_write(film, path));
+}
+
+clshear_status clshear_film_write_ratio(clshear_film *film, const char *channel, const char *path)
+{
+    CS_NEEDS(film);
+    CS_NEEDS(channel);
+    CS_NEEDS(path);
+    return cs_message_keep(&film->message, cs_film_write_ratio(film, channel, path));
+}
+
+const char *clshear_film_message(const clshear_film *film)
+{
+    return film != NULL ? cs_message_text(&film->message) : "";
+}
+
+void clshear_film_free(clshear_film *film)
+{
+    cs_film_free(film);
+}

@@ -1,0 +1,92 @@
+/* Public functions of point sets. */
+#include "points/points.h"
+
+#include <stdlib.h>
+
+#include "analysis/integrands.h"
+#include "api/arguments.h"
+
+/* Hands a point set over to the caller, or frees it after a failure. */
+static clshear_status hand_over(clshear_status status, clshear_points *made,
+                                clshear_points **points)
+{
+    clshear_points *handle = cs_handle(&status, made, sizeof *made);
+    if (handle != NULL)
+        *points = handle;
+    else
+        cs_points_free(made);
+    return status;
+}
+
+clshear_status clshear_points_draw(const char *sampler, size_t count, size_t sets, uint32_t seed,
+                                   clshear_points **points)
+{
+    CS_NEEDS(points);
+    clshear_points made = {0};
+    return hand_over(cs_points_draw(sampler, count, sets, seed, &made), &made, points);
+}
+
+clshear_status clshear_points_create(const float *values, size_t sets, size_t count,
+                                     const char *names, clshear_points **points)
+{
+    CS_NEEDS(values);
+    CS_NEEDS(names);
+    CS_NEEDS(points);
+    clshear_points made = {0};
+    return hand_over(cs_points_take(values, sets, count, names, &made), &made, points);
+}
+
+clshear_status clshear_points_read(const char *path, clshear_points **points)
+{
+    CS_NEEDS(path);
+    CS_NEEDS(points);
+    clshear_points made = {0};
+    return hand_over(cs_points_read(path, &made), &made, points);
+}
+
+void clshear_points_free(clshear_points *points)
+{
+    if (points == NULL) return;
+    cs_points_free(points);
+    free(points);
+}
+
+CS_GETTER(const float *, points, values)
+CS_GETTER(size_t, points, sets)
+CS_GETTER(size_t, points, count)
+CS_GETTER(size_t, points, dimensions)
+CS_GETTER(const char *, points, names)
+
+clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear, float shear_px)
+{
+    CS_NEEDS(points);
+    return cs_points_shear(points, shear, shear_px);
+}
+
+clshear_status clshear_points_select(clshear_points *points, const char *names)
+{
+    CS_NEEDS(points);
+    CS_NEEDS(names);
+    return cs_points_select(points, names);
+}
+
+clshear_status clshear_points_write(const clshear_points *points, const char *path)
+{
+    CS_NEEDS(points);
+    CS_NEEDS(path);
+    return cs_points_write(points, path);
+}
+
+void clshear_points_integrate(const clshear_points *points, const clshear_integrand *integrand,
+                              int homogenise, uint32_t seed, double *means)
+{
+    cs_points_integrate(points, integrand, homogenise, seed, means);
+}
+
+clshear_status clshear_points_integrate_4d(const clshear_points *points, clshear_function function,
+                                           void *user, int homogenise, uint32_t seed, double *means)
+{
+    CS_NEEDS(points);
+    CS_NEEDS(means);
+    return cs_points_integrate_4d(points, function, user, homogenise, seed, means);
+}

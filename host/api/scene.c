@@ -1,0 +1,109 @@
+/* Public functions of scenes and of the camera that looks at them. */
+#include "api/arguments.h"
+#include "render/camera_choice.h"
+#include "render/objects.h"
+
+clshear_status clshear_scene_load(clshear_context *context, const char *path,
+                                  clshear_scene **result)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_error *error = cs_thread_error();
+    clshear_scene *scene = NULL;
+    CS_NEEDS(context);
+    CS_NEEDS(path);
+    CS_NEEDS(result);
+    CS_TRY(cs_scene_new(context, &scene, error));
+    CS_TRY(cs_scene_read(scene, path, error));
+    CS_TRY(cs_scene_complete(scene, error));
+    *result = scene;
+    scene = NULL;
+done:
+    cs_scene_destroy(scene);
+    return cs_message_keep(&context->message, status);
+}
+
+clshear_status clshear_scene_create(clshear_context *context, clshear_scene **scene)
+{
+    CS_NEEDS(context);
+    CS_NEEDS(scene);
+    return cs_message_keep(&context->message, cs_scene_new(context, scene, cs_thread_error()));
+}
+
+clshear_status clshear_scene_add_mesh(clshear_scene *scene, const clshear_mesh *mesh)
+{
+    clshear_mesh copy;
+    CS_NEEDS(scene);
+    CS_NEEDS(mesh);
+    clshear_status status = cs_struct_in(&copy, sizeof copy, mesh, "mesh");
+    if (status == CLSHEAR_OK) status = cs_scene_append(scene, &copy, cs_thread_error());
+    return cs_message_keep(&scene->message, status);
+}
+
+clshear_status clshear_scene_complete(clshear_scene *scene)
+{
+    cs_error *error = cs_thread_error();
+    CS_NEEDS(scene);
+    clshear_status status = CLSHEAR_OK;
+    CS_REQUIRE(!scene->is_complete, CLSHEAR_BAD_ARGUMENT, "the scene is complete already");
+    CS_TRY(cs_scene_finish(&scene->scene, "scene", error));
+    CS_TRY(cs_scene_complete(scene, error));
+done:
+    if (status == CLSHEAR_BAD_FILE) status = CLSHEAR_BAD_ARGUMENT; /* there is no file */
+    return cs_message_keep(&scene->message, status);
+}
+
+clshear_status clshear_scene_add_light(clshear_scene *scene, const clshear_light *light)
+{
+    clshear_light copy;
+    CS_NEEDS(scene);
+    CS_NEEDS(light);
+    clshear_status status = cs_struct_in(&copy, sizeof copy, light, "light");
+    if (status == CLSHEAR_OK) status = cs_scene_light(scene, &copy, cs_thread_error());
+    return cs_message_keep(&scene->message, status);
+}
+
+void clshear_scene_describe(const clshear_scene *scene, clshear_scene_info *info)
+{
+    clshear_scene_info described = scene->info;
+    described.lights = scene->scene.lights.count;
+    described.emitters = scene->device_scene.emitters;
+    cs_struct_out(info, &described, sizeof described);
+}
+
+const char *clshear_scene_message(const clshear_scene *scene)
+{
+    return scene != NULL ? cs_message_text(&scene->message) : "";
+}
+
+void clshear_scene_free(clshear_scene *scene)
+{
+    cs_scene_destroy(scene);
+}
+
+/* Whether the scene can be looked at. */
+static clshear_status check_complete(const clshear_scene *scene)
+{
+    if (scene->is_complete) return CLSHEAR_OK;
+    return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT, "the scene is not complete");
+}
+
+clshear_status clshear_camera_complete(const clshear_scene *scene, clshear_settings *settings)
+{
+    CS_NEEDS(scene);
+    CS_NEEDS(settings);
+    clshear_status status = check_complete(scene);
+    if (status == CLSHEAR_OK) status = cs_camera_complete(scene, settings, cs_thread_error());
+    return cs_message_keep(&scene->message, status);
+}
+
+clshear_status clshear_camera_focus(const clshear_scene *scene, clshear_settings *settings, int x,
+                                    int y)
+{
+    CS_NEEDS(scene);
+    CS_NEEDS(settings);
+    cs_error *error = cs_thread_error();
+    clshear_status status = check_complete(scene);
+    if (status == CLSHEAR_OK) status = cs_camera_pose(scene, settings, error);
+    if (status == CLSHEAR_OK) status = cs_camera_focus(scene, settings, x, y, error);
+    return cs_message_keep(&scene->message, status);
+}

@@ -1,0 +1,90 @@
+/* Public functions of spectra, and of written planes. */
+#include "analysis/spectrum.h"
+
+#include <stdlib.h>
+
+#include "api/arguments.h"
+
+/* Hands a spectrum over to the caller, or frees it after a failure. */
+static clshear_status hand_over(clshear_status status, clshear_spectrum *made,
+                                clshear_spectrum **spectrum)
+{
+    clshear_spectrum *handle = cs_handle(&status, made, sizeof *made);
+    if (handle != NULL)
+        *spectrum = handle;
+    else
+        cs_spectrum_free(made);
+    return status;
+}
+
+clshear_status clshear_spectrum_measure(clshear_context *context, const clshear_points *points,
+                                        size_t width, size_t height, clshear_spectrum **spectrum)
+{
+    CS_NEEDS(context);
+    CS_NEEDS(points);
+    CS_NEEDS(spectrum);
+    clshear_spectrum made = {0};
+    const clshear_status status = cs_spectrum_measure(context, points, width, height, &made);
+    return cs_message_keep(&context->message, hand_over(status, &made, spectrum));
+}
+
+clshear_status clshear_spectrum_of_grid(const float *values, size_t width, size_t height,
+                                        clshear_spectrum **spectrum)
+{
+    CS_NEEDS(values);
+    CS_NEEDS(spectrum);
+    clshear_spectrum made = {0};
+    return hand_over(cs_spectrum_of_grid(values, width, height, &made), &made, spectrum);
+}
+
+clshear_status clshear_spectrum_of_slice(const float *values, size_t width, size_t height,
+                                         clshear_spectrum **spectrum)
+{
+    CS_NEEDS(values);
+    CS_NEEDS(spectrum);
+    clshear_spectrum made = {0};
+    return hand_over(cs_spectrum_of_slice(values, width, height, &made), &made, spectrum);
+}
+
+void clshear_spectrum_free(clshear_spectrum *spectrum)
+{
+    if (spectrum == NULL) return;
+    cs_spectrum_free(spectrum);
+    free(spectrum);
+}
+
+CS_GETTER(const float *, spectrum, power)
+CS_GETTER(size_t, spectrum, width)
+CS_GETTER(size_t, spectrum, height)
+
+size_t clshear_spectrum_radius(const clshear_spectrum *spectrum)
+{
+    return cs_spectrum_radius(spectrum);
+}
+
+void clshear_spectrum_radial(const clshear_spectrum *spectrum, float *mean, float *anisotropy_db)
+{
+    cs_spectrum_radial(spectrum, mean, anisotropy_db);
+}
+
+void clshear_spectrum_along(const clshear_spectrum *spectrum, double x, double y, float *power)
+{
+    cs_spectrum_along(spectrum, x, y, power);
+}
+
+clshear_status clshear_spectrum_write(const clshear_spectrum *spectrum, int keep_dc,
+                                      const char *path)
+{
+    CS_NEEDS(spectrum);
+    CS_NEEDS(path);
+    return cs_spectrum_write(spectrum, keep_dc, path);
+}
+
+clshear_status clshear_image_write(const char *path, int width, int height, size_t channels,
+                                   const char *const *names, const float *const *planes)
+{
+    CS_NEEDS(path);
+    CS_NEEDS(names);
+    CS_NEEDS(planes);
+    return cs_planes_write(path, width, height, channels, names, planes);
+}

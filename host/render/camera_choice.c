@@ -1,0 +1,129 @@
+#include "render/camera_choice.h"
+
+#include <math.h>
+
+#include "base/vec.h"
+#include "scene/camera.h"
+#include "settings/view.h"
+
+static const float blur_at_infinity = 0.03f; /* of the shorter image axis, for a lens not chosen */
+static const float half_sensor_m = 0.012f;   /* half the short side of a full-frame sensor */
+
+static float tangent_of_half_fov(const cs_view *view)
+{
+    return tanf(0.5f * view->fov_deg * (CS_PI / 180.0f));
+}
+
+static clshear_status set_one(clshear_settings *settings, clshear_setting setting, float value,
+                              cs_error *error)
+{
+    const double number = (double)value;
+    return cs_settings_set(settings, setting, &number, 1, error);
+}
+
+static clshear_status set_vector(clshear_settings *settings, clshear_setting setting,
+                                 const float *vector, cs_error *error)
+{
+    const double numbers[3] = {(double)vector[0], (double)vector[1], (double)vector[2]};
+    return cs_settings_set(settings, setting, numbers, 3, error);
+}
+
+clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *settings,
+                              cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const cs_view view = cs_camera_of_scene(&scene->scene, (int)cs_integer(settings, WIDTH),
+                                            (int)cs_integer(settings, HEIGHT));
+    if (!cs_is_set(settings, EYE)) CS_TRY(set_vector(settings, CLSHEAR_EYE, view.eye, error));
+    if (!cs_is_set(settings, TARGET))
+        CS_TRY(set_vector(settings, CLSHEAR_TARGET, view.target, error));
+    if (!cs_is_set(settings, UP)) CS_TRY(set_vector(settings, CLSHEAR_UP, view.up, error));
+    if (!cs_is_set(settings, FOV)) CS_TRY(set_one(settings, CLSHEAR_FOV, view.fov_deg, error));
+done:
+    return status;
+}
+
+/* Depth that pixel (x, y) sees, infinite if it sees nothing. */
+static clshear_status depth_at(const clshear_scene *scene, const clshear_settings *settings, int x,
+                               int y, float *depth, cs_error *error)
+{
+    const int width = (int)cs_integer(settings, WIDTH), height = (int)cs_integer(settings, HEIGHT);
+    const int window[4] = {x, x + 1, y, y + 1};
+    cs_view view;
+    cs_camera camera;
+    cs_depth found;
+    if (x < 0 || y < 0 || x >= width || y >= height)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "pixel %d,%d is outside the %d x %d image", x,
+                       y, width, height);
+    cs_view_of(settings, &view);
+    clshear_status status = cs_camera_frame(&view, width, height, &camera, error);
+    if (status == CLSHEAR_OK)
+        status = cs_accel_depth(scene->accel, &camera, NULL, window, 0, &found, error);
+    if (status == CLSHEAR_OK) *depth = found.centre;
+    return status;
+}
+
+clshear_status cs_camera_focus(const clshear_scene *scene, clshear_settings *settings, int x, int y,
+                               cs_error *error)
+{
+    float depth = INFINITY;
+    clshear_status status = depth_at(scene, settings, x, y, &depth, error);
+    if (status != CLSHEAR_OK) return status;
+    if (!isfinite(depth))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "pixel %d,%d sees nothing to focus on; choose another or give a distance", x,
+                       y);
+    return set_one(settings, CLSHEAR_FOCAL_DISTANCE, depth, error);
+}
+
+/* Depth of the bounding box's centre; 1 if it lies behind the camera. */
+static float depth_of_centre(const cs_scene *scene, const cs_view *view)
+{
+    float towards[3], centre[3];
+    cs_vec_subtract(view->target, view->eye, towards);
+    for (int i = 0; i < 3; i++)
+        centre[i] = 0.5f * (scene->bounds[0][i] + scene->bounds[1][i]) - view->eye[i];
+    const float along = cs_vec_dot(towards, centre);
+    return along > 0.0f ? along / sqrtf(cs_vec_dot(towards, towards)) : 1.0f;
+}
+
+static clshear_status choose_focus(const clshear_scene *scene, clshear_settings *settings,
+                                   cs_error *error)
+{
+    cs_view view;
+    float depth = INFINITY;
+    if (cs_is_set(settings, FOCAL_DISTANCE)) return CLSHEAR_OK;
+    if (cs_is_set(settings, FOCUS_PIXEL)) {
+        const double *pixel = cs_numbers(settings, FOCUS_PIXEL);
+        return cs_camera_focus(scene, settings, (int)pixel[0], (int)pixel[1], error);
+    }
+    clshear_status status = depth_at(scene, settings, (int)cs_integer(settings, WIDTH) / 2,
+                                     (int)cs_integer(settings, HEIGHT) / 2, &depth, error);
+    if (status != CLSHEAR_OK) return status;
+    cs_view_of(settings, &view);
+    if (!isfinite(depth)) depth = depth_of_centre(&scene->scene, &view);
+    return set_one(settings, CLSHEAR_FOCAL_DISTANCE, depth, error);
+}
+
+static clshear_status choose_lens(clshear_settings *settings, cs_error *error)
+{
+    cs_view view;
+    if (cs_is_set(settings, LENS_RADIUS)) return CLSHEAR_OK;
+    cs_view_of(settings, &view);
+    float radius =
+        0.5f * blur_at_infinity * 2.0f * view.focal_distance * tangent_of_half_fov(&view);
+    if (cs_is_set(settings, F_STOP)) {
+        const float focal_length_m = half_sensor_m / tangent_of_half_fov(&view);
+        radius = focal_length_m / (2.0f * (float)cs_number(settings, F_STOP)) /
+                 (float)cs_number(settings, UNIT);
+    }
+    return set_one(settings, CLSHEAR_LENS_RADIUS, radius, error);
+}
+
+clshear_status cs_camera_complete(const clshear_scene *scene, clshear_settings *settings,
+                                  cs_error *error)
+{
+    clshear_status status = cs_camera_pose(scene, settings, error);
+    if (status == CLSHEAR_OK) status = choose_focus(scene, settings, error);
+    return status == CLSHEAR_OK ? choose_lens(settings, error) : status;
+}

@@ -1,0 +1,61 @@
+/* The insides of a scene. */
+#ifndef CS_RENDER_OBJECTS_H
+#define CS_RENDER_OBJECTS_H
+
+#include "accel/accel.h"
+#include "clshear/clshear.h"
+#include "context/context.h"
+#include "scene/scene.h"
+
+/* A scene on the device. */
+typedef struct cs_device_scene {
+    cs_buffer *buffers[CS_SCENE_BUFFERS]; /* in the order of kernels' arguments */
+    uint32_t lights;                      /* all emissive triangles together are one */
+    uint32_t emitters;                    /* emissive triangles */
+    size_t geometry_bytes;
+} cs_device_scene;
+
+struct clshear_scene {
+    clshear_context *context; /* kept alive by the scene */
+    cs_message message;
+    cs_scene scene;
+    cs_accel *accel;
+    cs_device_scene device_scene;
+    clshear_scene_info info;
+    int is_complete;
+};
+
+/* An empty scene; freed by cs_scene_destroy, which accepts NULL. */
+clshear_status cs_scene_new(clshear_context *context, clshear_scene **scene, cs_error *error);
+void cs_scene_destroy(clshear_scene *scene);
+
+/* Reads a file into an empty scene. */
+clshear_status cs_scene_read(clshear_scene *scene, const char *path, cs_error *error);
+
+/* From triangles to something that can be rendered: hierarchy and device buffers. */
+clshear_status cs_scene_complete(clshear_scene *scene, cs_error *error);
+
+/* Adds a mesh of one material before the scene is complete. */
+clshear_status cs_scene_append(clshear_scene *scene, const clshear_mesh *mesh, cs_error *error);
+
+/* Adds a light, before or after. */
+clshear_status cs_scene_light(clshear_scene *scene, const clshear_light *light, cs_error *error);
+
+/* The scene's buffers in the order of the list, with `lights` in the place of its own lights. */
+void cs_scene_buffers_of(const clshear_scene *scene, const cs_buffer *lights,
+                         const cs_buffer *buffers[CS_SCENE_BUFFERS]);
+
+/* A row of the list of buffers as an initialiser of a cs_argument. `buffers`, a name where the list
+ * is expanded, is that of an array of buffers. */
+#define CS_SCENE_ARGUMENT(identifier, name, type) {.buffer = buffers[CS_SCENE_##identifier]},
+
+/* Puts geometry, materials and textures on the device. `bvh` is not needed afterwards. */
+clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const cs_scene *scene,
+                               const cs_flat_bvh *bvh, cs_error *error);
+
+/* Puts the lights there, again after each change; the default light where there is none. */
+clshear_status cs_scene_upload_lights(cs_device_scene *world, cs_device *device,
+                                      const cs_scene *scene, cs_error *error);
+void cs_device_scene_free(cs_device_scene *world);
+
+#endif

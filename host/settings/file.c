@@ -1,0 +1,100 @@
+/* Settings files: one setting a line. */
+#include <ctype.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "settings/settings.h"
+
+/* All of a text file, with a closing 0; NULL, with errno, if it cannot be read. Freed by the
+ * caller. */
+static char *read_text(const char *path)
+{
+    FILE *stream = fopen(path, "rb");
+    if (stream == NULL) return NULL;
+    size_t size = 0, capacity = 1 << 12, got;
+    char *text = malloc(capacity + 1);
+    while (text != NULL && (got = fread(text + size, 1, capacity - size, stream)) > 0) {
+        size += got;
+        if (size < capacity) continue;
+        capacity *= 2;
+        char *larger = realloc(text, capacity + 1);
+        if (larger == NULL) free(text);
+        text = larger;
+    }
+    const int reason = ferror(stream) ? errno : 0;
+    fclose(stream);
+    if (text != NULL) text[size] = '\0';
+    if (reason == 0) return text;
+    free(text);
+    errno = reason;
+    return NULL;
+}
+
+/* A line cut in place into name and value; the name is empty for a line without a setting. */
+typedef struct words {
+    char *name;
+    char *value; /* NULL: none */
+} words;
+
+static words cut_line(char *line)
+{
+    char *comment = strchr(line, '#');
+    if (comment != NULL) *comment = '\0';
+    line += strspn(line, " \t-");
+    size_t end = strlen(line);
+    while (end > 0 && isspace((unsigned char)line[end - 1]))
+        line[--end] = '\0';
+    const size_t length = strcspn(line, " \t=");
+    words found = {line, line + length};
+    found.value += strspn(found.value, " \t=");
+    if (*found.value == '\0') found.value = NULL;
+    line[length] = '\0';
+    return found;
+}
+
+/* Applies a line that names a setting. The message begins with file and line. */
+static clshear_status apply(clshear_settings *settings, size_t index, const char *place,
+                            const words *line, cs_error *error)
+{
+    const cs_setting *entry = &cs_setting_table[index];
+    const int takes_value = entry->kind != CLSHEAR_SWITCH;
+    if (takes_value && line->value == NULL)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s%s needs a value: %s", place, line->name,
+                       entry->argument);
+    const char *value = line->value != NULL ? line->value : "1";
+    cs_error reason;
+    const clshear_status status = cs_settings_set_text(settings, index, value, &reason);
+    if (status == CLSHEAR_OK) return status;
+    return cs_fail(error, status, "%s%s", place, reason.message);
+}
+
+clshear_status cs_settings_read(clshear_settings *settings, const char *path,
+                                int (*other)(void *user, const char *file, int line,
+                                             const char *name, const char *value),
+                                void *user, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    char *text = read_text(path), place[600];
+    int number = 1;
+    CS_REQUIRE(text != NULL, CLSHEAR_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
+    for (char *line = text; line != NULL; number++) {
+        char *next = strchr(line, '\n');
+        if (next != NULL) *next++ = '\0';
+        const words found = cut_line(line);
+        line = next;
+        if (*found.name == '\0') continue;
+        const size_t index = cs_setting_named(found.name, strlen(found.name));
+        snprintf(place, sizeof place, "%.500s:%d: ", path, number);
+        if (index < CS_SETTING_COUNT) {
+            CS_TRY(apply(settings, index, place, &found, error));
+            continue;
+        }
+        CS_REQUIRE(other != NULL && other(user, path, number, found.name, found.value) == 0,
+                   CLSHEAR_BAD_ARGUMENT, "%sunknown setting %s", place, found.name);
+    }
+done:
+    free(text);
+    return status;
+}

@@ -1,0 +1,167 @@
+#include "settings/settings.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static clshear_status out_of_memory(cs_error *error)
+{
+    return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for settings");
+}
+
+clshear_status cs_settings_init(clshear_settings *settings, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    for (size_t i = 0; i < CS_SETTING_COUNT; i++) {
+        cs_setting_value *value = &settings->values[i];
+        const cs_setting *entry = &cs_setting_table[i];
+        if (entry->kind == CLSHEAR_TEXT) continue;
+        value->numbers = calloc(entry->values, sizeof *value->numbers);
+        CS_REQUIRE(value->numbers != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for settings");
+        value->count = entry->values;
+        if (*entry->fallback != '\0')
+            CS_TRY(cs_settings_set_text(settings, i, entry->fallback, error));
+    }
+    for (size_t i = 0; i < CS_SETTING_COUNT; i++)
+        settings->values[i].is_set = 0;
+done:
+    return status;
+}
+
+clshear_status cs_settings_copy(const clshear_settings *from, clshear_settings *to, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    to->progress = from->progress;
+    to->progress_user = from->progress_user;
+    for (size_t i = 0; i < CS_SETTING_COUNT; i++) {
+        const cs_setting_value *source = &from->values[i];
+        cs_setting_value *value = &to->values[i];
+        value->is_set = source->is_set;
+        value->count = source->count;
+        value->text = source->text != NULL ? strdup(source->text) : NULL;
+        CS_REQUIRE(source->text == NULL || value->text != NULL, CLSHEAR_OUT_OF_MEMORY,
+                   "out of memory for settings");
+        if (source->numbers == NULL) continue;
+        value->numbers = malloc(source->count * sizeof *value->numbers);
+        CS_REQUIRE(value->numbers != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for settings");
+        memcpy(value->numbers, source->numbers, source->count * sizeof *value->numbers);
+    }
+    if (from->aperture.luminance != NULL)
+        CS_TRY(cs_aperture_image_copy(&from->aperture, &to->aperture, error));
+done:
+    return status;
+}
+
+void cs_settings_free(clshear_settings *settings)
+{
+    for (size_t i = 0; i < CS_SETTING_COUNT; i++) {
+        free(settings->values[i].numbers);
+        free(settings->values[i].text);
+    }
+    cs_aperture_image_free(&settings->aperture);
+    *settings = (clshear_settings){0};
+}
+
+void cs_settings_unset(clshear_settings *settings, size_t index)
+{
+    const cs_setting *entry = &cs_setting_table[index];
+    cs_setting_value *value = &settings->values[index];
+    cs_error ignored;
+    free(value->text);
+    value->text = NULL;
+    for (size_t i = 0; value->numbers != NULL && i < entry->values; i++)
+        value->numbers[i] = 0.0;
+    if (value->numbers != NULL) value->count = entry->values;
+    if (*entry->fallback != '\0') cs_settings_set_text(settings, index, entry->fallback, &ignored);
+    value->is_set = 0;
+}
+
+/* What answers the same question as the setting that was just set: the last one counts. */
+static void replace_others(clshear_settings *settings, size_t index)
+{
+    const double polygon = CLSHEAR_APERTURE_POLYGON;
+    switch (index) {
+    case CS_INDEX_LENS_RADIUS:
+        settings->values[CS_INDEX_F_STOP].is_set = 0;
+        break;
+    case CS_INDEX_F_STOP:
+        settings->values[CS_INDEX_LENS_RADIUS].is_set = 0;
+        break;
+    case CS_INDEX_FOCAL_DISTANCE:
+        settings->values[CS_INDEX_FOCUS_PIXEL].is_set = 0;
+        break;
+    case CS_INDEX_FOCUS_PIXEL:
+        settings->values[CS_INDEX_FOCAL_DISTANCE].is_set = 0;
+        break;
+    case CS_INDEX_BLADES:
+        cs_number(settings, APERTURE) = polygon;
+        cs_is_set(settings, APERTURE) = 1;
+        break;
+    default:
+        break;
+    }
+}
+
+/* Whether the numbers lie within bounds and are whole where they must be. */
+static int are_allowed(const cs_setting *entry, const double *numbers, size_t count)
+{
+    const int whole = entry->kind != CLSHEAR_NUMBER;
+    const double low = entry->low;
+    double high = entry->high;
+    if (entry->kind == CLSHEAR_CHOICE) high = cs_choice_count(entry->choices) - 1.0;
+    for (size_t i = 0; i < count; i++)
+        if (!(numbers[i] >= low && numbers[i] <= high) ||
+            (whole && numbers[i] != floor(numbers[i])))
+            return 0;
+    switch (entry->setting) {
+    case CLSHEAR_CROP:
+        return numbers[0] < numbers[1] && numbers[2] < numbers[3];
+    case CLSHEAR_PACKET:
+        return numbers[0] == 1.0 || numbers[0] == 4.0 || numbers[0] == 8.0 || numbers[0] == 16.0;
+    default:
+        return 1;
+    }
+}
+
+clshear_status cs_settings_set(clshear_settings *settings, clshear_setting setting,
+                               const double *numbers, size_t count, cs_error *error)
+{
+    char expectation[512];
+    const size_t index = cs_setting_index(setting);
+    if (index == CS_SETTING_COUNT)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "setting %d is not known", (int)setting);
+    const cs_setting *entry = &cs_setting_table[index];
+    if (entry->kind == CLSHEAR_TEXT)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s: is a text, not a number", entry->name);
+    if (count == 0 || count % entry->values != 0 || count / entry->values > entry->most)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s: %zu numbers: must be %zu%s", entry->name,
+                       count, entry->values, entry->most > 1 ? ", or some times as many" : "");
+    if (!are_allowed(entry, numbers, count)) {
+        cs_setting_expectation(entry, expectation, sizeof expectation);
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s %.9g%s: must be %s", entry->name,
+                       numbers[0], count > 1 ? ",..." : "", expectation);
+    }
+    cs_setting_value *value = &settings->values[index];
+    double *room = realloc(value->numbers, count * sizeof *room);
+    if (room == NULL) return out_of_memory(error);
+    memcpy(room, numbers, count * sizeof *room);
+    value->numbers = room;
+    value->count = count;
+    value->is_set = 1;
+    replace_others(settings, index);
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_settings_set_aperture(clshear_settings *settings, const cs_aperture_image *image,
+                                        cs_error *error)
+{
+    cs_aperture_image copy = {0};
+    clshear_status status = cs_aperture_image_check(image, error);
+    if (status == CLSHEAR_OK) status = cs_aperture_image_copy(image, &copy, error);
+    if (status != CLSHEAR_OK) return status;
+    cs_aperture_image_free(&settings->aperture);
+    settings->aperture = copy;
+    cs_number(settings, APERTURE) = CLSHEAR_APERTURE_IMAGE;
+    cs_is_set(settings, APERTURE) = 1;
+    return CLSHEAR_OK;
+}

@@ -1,0 +1,62 @@
+/* What a render is asked for: a value for each line of the table of settings. */
+#ifndef CS_SETTINGS_SETTINGS_H
+#define CS_SETTINGS_SETTINGS_H
+
+#include "base/status.h"
+#include "optics/optics.h"
+#include "settings/table.h"
+
+typedef struct cs_setting_value {
+    int is_set;      /* 0: the fallback's value, or zeros where that is chosen by the render */
+    double *numbers; /* NULL for a TEXT */
+    size_t count;    /* of numbers; at least those of one value */
+    char *text;      /* of a TEXT; NULL: none */
+} cs_setting_value;
+
+struct clshear_settings {
+    cs_setting_value values[CS_SETTING_COUNT];
+    cs_aperture_image aperture; /* of an image aperture; owned */
+    int (*progress)(void *user, const clshear_progress *state);
+    void *progress_user;
+};
+
+/* Reading values in code that obeys a setting, by its identifier: cs_integer(settings, SPP). */
+#define cs_is_set(settings, identifier) ((settings)->values[CS_INDEX_##identifier].is_set)
+#define cs_numbers(settings, identifier) ((settings)->values[CS_INDEX_##identifier].numbers)
+#define cs_number(settings, identifier) (cs_numbers(settings, identifier)[0])
+#define cs_integer(settings, identifier) ((int64_t)cs_number(settings, identifier))
+#define cs_text(settings, identifier) ((const char *)(settings)->values[CS_INDEX_##identifier].text)
+
+/* Fallbacks everywhere. Freed by cs_settings_free, also after a failure. Start from zeros. */
+clshear_status cs_settings_init(clshear_settings *settings, cs_error *error);
+clshear_status cs_settings_copy(const clshear_settings *from, clshear_settings *to,
+                                cs_error *error);
+void cs_settings_free(clshear_settings *settings);
+
+/* Sets all numbers of a setting after checking kind, bounds and count. */
+clshear_status cs_settings_set(clshear_settings *settings, clshear_setting setting,
+                               const double *numbers, size_t count, cs_error *error);
+
+/* The same from text. For a setting of several values, adds one. */
+clshear_status cs_settings_set_text(clshear_settings *settings, size_t index, const char *text,
+                                    cs_error *error);
+void cs_settings_unset(clshear_settings *settings, size_t index);
+
+/* Takes over a copy of the image, after checking it. */
+clshear_status cs_settings_set_aperture(clshear_settings *settings, const cs_aperture_image *image,
+                                        cs_error *error);
+
+/* The value as text that cs_settings_set_text takes back; "" where nothing is set and the render
+ * chooses. */
+void cs_settings_print(const clshear_settings *settings, size_t index, char *text, size_t size);
+
+/* What a value must be, in words: "a whole number, 1 to 65536". */
+void cs_setting_expectation(const cs_setting *setting, char *text, size_t size);
+
+/* As clshear_settings_read. */
+clshear_status cs_settings_read(clshear_settings *settings, const char *path,
+                                int (*other)(void *user, const char *file, int line,
+                                             const char *name, const char *value),
+                                void *user, cs_error *error);
+
+#endif

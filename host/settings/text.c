@@ -1,0 +1,161 @@
+/* Values of settings as text, in and out. */
+#include <ctype.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "settings/settings.h"
+
+static const char *const count_words[] = {"", "a", "two", "three", "four", "five", "six"};
+
+/* Appends formatted text, cut to what fits. */
+static void append(char *text, size_t size, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+static void append(char *text, size_t size, const char *format, ...)
+{
+    const size_t used = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + used, size - used, format, arguments);
+    va_end(arguments);
+}
+
+static void list_choices(const cs_setting *setting, char *text, size_t size)
+{
+    const cs_choice *choices = setting->choices;
+    const int with_file = setting->setting == CLSHEAR_APERTURE;
+    for (int i = 0; choices[i].name != NULL; i++) {
+        const int last = choices[i + 1].name == NULL;
+        if (last && with_file)
+            append(text, size, " or an image file");
+        else
+            append(text, size, "%s%s", i == 0 ? "" : last ? " or " : ", ", choices[i].name);
+    }
+}
+
+void cs_setting_expectation(const cs_setting *setting, char *text, size_t size)
+{
+    const int one = setting->values == 1;
+    *text = '\0';
+    switch (setting->kind) {
+    case CLSHEAR_SWITCH:
+        append(text, size, "0 or 1");
+        return;
+    case CLSHEAR_CHOICE:
+        list_choices(setting, text, size);
+        return;
+    case CLSHEAR_TEXT:
+        append(text, size, "a text");
+        return;
+    default:
+        break;
+    }
+    if (setting->setting == CLSHEAR_PACKET) {
+        append(text, size, "1, 4, 8 or 16");
+        return;
+    }
+    append(text, size, "%s %s%s", count_words[setting->values],
+           setting->kind == CLSHEAR_INTEGER ? "whole number" : "number", one ? "" : "s");
+    if (!one) append(text, size, ", %s", setting->argument);
+    if (setting->setting == CLSHEAR_CROP)
+        append(text, size, ", with X0 < X1 and Y0 < Y1");
+    else
+        append(text, size, ", %s%.10g to %.10g", one ? "" : "each ", setting->low, setting->high);
+}
+
+static clshear_status refuse(const cs_setting *setting, const char *text, cs_error *error)
+{
+    char expectation[512];
+    cs_setting_expectation(setting, expectation, sizeof expectation);
+    return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s %.60s: must be %s", setting->name, text,
+                   expectation);
+}
+
+/* Reads `count` numbers separated by commas; 0 if there are more, fewer or other things. */
+static int read_numbers(const char *text, size_t count, double *numbers)
+{
+    for (size_t i = 0; i < count; i++) {
+        char *end;
+        if (isspace((unsigned char)*text)) return 0;
+        numbers[i] = strtod(text, &end);
+        if (end == text || !isfinite(numbers[i])) return 0;
+        if (*end != (i + 1 < count ? ',' : '\0')) return 0;
+        text = end + 1;
+    }
+    return 1;
+}
+
+/* Numbers in the table are floats in the kernels; texts like 0.1 must become the float 0.1. */
+static clshear_status set_numbers(clshear_settings *settings, size_t index, const char *text,
+                                  cs_error *error)
+{
+    const cs_setting *entry = &cs_setting_table[index];
+    const cs_setting_value *value = &settings->values[index];
+    double numbers[8], *all = numbers;
+    if (!read_numbers(text, entry->values, numbers)) return refuse(entry, text, error);
+    const size_t before = entry->most > 1 && value->is_set ? value->count : 0;
+    if (before / entry->values == entry->most)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s %.60s: given more than %zu times",
+                       entry->name, text, entry->most);
+    if (before > 0) {
+        all = malloc((before + entry->values) * sizeof *all);
+        if (all == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+        memcpy(all, value->numbers, before * sizeof *all);
+        memcpy(all + before, numbers, entry->values * sizeof *all);
+    }
+    clshear_status status =
+        cs_settings_set(settings, entry->setting, all, before + entry->values, error);
+    if (all != numbers) free(all);
+    return status == CLSHEAR_BAD_ARGUMENT ? refuse(entry, text, error) : status;
+}
+
+/* An image file, or a name out of the list. */
+static clshear_status set_aperture_file(clshear_settings *settings, const char *path,
+                                        cs_error *error)
+{
+    cs_aperture_image image = {0};
+    clshear_status status = cs_aperture_image_read(path, &image, error);
+    if (status == CLSHEAR_OK) status = cs_settings_set_aperture(settings, &image, error);
+    cs_aperture_image_free(&image);
+    return status;
+}
+
+clshear_status cs_settings_set_text(clshear_settings *settings, size_t index, const char *text,
+                                    cs_error *error)
+{
+    const cs_setting *entry = &cs_setting_table[index];
+    cs_setting_value *value = &settings->values[index];
+    if (entry->kind == CLSHEAR_CHOICE) {
+        const double number = cs_choice_find(entry->choices, text);
+        if (number >= 0.0) return cs_settings_set(settings, entry->setting, &number, 1, error);
+        if (entry->setting == CLSHEAR_APERTURE && strpbrk(text, "./") != NULL)
+            return set_aperture_file(settings, text, error);
+        return refuse(entry, text, error);
+    }
+    if (entry->kind != CLSHEAR_TEXT) return set_numbers(settings, index, text, error);
+    char *copy = strdup(text);
+    if (copy == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for settings");
+    free(value->text);
+    value->text = copy;
+    value->is_set = 1;
+    return CLSHEAR_OK;
+}
+
+void cs_settings_print(const clshear_settings *settings, size_t index, char *text, size_t size)
+{
+    const cs_setting *entry = &cs_setting_table[index];
+    const cs_setting_value *value = &settings->values[index];
+    *text = '\0';
+    if (!value->is_set && *entry->fallback == '\0') return;
+    if (entry->kind == CLSHEAR_TEXT)
+        append(text, size, "%s", value->text);
+    else if (entry->kind == CLSHEAR_CHOICE)
+        append(text, size, "%s", entry->choices[(int)value->numbers[0]].name);
+    else
+        for (size_t i = 0; i < value->count; i++)
+            append(text, size, "%s%.*g", i > 0 ? "," : "", entry->kind == CLSHEAR_NUMBER ? 9 : 17,
+                   value->numbers[i]);
+}

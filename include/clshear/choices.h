@@ -1,0 +1,35 @@
+/* clshear: the enumerations of settings that name one out of several, from setting_list.h.
+ *
+ * CLSHEAR_SHEAR_NONE, _TOROIDAL, _EQUAL_AREA; CLSHEAR_ORACLE_CENTRE, _MEDIAN, _NEAR, _FAR, _PILOT;
+ * CLSHEAR_FILTER_BOX, _TENT, _GAUSSIAN, _BLACKMAN_HARRIS; CLSHEAR_APERTURE_DISK, _SQUARE, _POLYGON,
+ * _IMAGE. */
+#ifndef CLSHEAR_CHOICES_H
+#define CLSHEAR_CHOICES_H
+
+#include "setting_list.h"
+
+typedef enum clshear_shear {
+#define CLSHEAR_CHOICE(identifier, number, name, meaning) CLSHEAR_SHEAR_##identifier = number,
+    CLSHEAR_SHEAR_LIST(CLSHEAR_CHOICE)
+#undef CLSHEAR_CHOICE
+} clshear_shear;
+
+typedef enum clshear_oracle {
+#define CLSHEAR_CHOICE(identifier, number, name, meaning) CLSHEAR_ORACLE_##identifier = number,
+    CLSHEAR_ORACLE_LIST(CLSHEAR_CHOICE)
+#undef CLSHEAR_CHOICE
+} clshear_oracle;
+
+typedef enum clshear_filter {
+#define CLSHEAR_CHOICE(identifier, number, name, meaning) CLSHEAR_FILTER_##identifier = number,
+    CLSHEAR_FILTER_LIST(CLSHEAR_CHOICE)
+#undef CLSHEAR_CHOICE
+} clshear_filter;
+
+typedef enum clshear_aperture {
+#define CLSHEAR_CHOICE(identifier, number, name, meaning) CLSHEAR_APERTURE_##identifier = number,
+    CLSHEAR_APERTURE_LIST(CLSHEAR_CHOICE)
+#undef CLSHEAR_CHOICE
+} clshear_aperture;
+
+#endif

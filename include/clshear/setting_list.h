@@ -1,0 +1,135 @@
+/* clshear: the table of settings.
+ *
+ * Everything that a render can be asked for stands here once. From this table come the enumerations
+ * of clshear.h, the typed setters' bounds, the flags of the program, its help and its manual page,
+ * the lines of settings files, the metadata of written images, and what a continued render must
+ * have in common with its start. A new setting is one line here and the code that obeys it. */
+#ifndef CLSHEAR_SETTING_LIST_H
+#define CLSHEAR_SETTING_LIST_H
+
+/* ------------------------------------------------------------------------------------------------
+ * Choices: X(identifier, number, name, meaning). Numbers begin at 0 and have no gaps.
+ * --------------------------------------------------------------------------------------------- */
+
+#define CLSHEAR_SHEAR_LIST(X)                                                          \
+    X(NONE, 0, "none", "samples are not sheared, as in other renderers")               \
+    X(TOROIDAL, 1, "toroidal", "along the fibre, wrapped around at the pixel's edges") \
+    X(EQUAL_AREA, 2, "equal-area",                                                     \
+      "the first pair of the tuple becomes the fibre's place; no seams")
+
+#define CLSHEAR_ORACLE_LIST(X)                                                     \
+    X(CENTRE, 0, "centre", "the depth seen through the middles of pixel and lens") \
+    X(MEDIAN, 1, "median", "the median depth of rays all over pixel and lens")     \
+    X(NEAR, 2, "near", "the nearest depth of those rays")                          \
+    X(FAR, 3, "far", "the farthest depth of those rays")                           \
+    X(PILOT, 4, "pilot",                                                           \
+      "a small render tries centre, near, far and no shear, and takes what is clearly best")
+
+#define CLSHEAR_FILTER_LIST(X)                                                       \
+    X(BOX, 0, "box", "constant; usual width 1 px")                                   \
+    X(TENT, 1, "tent", "falls linearly to 0; usual width 2 px")                      \
+    X(GAUSSIAN, 2, "gaussian", "cut at three standard deviations; usual width 3 px") \
+    X(BLACKMAN_HARRIS, 3, "blackman-harris", "four terms; usual width 3 px")
+
+#define CLSHEAR_APERTURE_LIST(X)                                                      \
+    X(DISK, 0, "disk", "a disk of the lens radius")                                   \
+    X(SQUARE, 1, "square", "a square of side twice the lens radius")                  \
+    X(POLYGON, 2, "polygon", "a regular polygon with its corners at the lens radius") \
+    X(IMAGE, 3, "image", "an image whose longer side is twice the lens radius")
+
+/* ------------------------------------------------------------------------------------------------
+ * Settings: X(identifier, number, name, aliases, kind, values, most, fallback, low, high, choices,
+ *             use, argument, help)
+ *
+ * number    of the enumerator; never reused, so that a program built before stays right
+ * name      of the flag, without dashes
+ * aliases   other names of the flag, separated by spaces
+ * kind      SWITCH (0 or 1), INTEGER, NUMBER, CHOICE (a name out of `choices`), TEXT
+ * values    how many numbers make one, separated by commas
+ * most      how often it may be given; more than 1: each time adds to a list
+ * fallback  what counts when nothing is given; "": chosen by the render
+ * low, high bounds of each number, both included
+ * choices   which list a CHOICE names: shear, oracle, filter, aperture, sampler; else none
+ * use       RECIPE: fixes the picture and its noise, is written to the metadata, and must be the
+ *           same when a render is continued; RECORD: is written to the metadata; PRIVATE: neither
+ * argument  shown in the help; "": takes none
+ * help      one line, at most 53 characters
+ * --------------------------------------------------------------------------------------------- */
+
+/* clang-format off */
+#define CLSHEAR_SETTING_LIST(X) \
+    /* Samples */ \
+    X(SPP, 1, "spp", "samples", INTEGER, 1, 1, "256", 1, 2e9, none, RECORD, "N", \
+      "samples per pixel") \
+    X(REPLICATES, 2, "replicates", "", INTEGER, 1, 1, "", 1, 2e9, none, RECIPE, "R", \
+      "independent patterns of spp/R samples (2)") \
+    X(SEED, 3, "seed", "", INTEGER, 1, 1, "0", 0, 4294967295.0, none, RECIPE, "N", \
+      "another seed, another noise") \
+    X(SAMPLER, 4, "sampler", "", CHOICE, 1, 1, "sz", 0, 0, sampler, RECIPE, "NAME", \
+      "point set; --list-samplers has them") \
+    X(SHEAR, 5, "shear", "", CHOICE, 1, 1, "equal-area", 0, 0, shear, RECIPE, "KIND", \
+      "equal-area, toroidal or none") \
+    X(ORACLE, 6, "oracle", "", CHOICE, 1, 1, "pilot", 0, 0, oracle, RECIPE, "RULE", \
+      "pilot, centre, median, near or far") \
+    X(LENS_RAYS, 7, "lens-rays", "", INTEGER, 1, 1, "16", 0, 256, none, RECIPE, "N", \
+      "rays for the depths of a pixel") \
+    X(ADAPTIVE, 8, "adaptive", "", SWITCH, 1, 1, "0", 0, 1, none, RECORD, "", \
+      "more samples where they are needed; --spp is the mean") \
+    X(EXTENDABLE, 9, "extendable", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
+      "keep in the EXR what --extend needs") \
+    X(KEEP_PATTERNS, 10, "keep-patterns", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
+      "keep the mean of each replicate: Pattern<n>.R/G/B") \
+    X(GAIN, 11, "gain-channel", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
+      "measure what the shear gains: channel Gain") \
+    /* Image */ \
+    X(WIDTH, 20, "width", "", INTEGER, 1, 1, "512", 1, 65536, none, RECIPE, "PX", \
+      "image width") \
+    X(HEIGHT, 21, "height", "", INTEGER, 1, 1, "512", 1, 65536, none, RECIPE, "PX", \
+      "image height") \
+    X(CROP, 22, "crop", "", INTEGER, 4, 1, "", 0, 65536, none, PRIVATE, "X0,X1,Y0,Y1", \
+      "render these pixels only, X0 <= x < X1, Y0 <= y < Y1") \
+    X(FILTER, 23, "filter", "", CHOICE, 1, 1, "box", 0, 0, filter, RECIPE, "KIND", \
+      "box, tent, gaussian or blackman-harris") \
+    X(FILTER_WIDTH, 24, "filter-width", "", NUMBER, 1, 1, "", 0.01, 64, none, RECIPE, "PX", \
+      "the filter's whole width (box 1, tent 2, others 3)") \
+    /* Camera */ \
+    X(EYE, 40, "eye", "", NUMBER, 3, 1, "", -1e12, 1e12, none, RECIPE, "X,Y,Z", \
+      "camera position") \
+    X(TARGET, 41, "target", "", NUMBER, 3, 1, "", -1e12, 1e12, none, RECIPE, "X,Y,Z", \
+      "the point that the camera looks at") \
+    X(UP, 42, "up", "", NUMBER, 3, 1, "", -1e12, 1e12, none, RECIPE, "X,Y,Z", \
+      "the direction that is up in the picture") \
+    X(FOV, 43, "fov", "", NUMBER, 1, 1, "", 1e-3, 179.999, none, RECIPE, "DEG", \
+      "field of view along the shorter image axis") \
+    X(FOCAL_DISTANCE, 44, "focal-distance", "focus-distance", NUMBER, 1, 1, "", 1e-12, 1e12, none, \
+      RECIPE, "D", "depth of the plane in focus") \
+    X(FOCUS_PIXEL, 45, "focus-pixel", "", INTEGER, 2, 1, "", 0, 65535, none, PRIVATE, "X,Y", \
+      "focus on what this pixel sees") \
+    /* Lens */ \
+    X(LENS_RADIUS, 50, "lens-radius", "aperture-radius", NUMBER, 1, 1, "", 0, 1e12, none, RECIPE, \
+      "R", "lens radius in scene units; 0: pinhole") \
+    X(F_STOP, 51, "fstop", "", NUMBER, 1, 1, "", 1e-6, 1e6, none, PRIVATE, "N", \
+      "lens radius as f-number of a full-frame camera") \
+    X(UNIT, 52, "unit", "", NUMBER, 1, 1, "1", 1e-12, 1e12, none, PRIVATE, "METRES", \
+      "length of a scene unit, for --fstop") \
+    X(APERTURE, 53, "aperture", "", CHOICE, 1, 1, "disk", 0, 0, aperture, RECIPE, "SHAPE", \
+      "disk, square, polygon or an image file") \
+    X(BLADES, 54, "blades", "", INTEGER, 1, 1, "6", 3, 32, none, RECIPE, "N", \
+      "a polygon with N corners") \
+    X(BLADE_ROTATION, 55, "blade-rotation", "", NUMBER, 1, 1, "0", -1e6, 1e6, none, RECIPE, "DEG", \
+      "turn the polygon; at 0 a corner is on the right") \
+    X(ANAMORPHIC, 56, "anamorphic", "", NUMBER, 1, 1, "1", 0.01, 100, none, RECIPE, "RATIO", \
+      "aperture narrower by this ratio") \
+    /* Light */ \
+    X(LIGHT, 60, "light", "", NUMBER, 6, 64, "", -1e15, 1e15, none, PRIVATE, "X,Y,Z,R,G,B", \
+      "add a point light; repeatable") \
+    /* Device */ \
+    X(DEVICE, 80, "device", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "NAME", \
+      "OpenCL device: number or part of its name") \
+    X(THREADS, 81, "threads", "t nthreads", INTEGER, 1, 1, "0", 0, 4096, none, PRIVATE, "N", \
+      "CPU threads; 0: all") \
+    X(PACKET, 82, "packet", "", INTEGER, 1, 1, "", 1, 16, none, PRIVATE, "W", \
+      "samples traced together: 1, 4, 8 or 16")
+/* clang-format on */
+
+#endif
