@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "analysis/fit.h"
+#include "analysis/moments.h"
 #include "api/arguments.h"
 #include "study/convergence.h"
 
@@ -31,6 +32,19 @@ clshear_status clshear_fit_slope_of_parts(const uint32_t *counts, size_t sizes, 
     const clshear_status status = cs_fit_slope_of_parts(counts, sizes, parts, count, errors, &made);
     if (status == CLSHEAR_OK) cs_struct_out(fit, &made, sizeof made);
     return status;
+}
+
+clshear_status clshear_variance_of(const double *values, size_t count, double *variance,
+                                   double *standard_error)
+{
+    CS_NEEDS(values);
+    CS_NEEDS(variance);
+    CS_NEEDS(standard_error);
+    if (count < 2)
+        return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT, "%zu values: must be 2 or more",
+                       count);
+    cs_variance_of(values, count, variance, standard_error);
+    return CLSHEAR_OK;
 }
 
 static clshear_status check_study(const cs_study *study)

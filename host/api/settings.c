@@ -113,6 +113,13 @@ clshear_status clshear_settings_set_aperture(clshear_settings *settings, const f
     return cs_settings_set_aperture(settings, &image, cs_thread_error());
 }
 
+clshear_status clshear_settings_override(clshear_settings *settings, const clshear_settings *over)
+{
+    CS_NEEDS(settings);
+    CS_NEEDS(over);
+    return cs_settings_override(settings, over, cs_thread_error());
+}
+
 void clshear_settings_unset(clshear_settings *settings, clshear_setting setting)
 {
     const size_t index = cs_setting_index(setting);

@@ -28,24 +28,34 @@ done:
     return status;
 }
 
+/* Replaces a value by a copy of another, or leaves it alone when out of memory. */
+static clshear_status copy_value(const cs_setting_value *from, cs_setting_value *to,
+                                 cs_error *error)
+{
+    cs_setting_value copy = {.is_set = from->is_set, .count = from->count};
+    if (from->text != NULL) copy.text = strdup(from->text);
+    if (from->numbers != NULL) copy.numbers = malloc(from->count * sizeof *copy.numbers);
+    if ((from->text != NULL && copy.text == NULL) ||
+        (from->numbers != NULL && copy.numbers == NULL)) {
+        free(copy.text);
+        free(copy.numbers);
+        return out_of_memory(error);
+    }
+    if (copy.numbers != NULL)
+        memcpy(copy.numbers, from->numbers, from->count * sizeof *copy.numbers);
+    free(to->text);
+    free(to->numbers);
+    *to = copy;
+    return CLSHEAR_OK;
+}
+
 clshear_status cs_settings_copy(const clshear_settings *from, clshear_settings *to, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     to->progress = from->progress;
     to->progress_user = from->progress_user;
-    for (size_t i = 0; i < CS_SETTING_COUNT; i++) {
-        const cs_setting_value *source = &from->values[i];
-        cs_setting_value *value = &to->values[i];
-        value->is_set = source->is_set;
-        value->count = source->count;
-        value->text = source->text != NULL ? strdup(source->text) : NULL;
-        CS_REQUIRE(source->text == NULL || value->text != NULL, CLSHEAR_OUT_OF_MEMORY,
-                   "out of memory for settings");
-        if (source->numbers == NULL) continue;
-        value->numbers = malloc(source->count * sizeof *value->numbers);
-        CS_REQUIRE(value->numbers != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for settings");
-        memcpy(value->numbers, source->numbers, source->count * sizeof *value->numbers);
-    }
+    for (size_t i = 0; i < CS_SETTING_COUNT; i++)
+        CS_TRY(copy_value(&from->values[i], &to->values[i], error));
     if (from->aperture.luminance != NULL)
         CS_TRY(cs_aperture_image_copy(&from->aperture, &to->aperture, error));
 done:
@@ -100,6 +110,24 @@ static void replace_others(clshear_settings *settings, size_t index)
     default:
         break;
     }
+}
+
+clshear_status cs_settings_override(clshear_settings *settings, const clshear_settings *over,
+                                    cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_aperture_image image = {0};
+    for (size_t i = 0; i < CS_SETTING_COUNT; i++)
+        if (over->values[i].is_set) replace_others(settings, i);
+    for (size_t i = 0; i < CS_SETTING_COUNT; i++)
+        if (over->values[i].is_set)
+            CS_TRY(copy_value(&over->values[i], &settings->values[i], error));
+    if (over->aperture.luminance == NULL) return CLSHEAR_OK;
+    CS_TRY(cs_aperture_image_copy(&over->aperture, &image, error));
+    cs_aperture_image_free(&settings->aperture);
+    settings->aperture = image;
+done:
+    return status;
 }
 
 /* Whether the numbers lie within bounds and are whole where they must be. */

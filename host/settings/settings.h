@@ -33,6 +33,10 @@ clshear_status cs_settings_copy(const clshear_settings *from, clshear_settings *
                                 cs_error *error);
 void cs_settings_free(clshear_settings *settings);
 
+/* As clshear_settings_override. */
+clshear_status cs_settings_override(clshear_settings *settings, const clshear_settings *over,
+                                    cs_error *error);
+
 /* Sets all numbers of a setting after checking kind, bounds and count. */
 clshear_status cs_settings_set(clshear_settings *settings, clshear_setting setting,
                                const double *numbers, size_t count, cs_error *error);

@@ -74,18 +74,20 @@ static clshear_status refuse(const cs_setting *setting, const char *text, cs_err
                    expectation);
 }
 
-/* Reads `count` numbers separated by commas; 0 if there are more, fewer or other things. */
-static int read_numbers(const char *text, size_t count, double *numbers)
+/* Reads up to `capacity` numbers separated by commas. Returns how many, or 0 if there are more or
+ * other things. */
+static size_t read_numbers(const char *text, size_t capacity, double *numbers)
 {
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < capacity; i++) {
         char *end;
         if (isspace((unsigned char)*text)) return 0;
         numbers[i] = strtod(text, &end);
         if (end == text || !isfinite(numbers[i])) return 0;
-        if (*end != (i + 1 < count ? ',' : '\0')) return 0;
+        if (*end == '\0') return i + 1;
+        if (*end != ',') return 0;
         text = end + 1;
     }
-    return 1;
+    return 0;
 }
 
 /* Numbers in the table are floats in the kernels; texts like 0.1 must become the float 0.1. */
@@ -94,21 +96,20 @@ static clshear_status set_numbers(clshear_settings *settings, size_t index, cons
 {
     const cs_setting *entry = &cs_setting_table[index];
     const cs_setting_value *value = &settings->values[index];
-    double numbers[8], *all = numbers;
-    if (!read_numbers(text, entry->values, numbers)) return refuse(entry, text, error);
     const size_t before = entry->most > 1 && value->is_set ? value->count : 0;
-    if (before / entry->values == entry->most)
+    const size_t capacity = entry->values * entry->most;
+    double *all = malloc((before + capacity) * sizeof *all);
+    if (all == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    const size_t added = read_numbers(text, capacity, all + before);
+    clshear_status status = CLSHEAR_BAD_ARGUMENT;
+    if (added > 0 && added % entry->values == 0 && before + added > capacity) {
+        free(all);
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s %.60s: given more than %zu times",
                        entry->name, text, entry->most);
-    if (before > 0) {
-        all = malloc((before + entry->values) * sizeof *all);
-        if (all == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-        memcpy(all, value->numbers, before * sizeof *all);
-        memcpy(all + before, numbers, entry->values * sizeof *all);
     }
-    clshear_status status =
-        cs_settings_set(settings, entry->setting, all, before + entry->values, error);
-    if (all != numbers) free(all);
+    if (before > 0) memcpy(all, value->numbers, before * sizeof *all);
+    if (added > 0) status = cs_settings_set(settings, entry->setting, all, before + added, error);
+    free(all);
     return status == CLSHEAR_BAD_ARGUMENT ? refuse(entry, text, error) : status;
 }
 
@@ -120,7 +121,7 @@ static clshear_status set_aperture_file(clshear_settings *settings, const char *
     clshear_status status = cs_aperture_image_read(path, &image, error);
     if (status == CLSHEAR_OK) status = cs_settings_set_aperture(settings, &image, error);
     cs_aperture_image_free(&image);
-    return status;
+    return status == CLSHEAR_BAD_ARGUMENT ? CLSHEAR_BAD_FILE : status; /* it came from a file */
 }
 
 clshear_status cs_settings_set_text(clshear_settings *settings, size_t index, const char *text,

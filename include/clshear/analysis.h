@@ -264,6 +264,11 @@ CLSHEAR_API double clshear_prediction_part_energy(const clshear_prediction *pred
  * Convergence: measured variance against the number of samples
  * --------------------------------------------------------------------------------------------- */
 
+/* Variance of `count` (2 or more) values, and that variance's standard error, from their fourth
+ * moment. */
+CLSHEAR_API clshear_status clshear_variance_of(const double *values, size_t count, double *variance,
+                                               double *standard_error);
+
 /* A line through log variance over log N. */
 typedef struct clshear_fit {
     size_t struct_size;

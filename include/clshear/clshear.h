@@ -83,6 +83,10 @@ CLSHEAR_API clshear_status clshear_settings_set_aperture(clshear_settings *setti
                                                          const float *luminance, int width,
                                                          int height);
 
+/* Sets all that `over` has set, as if it were set last; lists are replaced. */
+CLSHEAR_API clshear_status clshear_settings_override(clshear_settings *settings,
+                                                     const clshear_settings *over);
+
 /* Forgets what was set: the fallback counts again. */
 CLSHEAR_API void clshear_settings_unset(clshear_settings *settings, clshear_setting setting);
 

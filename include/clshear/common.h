@@ -81,6 +81,15 @@ CLSHEAR_API const char *clshear_status_name(clshear_status status);
 CLSHEAR_API const char *clshear_message(void);
 
 /* ------------------------------------------------------------------------------------------------
+ * Files
+ * --------------------------------------------------------------------------------------------- */
+
+/* Writes `size` bytes to a file, as all written files are: an existing one is replaced only once
+ * the new one is complete, links are followed, and devices and pipes are written as they are. "-"
+ * is standard output. */
+CLSHEAR_API clshear_status clshear_file_write(const char *path, const void *bytes, size_t size);
+
+/* ------------------------------------------------------------------------------------------------
  * Objects
  * --------------------------------------------------------------------------------------------- */
 

@@ -1,0 +1,67 @@
+#include "commands/point_source.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "report/failure.h"
+
+double number_or(const number_list *list, double fallback)
+{
+    return list->count > 0 ? list->items[0] : fallback;
+}
+
+uint32_t seed_of(const program_options *options)
+{
+    int64_t seed = 0;
+    clshear_settings_get_integer(options->settings, CLSHEAR_SEED, &seed);
+    return (uint32_t)seed;
+}
+
+int point_source_check(const point_source *source, const char *flag, size_t exact)
+{
+    const clshear_settings *settings = source->options.settings;
+    const char *letters = source->letters.count > 0 ? source->letters.items[0] : "xy";
+    const size_t length = strlen(letters);
+    const int is_drawn = clshear_settings_is_set(settings, CLSHEAR_SAMPLER) ||
+                         clshear_settings_is_set(settings, CLSHEAR_SEED);
+    if (strspn(letters, "xyuvpq") != length || (exact > 0 && length != exact))
+        return complain(EXIT_USAGE, "--%s %s: must be %sletters out of xyuvpq", flag, letters,
+                        exact > 0 ? "two " : "");
+    if (source->in.count == 0 || !(is_drawn || source->count.count > 0 || source->sets.count > 0))
+        return EXIT_DONE;
+    return complain(EXIT_USAGE,
+                    "--in %s brings its points: leave out --sampler, --n, --sets, --seed",
+                    source->in.items[0]);
+}
+
+/* Points as they come from the sampler. */
+static clshear_status draw(const point_source *source, size_t sets, uint32_t seed,
+                           clshear_points **points)
+{
+    char sampler[64];
+    const size_t count = (size_t)number_or(&source->count, 1024.0);
+    clshear_status status = clshear_settings_get_text(source->options.settings, CLSHEAR_SAMPLER,
+                                                      sampler, sizeof sampler);
+    if (status == CLSHEAR_OK) status = clshear_points_draw(sampler, count, sets, seed, points);
+    if (status == CLSHEAR_OK && clshear_points_count(*points) != count && !source->options.quiet)
+        fprintf(stderr, "clshear: sampler %s has no sets of %zu points: %zu\n", sampler, count,
+                clshear_points_count(*points));
+    return status;
+}
+
+clshear_status point_source_make(const point_source *source, size_t sets, uint32_t seed,
+                                 const char *letters, clshear_points **points)
+{
+    int64_t shear = CLSHEAR_SHEAR_NONE;
+    const int is_read = source->in.count > 0;
+    if (is_read) letters = NULL;
+    if (source->letters.count > 0) letters = source->letters.items[0];
+    clshear_settings_get_integer(source->options.settings, CLSHEAR_SHEAR, &shear);
+    clshear_status status = is_read ? clshear_points_read(source->in.items[0], points)
+                                    : draw(source, sets, seed, points);
+    if (status == CLSHEAR_OK && source->shear_px.count > 0 && source->shear_px.items[0] != 0.0)
+        status =
+            clshear_points_shear(*points, (clshear_shear)shear, (float)source->shear_px.items[0]);
+    if (status == CLSHEAR_OK && letters != NULL) status = clshear_points_select(*points, letters);
+    return status;
+}

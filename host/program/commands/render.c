@@ -1,0 +1,135 @@
+/* clshear SCENE: scene file in, pictures out. */
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands/commands.h"
+#include "commands/film_files.h"
+#include "commands/reference.h"
+#include "commands/scene_view.h"
+#include "report/failure.h"
+#include "report/output.h"
+#include "report/progress.h"
+#include "report/statistics.h"
+
+typedef struct render_job {
+    program_options options;
+    film_files files;
+    text_list reference;
+    int stats;
+    int version;
+    int list_devices;
+    int list_samplers;
+} render_job;
+
+#define AT(member) offsetof(render_job, member)
+#define PICTURES ".exr .png .jpg .jpeg .tif .tiff"
+static const program_flag flags[] = {
+    FILES_FLAG("out o output outfile", "write .exr, .png, .jpg or .tif; repeatable", "",
+               AT(files.out), PICTURES),
+    TEXT_FLAG("gain", "FILE", "write what the shear gains, in false colours", "", AT(files.gain),
+              PICTURES),
+    TEXT_FLAG("extend", "FILE", "go on from FILE up to --spp; other flags the same", "",
+              AT(files.extend), ""),
+    SWITCH_FLAG("stats", "print sizes, times and rays per second", AT(stats)),
+    SWITCH_FLAG("list-samplers", "list the samplers and stop", AT(list_samplers)),
+    SWITCH_FLAG("list-devices", "list the OpenCL devices and stop", AT(list_devices)),
+    TEXT_FLAG("print-settings", "FORMAT", "print the reference of all flags, md or man, and stop",
+              "", AT(reference), "md man"),
+    SWITCH_FLAG("version", "print the version and stop", AT(version)),
+};
+
+static int run(void *job);
+
+const program_command render_command = {
+    .name = "",
+    .usage = "clshear SCENE [flags]\n"
+             "       clshear points [flags]      point sets\n"
+             "       clshear spectrum [flags]    their power spectra\n"
+             "       clshear slice SCENE [flags] the integrand of a pixel\n"
+             "       clshear predict [flags]     variance expected from spectra\n"
+             "       clshear converge [flags]    variance against samples\n\n"
+             "Render SCENE (OBJ, glTF, PLY, STL) with depth of field. Each command has its own\n"
+             "--help.\n\n"
+             "  clshear scenes/cornell.obj --spp 1024 --out img.exr\n",
+    .notes = "Without --out, writes the scene's name with .exr in the current folder.\n"
+             "Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted (what was\n"
+             "rendered so far is written).\n",
+    .flags = flags,
+    .flag_count = sizeof flags / sizeof *flags,
+    .takes_scene = 1,
+    .job_size = sizeof(render_job),
+    .run = run,
+};
+
+static void print_device(void *user, int number, const char *name)
+{
+    (void)user;
+    printf("%d: %s\n", number, name);
+}
+
+static int list_samplers(void)
+{
+    clshear_sampler_info info = {.struct_size = sizeof info};
+    for (size_t i = 0; clshear_sampler_describe(i, &info); i++)
+        printf("%-12s %s%s%s\n", info.name, info.about, info.progressive ? "; progressive" : "",
+               info.is_default ? "; default" : "");
+    return EXIT_DONE;
+}
+
+/* Renders, or goes on with a film. */
+static clshear_status make_film(const render_job *job, clshear_scene *scene, clshear_film **film)
+{
+    clshear_film *base = NULL;
+    const text_list *extend = &job->files.extend;
+    clshear_status status =
+        extend->count > 0 ? clshear_film_read(extend->items[0], &base) : CLSHEAR_OK;
+    if (status != CLSHEAR_OK) return status;
+    progress_line progress = progress_start(job->options.quiet);
+    clshear_settings_set_progress(job->options.settings, progress_report, &progress);
+    catch_interrupt();
+    status = base != NULL ? clshear_render_extend(scene, job->options.settings, base, film)
+                          : clshear_render(scene, job->options.settings, film);
+    progress_end(&progress);
+    clshear_film_free(base);
+    return status;
+}
+
+static int render(const render_job *job, const scene_view *view)
+{
+    clshear_film *film = NULL;
+    clshear_film_info info = {.struct_size = sizeof info};
+    if (make_film(job, view->scene, &film) != CLSHEAR_OK) return complain_of_library();
+    clshear_film_describe(film, &info);
+    int code = film_files_write(&job->files, &job->options, film);
+    if (code == EXIT_DONE && job->stats) report_statistics(view->context, view->scene, film);
+    clshear_film_free(film);
+    return code == EXIT_DONE && !info.complete ? EXIT_INTERRUPTED : code;
+}
+
+static int run(void *user)
+{
+    render_job *job = user;
+    program_options *options = &job->options;
+    scene_view view = {0};
+    if (job->version) printf("clshear %s\n", clshear_version());
+    if (job->version) return EXIT_DONE;
+    if (job->list_devices) return exit_status_of(clshear_list_devices(print_device, NULL));
+    if (job->list_samplers) return list_samplers();
+    if (job->reference.count > 0) return print_reference(job->reference.items[0]);
+    if (options->scene == NULL)
+        return complain(EXIT_USAGE, "no scene given; try: clshear SCENE --out img.exr");
+    char *name = film_files_default_name(options->scene);
+    if (name == NULL) return complain(EXIT_FAILED, "out of memory");
+    if (job->files.out.count == 0) job->files.out.items[job->files.out.count++] = name;
+    if (job->files.gain.count > 0) clshear_settings_set_integer(options->settings, CLSHEAR_GAIN, 1);
+    int code = check_places("out", job->files.out.items, job->files.out.count);
+    if (code == EXIT_DONE)
+        code = check_places("gain", job->files.gain.items, job->files.gain.count);
+    if (code == EXIT_DONE) code = scene_view_open(options, &view);
+    if (code == EXIT_DONE) code = render(job, &view);
+    scene_view_close(&view);
+    free(name);
+    return code;
+}

@@ -1,0 +1,81 @@
+#include "commands/scene_view.h"
+
+#include <stdio.h>
+
+#include "report/failure.h"
+
+static void warn(void *user, const char *line)
+{
+    const program_options *options = user;
+    if (!options->quiet) fprintf(stderr, "clshear: %s\n", line);
+}
+
+/* What the settings say before the camera is completed. */
+typedef struct given_settings {
+    int has_eye;
+    int has_focus;
+    int has_lens;
+} given_settings;
+
+static given_settings given_by(const clshear_settings *settings)
+{
+    return (given_settings){.has_eye = clshear_settings_is_set(settings, CLSHEAR_EYE),
+                            .has_focus =
+                                clshear_settings_is_set(settings, CLSHEAR_FOCAL_DISTANCE) ||
+                                clshear_settings_is_set(settings, CLSHEAR_FOCUS_PIXEL),
+                            .has_lens = clshear_settings_is_set(settings, CLSHEAR_LENS_RADIUS) ||
+                                        clshear_settings_is_set(settings, CLSHEAR_F_STOP)};
+}
+
+/* Tells what file and flags left open. */
+static void tell_choices(const program_options *options, const clshear_scene *scene,
+                         const given_settings *given)
+{
+    const clshear_settings *settings = options->settings;
+    clshear_scene_info info = {.struct_size = sizeof info};
+    double radius = 0.0, distance = 0.0, eye[3] = {0.0};
+    size_t count = 0;
+    clshear_scene_describe(scene, &info);
+    clshear_settings_get_number(settings, CLSHEAR_LENS_RADIUS, &radius);
+    clshear_settings_get_number(settings, CLSHEAR_FOCAL_DISTANCE, &distance);
+    clshear_settings_get_numbers(settings, CLSHEAR_EYE, eye, 3, &count);
+    if (!given->has_focus && radius > 0.0)
+        fprintf(stderr, "clshear: focused on the middle of the picture, --focal-distance %g\n",
+                distance);
+    if (!given->has_lens)
+        fprintf(stderr, "clshear: no lens given, a moderate blur: --lens-radius %g\n", radius);
+    if (!info.file_camera && !given->has_eye)
+        fprintf(stderr, "clshear: no camera given, the scene is framed: --eye %g,%g,%g\n", eye[0],
+                eye[1], eye[2]);
+    if (info.lights + info.emitters == 0 && !clshear_settings_is_set(settings, CLSHEAR_LIGHT))
+        fprintf(stderr, "clshear: no light given, a point light above the scene's middle\n");
+}
+
+int scene_view_open(program_options *options, scene_view *view)
+{
+    const given_settings given = given_by(options->settings);
+    if (clshear_context_create(options->settings, &view->context) != CLSHEAR_OK)
+        return complain_of_library();
+    clshear_context_set_warning(view->context, warn, options);
+    if (clshear_scene_load(view->context, options->scene, &view->scene) != CLSHEAR_OK ||
+        clshear_camera_complete(view->scene, options->settings) != CLSHEAR_OK)
+        return complain_of_library();
+    if (!options->quiet) tell_choices(options, view->scene, &given);
+    return EXIT_DONE;
+}
+
+void scene_view_close(scene_view *view)
+{
+    clshear_scene_free(view->scene);
+    clshear_context_free(view->context);
+}
+
+int check_pixel(const program_options *options, const char *flag, const double *pixel)
+{
+    int64_t width = 0, height = 0;
+    clshear_settings_get_integer(options->settings, CLSHEAR_WIDTH, &width);
+    clshear_settings_get_integer(options->settings, CLSHEAR_HEIGHT, &height);
+    if (pixel[0] < (double)width && pixel[1] < (double)height) return EXIT_DONE;
+    return complain(EXIT_USAGE, "--%s %g,%g: is outside the %d x %d image", flag, pixel[0],
+                    pixel[1], (int)width, (int)height);
+}

@@ -1,0 +1,12 @@
+/* The program: the first word may name a command, otherwise a scene is rendered. */
+#include <string.h>
+
+#include "commands/commands.h"
+
+int main(int argc, char **argv)
+{
+    for (size_t i = 1; argc > 1 && all_commands[i] != NULL; i++)
+        if (strcmp(argv[1], all_commands[i]->name) == 0)
+            return command_run(all_commands[i], argc - 1, argv + 1);
+    return command_run(all_commands[0], argc, argv);
+}

@@ -1,0 +1,24 @@
+/* How the program ends, and what it says of failures. */
+#ifndef CS_PROGRAM_REPORT_FAILURE_H
+#define CS_PROGRAM_REPORT_FAILURE_H
+
+#include <clshear/common.h>
+
+enum {
+    EXIT_DONE = 0,
+    EXIT_FAILED = 1,
+    EXIT_USAGE = 2,
+    EXIT_INTERRUPTED = 130
+};
+
+/* Prints one line, "clshear: ...", on standard error and returns `code`. */
+int complain(int code, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The same with the library's message; returns EXIT_FAILED. */
+int complain_of_library(void);
+
+/* Prints the library's message unless the status is CLSHEAR_OK. Returns EXIT_DONE or EXIT_FAILED.
+ */
+int exit_status_of(clshear_status status);
+
+#endif

@@ -1,0 +1,50 @@
+#include "report/output.h"
+
+#include <clshear/clshear.h>
+#include <errno.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "report/failure.h"
+
+static int check_place(const char *flag, const char *path)
+{
+    char folder[PATH_MAX] = ".";
+    struct stat about;
+    if (strcmp(path, "-") == 0) return EXIT_DONE;
+    const char *slash = strrchr(path, '/');
+    const int exists = stat(path, &about) == 0;
+    if (exists && S_ISDIR(about.st_mode))
+        return complain(EXIT_FAILED, "--%s %s: is a folder", flag, path);
+    if (slash != NULL) snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
+    const int special = exists && !S_ISREG(about.st_mode);
+    if (access(special ? path : folder, W_OK) == 0) return EXIT_DONE;
+    return complain(EXIT_FAILED, "--%s %s: %s%s cannot be written: %s", flag, path,
+                    special ? "" : "folder ", special ? path : folder, strerror(errno));
+}
+
+int check_places(const char *flag, const char *const *paths, size_t count)
+{
+    int code = EXIT_DONE;
+    for (size_t i = 0; i < count && code == EXIT_DONE; i++)
+        code = check_place(flag, paths[i]);
+    return code;
+}
+
+int write_file(const char *path, void (*write)(FILE *stream, const void *user), const void *user)
+{
+    char *bytes = NULL;
+    size_t size = 0;
+    FILE *memory = open_memstream(&bytes, &size);
+    if (memory == NULL) return complain(EXIT_FAILED, "%s: out of memory", path);
+    write(memory, user);
+    const int broken = ferror(memory);
+    const int code = fclose(memory) != 0 || broken
+                         ? complain(EXIT_FAILED, "%s: out of memory", path)
+                         : exit_status_of(clshear_file_write(path, bytes, size));
+    free(bytes);
+    return code;
+}

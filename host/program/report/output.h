@@ -1,0 +1,16 @@
+/* Text and data files of commands: complete or not at all. */
+#ifndef CS_PROGRAM_REPORT_OUTPUT_H
+#define CS_PROGRAM_REPORT_OUTPUT_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+/* Finds out before long work whether results can be kept. "-", standard output, can. `flag` is
+ * named in the message. Returns EXIT_DONE or EXIT_FAILED. */
+int check_places(const char *flag, const char *const *paths, size_t count);
+
+/* Writes a file with what `write` puts out; "-" is standard output. Returns EXIT_DONE, or
+ * EXIT_FAILED with a line printed. */
+int write_file(const char *path, void (*write)(FILE *stream, const void *user), const void *user);
+
+#endif
