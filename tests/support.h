@@ -34,7 +34,10 @@ clshear_context *test_context(void);
 void test_ok(clshear_status status);
 
 /* Fails the test unless `status` is `expected`, a failure whose one-line message has `words`. */
-void test_refused(clshear_status status, clshear_status expected, const char *words);
+#define test_refused(status, expected, words) \
+    test_expect_refusal((status), (expected), (words), #status, __FILE__, __LINE__)
+void test_expect_refusal(clshear_status status, clshear_status expected, const char *words,
+                         const char *call, const char *file, int line);
 
 /* Path of a file in the scratch folder; valid for the next few calls. */
 const char *test_path(const char *name);

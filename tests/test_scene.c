@@ -336,6 +336,8 @@ static void bad_meshes_are_refused(void **state)
     test_ok(clshear_scene_create(made->context, &scene));
     test_refused(clshear_scene_add_mesh(scene, &mesh), CLSHEAR_BAD_ARGUMENT, "3");
     test_refused(clshear_scene_complete(scene), CLSHEAR_BAD_ARGUMENT, "no triangles");
+    mesh.indices = NULL;
+    test_refused(clshear_scene_add_mesh(scene, &mesh), CLSHEAR_BAD_ARGUMENT, "indices are NULL");
     mesh.indices = inside;
     for (int i = 0; i < 4; i++) {
         clshear_mesh dark = mesh, bright = mesh;
