@@ -88,6 +88,13 @@ static int read_numbers(const char *text, size_t count, double *numbers)
     return 1;
 }
 
+int cs_setting_parse(const cs_setting *setting, const char *text, double *numbers)
+{
+    if (setting->kind != CLSHEAR_CHOICE) return read_numbers(text, setting->values, numbers);
+    numbers[0] = cs_choice_find(setting->choices, text);
+    return numbers[0] >= 0.0;
+}
+
 /* Numbers in the table are floats in the kernels; texts like 0.1 must become the float 0.1. */
 static clshear_status set_numbers(clshear_settings *settings, size_t index, const char *text,
                                   cs_error *error)
@@ -95,7 +102,7 @@ static clshear_status set_numbers(clshear_settings *settings, size_t index, cons
     const cs_setting *entry = &cs_setting_table[index];
     const cs_setting_value *value = &settings->values[index];
     double numbers[8], *all = numbers;
-    if (!read_numbers(text, entry->values, numbers)) return refuse(entry, text, error);
+    if (!cs_setting_parse(entry, text, numbers)) return refuse(entry, text, error);
     const size_t before = entry->most > 1 && value->is_set ? value->count : 0;
     if (before / entry->values == entry->most)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s %.60s: given more than %zu times",
@@ -129,8 +136,8 @@ clshear_status cs_settings_set_text(clshear_settings *settings, size_t index, co
     const cs_setting *entry = &cs_setting_table[index];
     cs_setting_value *value = &settings->values[index];
     if (entry->kind == CLSHEAR_CHOICE) {
-        const double number = cs_choice_find(entry->choices, text);
-        if (number >= 0.0) return cs_settings_set(settings, entry->setting, &number, 1, error);
+        double number;
+        if (cs_setting_parse(entry, text, &number)) return cs_settings_set(settings, entry->setting, &number, 1, error);
         if (entry->setting == CLSHEAR_APERTURE && strpbrk(text, "./") != NULL)
             return set_aperture_file(settings, text, error);
         return refuse(entry, text, error);
