@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "film/film.h"
+#include "measure.h"
 
 enum {
     TILE = 8,
@@ -37,15 +38,15 @@ static void stop(const char *what)
 
 static clshear_film *must_read(const char *path)
 {
-    cs_error error;
     clshear_film *film = NULL;
-    if (cs_film_read(path, &error, &film) != CLSHEAR_OK) stop(error.message);
+    bench_must(clshear_film_read(path, &film));
     return film;
 }
 
 static void reserve(group *g, const clshear_film *film)
 {
-    const clshear_film_info info = clshear_film_describe(film);
+    clshear_film_info info = {.struct_size = sizeof info};
+    clshear_film_describe(film, &info);
     const size_t pixels = (size_t)info.width * (size_t)info.height;
     if (g->mean != NULL) return;
     g->width = info.width;
@@ -96,12 +97,6 @@ static void read_seeds(group *g, char **paths, int count)
     free(m2);
 }
 
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
 static double tile_sum(const group *g, const double *values, int x0, int y0)
 {
     double sum = 0.0;
@@ -124,11 +119,11 @@ static void print_gains(const group *g, const group *base)
             if (sqrt(before / (TILE * TILE)) <= 1e-3 * level || after <= 0.0) continue;
             gains[count++] = before / after;
         }
-    qsort(gains, (size_t)count, sizeof *gains, by_value);
     if (count == 0)
         printf(" - | - | - |");
     else
-        printf(" %.2f | %.2f | %.2f |", gains[count / 10], gains[count / 2], gains[count * 9 / 10]);
+        printf(" %.2f | %.2f | %.2f |", bench_quantile(gains, count, 0.1),
+               bench_quantile(gains, count, 0.5), bench_quantile(gains, count, 0.9));
     free(gains);
 }
 

@@ -15,7 +15,7 @@
 
 #include "measure.h"
 #include "meshes.h"
-#include "render/handles.h"
+#include "render/objects.h"
 
 enum {
     PREPASS,
@@ -36,17 +36,10 @@ typedef struct bench {
     double start_s, open_s, load_s, first_s; /* moments and times since the start of main */
     clshear_context *context;
     clshear_scene *scene;
-    clshear_camera camera;
+    clshear_settings *settings;
     double phases[PHASES][BENCH_MOST_ROUNDS];
     double samples, write_s;
 } bench;
-
-static void must(const bench *state, clshear_status status)
-{
-    if (status == CLSHEAR_OK) return;
-    fprintf(stderr, "bench_render: %s\n", clshear_message(state->context));
-    exit(1);
-}
 
 static int first_samples(void *user, const clshear_progress *progress)
 {
@@ -61,70 +54,73 @@ static void make_mesh(bench *state)
     cs_scene made;
     cs_error error;
     cs_scene_init(&made);
-    if (bench_make_mesh(state->mesh, state->triangles, &made, &error) != CLSHEAR_OK) exit(1);
-    const clshear_mesh mesh = {.positions = made.positions.items,
+    if (test_make_mesh(state->mesh, state->triangles, &made, &error) != CLSHEAR_OK) exit(1);
+    const clshear_mesh mesh = {.struct_size = sizeof mesh,
+                               .positions = made.positions.items,
                                .indices = made.indices.items,
                                .vertex_count = made.positions.count,
                                .triangle_count = made.indices.count,
                                .diffuse = {0.7f, 0.7f, 0.7f}};
-    const clshear_light light = {.vector = {0.5f, 0.95f, 0.5f}, .colour = {2.0f, 2.0f, 2.0f}};
     state->start_s = cs_now_s(); /* making the mesh is not the product's work */
-    must(state, clshear_scene_create(state->context, &mesh, 1, &state->scene));
-    must(state, clshear_scene_add_light(state->scene, &light));
+    bench_must(clshear_scene_create(state->context, &state->scene));
+    bench_must(clshear_scene_add_mesh(state->scene, &mesh));
+    bench_must(clshear_scene_complete(state->scene));
     cs_scene_free(&made);
 }
 
-/* The Cornell box's own light and camera for a file, those of the other benchmarks for a mesh. */
-static void place_camera(bench *state)
+/* Camera, lens and light: for a scene file those of the settings file beside it, for a mesh those
+ * of the other benchmarks. */
+static void choose_settings(bench *state)
 {
-    const int file = state->scene_file != NULL;
-    const clshear_light light = {.vector = {278, 430, -20}, .colour = {230000, 215000, 185000}};
-    if (file) {
-        must(state, clshear_scene_add_light(state->scene, &light));
-        state->camera = (clshear_camera){.eye = {276.4f, 274.4f, 800.0f},
-                                         .target = {276.4f, 274.4f, 0.0f},
-                                         .up = {0, 1, 0},
-                                         .fov_deg = 36.0f,
-                                         .focal_distance = 930.0f};
+    char path[1024];
+    clshear_settings *settings;
+    if (state->scene_file != NULL) {
+        const char *dot = strrchr(state->scene_file, '.');
+        const int stem =
+            (int)(dot != NULL ? (size_t)(dot - state->scene_file) : strlen(state->scene_file));
+        snprintf(path, sizeof path, "%.*s.flags", stem, state->scene_file);
+        settings = bench_settings(path);
+        bench_set_text(settings, CLSHEAR_APERTURE, "disk");
     } else {
-        state->camera = (clshear_camera){.eye = {0.5f, 0.5f, 2.2f},
-                                         .target = {0.5f, 0.5f, 0.5f},
-                                         .up = {0, 1, 0},
-                                         .fov_deg = 45.0f,
-                                         .focal_distance = 1.5f};
+        settings = bench_settings(NULL);
+        bench_set_text(settings, CLSHEAR_EYE, "0.5,0.5,2.2");
+        bench_set_text(settings, CLSHEAR_TARGET, "0.5,0.5,0.5");
+        bench_set_text(settings, CLSHEAR_UP, "0,1,0");
+        bench_set_text(settings, CLSHEAR_FOV, "45");
+        bench_set_text(settings, CLSHEAR_FOCAL_DISTANCE, "1.5");
+        bench_set_text(settings, CLSHEAR_LENS_RADIUS, "0.05");
+        bench_set_text(settings, CLSHEAR_LIGHT, "0.5,0.95,0.5,2,2,2");
     }
-    state->camera.lens_radius = state->lens_radius >= 0.0 ? (float)state->lens_radius
-                                : file                    ? 25.0f
-                                                          : 0.05f;
+    if (state->lens_radius >= 0.0) bench_set(settings, CLSHEAR_LENS_RADIUS, state->lens_radius);
+    bench_set(settings, CLSHEAR_WIDTH, state->size);
+    bench_set(settings, CLSHEAR_HEIGHT, state->size);
+    bench_set(settings, CLSHEAR_SPP, (double)state->spp);
+    if (state->replicates > 0) bench_set(settings, CLSHEAR_REPLICATES, (double)state->replicates);
+    bench_set(settings, CLSHEAR_THREADS, state->threads);
+    bench_set_text(settings, CLSHEAR_SAMPLER, state->sampler);
+    bench_set_text(settings, CLSHEAR_ORACLE, state->oracle);
+    clshear_settings_set_progress(settings, first_samples, state);
+    state->settings = settings;
 }
 
 static void open_scene(bench *state)
 {
-    const clshear_context_options options = {.threads = state->threads};
-    must(state, clshear_context_create(&options, &state->context));
+    choose_settings(state);
+    bench_must(clshear_context_create(state->settings, &state->context));
     state->open_s = cs_now_s() - state->start_s;
     const double start_s = cs_now_s();
     if (state->scene_file != NULL)
-        must(state, clshear_scene_load(state->context, state->scene_file, &state->scene));
+        bench_must(clshear_scene_load(state->context, state->scene_file, &state->scene));
     else
         make_mesh(state);
     state->load_s = cs_now_s() - (state->scene_file != NULL ? start_s : state->start_s);
-    place_camera(state);
 }
 
 static void render(bench *state, int round)
 {
-    clshear_film *film = NULL;
-    clshear_options options = clshear_options_defaults();
-    options.width = options.height = state->size;
-    options.spp = (uint32_t)state->spp;
-    options.replicates = (uint32_t)state->replicates;
-    options.sampler = state->sampler;
-    if (strcmp(state->oracle, "centre") == 0) options.oracle = CLSHEAR_ORACLE_CENTRE;
-    options.progress = first_samples;
-    options.progress_user = state;
-    must(state, clshear_render(state->scene, &state->camera, &options, &film));
-    const clshear_film_info info = clshear_film_describe(film);
+    clshear_film *film = bench_render(state->scene, state->settings);
+    clshear_film_info info = {.struct_size = sizeof info};
+    clshear_film_describe(film, &info);
     const double phases[PHASES] = {
         info.prepass_s, info.pilot_s, info.kernel_s,
         fmax(info.render_s - info.prepass_s - info.pilot_s - info.kernel_s, 0.0), info.render_s};
@@ -132,7 +128,7 @@ static void render(bench *state, int round)
         state->phases[p][round] = phases[p];
     state->samples = (double)info.samples;
     const double before_s = cs_now_s();
-    if (state->out != NULL) must(state, clshear_film_write(film, state->out));
+    if (state->out != NULL) bench_must(clshear_film_write(film, state->out));
     state->write_s = cs_now_s() - before_s;
     clshear_film_free(film);
 }
@@ -141,7 +137,10 @@ static void report(bench *state)
 {
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
-    const clshear_scene_info info = clshear_scene_describe(state->scene);
+    clshear_scene_info info = {.struct_size = sizeof info};
+    double lens_radius = 0.0;
+    clshear_scene_describe(state->scene, &info);
+    bench_must(clshear_settings_get_number(state->settings, CLSHEAR_LENS_RADIUS, &lens_radius));
     const double compile_s = fmax(state->load_s - info.load_s - info.build_s, 0.0);
     bench_record *record = bench_record_begin(state->json, "render");
     const struct {
@@ -151,7 +150,7 @@ static void report(bench *state)
                 {"pixels", (double)state->size * state->size},
                 {"spp", (double)state->spp},
                 {"threads", (double)state->threads},
-                {"lens_radius", (double)state->camera.lens_radius},
+                {"lens_radius", lens_radius},
                 {"open_s", state->open_s},
                 {"load_s", info.load_s},
                 {"compile_s", compile_s},
@@ -200,11 +199,12 @@ int main(int argc, char **argv)
                                 {.name = "rounds", .number = &state.rounds},
                                 {.name = "json", .text = &state.json}};
     bench_read_flags(argc, argv, flags, sizeof flags / sizeof *flags);
-    if (state.rounds < 1 || state.rounds > BENCH_MOST_ROUNDS) state.rounds = 3;
+    state.rounds = bench_rounds(state.rounds);
     open_scene(&state);
     for (int round = 0; round < state.rounds; round++)
         render(&state, round);
     report(&state);
+    clshear_settings_free(state.settings);
     clshear_scene_free(state.scene);
     clshear_context_free(state.context);
     return 0;

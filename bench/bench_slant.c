@@ -3,7 +3,7 @@
  * point projected to (p, q), relative to the pixel's centre, is seen along x + s u = p, y + s v = q
  * with s = shear + slope * q. Variance of one pattern, mean over offsets of the texture.
  *
- * bench_slant [OFFSETS [REPLICATES]] */
+ * bench_slant [--offsets N] [--replicates N] */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +11,7 @@
 #include "clshear/device/hash.h"
 #include "clshear/device/sampler/sampler.h"
 #include "clshear/device/shear.h"
+#include "measure.h"
 #include "optics/optics.h"
 #include "pattern/pattern.h"
 
@@ -106,20 +107,23 @@ static void measure(plane p, cs_u32 count, cs_u32 offsets, cs_u32 replicates,
 int main(int argc, char **argv)
 {
     static const double shears[] = {5, 16, -16}, slopes[] = {0.05, 0.16, 0.3}, cells[] = {4, 20};
-    const cs_u32 offsets = argc > 1 ? (cs_u32)atoi(argv[1]) : 60;
-    const cs_u32 replicates = argc > 2 && atoi(argv[2]) > 1 ? (cs_u32)atoi(argv[2]) : 40;
-    const clshear_camera camera = {.aperture = CLSHEAR_APERTURE_SQUARE};
+    int offsets = 60, replicates = 40;
+    const bench_flag flags[] = {{.name = "offsets", .number = &offsets},
+                                {.name = "replicates", .number = &replicates}};
+    bench_read_flags(argc, argv, flags, sizeof flags / sizeof *flags);
+    if (offsets < 1 || replicates < 2) return 2;
+    const cs_view view = {.aperture = CLSHEAR_APERTURE_SQUARE};
     cs_optics_tables lens = {0};
     cs_error error;
-    if (cs_optics_make(&camera, CLSHEAR_FILTER_BOX, 0.0f, &lens, &error) != CLSHEAR_OK) return 1;
+    if (cs_optics_make(&view, CLSHEAR_FILTER_BOX, 0.0f, &lens, &error) != CLSHEAR_OK) return 1;
     printf("| N | shear | slope | cell | none | centre | by row | no slope |\n"
            "|---|---|---|---|---|---|---|---|\n");
     for (cs_u32 count = 256; count <= 1024; count *= 4)
         for (int s = 0; s < 3; s++)
             for (int g = 0; g < 3; g++)
                 for (int c = 0; c < 2; c++)
-                    measure((plane){shears[s], slopes[g], cells[c], {0, 0}}, count, offsets,
-                            replicates, &lens);
+                    measure((plane){shears[s], slopes[g], cells[c], {0, 0}}, count, (cs_u32)offsets,
+                            (cs_u32)replicates, &lens);
     cs_optics_free(&lens);
     return 0;
 }

@@ -43,8 +43,57 @@ static int ascending(const void *a, const void *b)
 
 double bench_median(double *values, int count)
 {
+    return bench_quantile(values, count, 0.5);
+}
+
+double bench_quantile(double *values, int count, double part)
+{
     qsort(values, (size_t)count, sizeof *values, ascending);
-    return values[count / 2];
+    return values[(int)(part * count)];
+}
+
+int bench_rounds(int wanted)
+{
+    if (wanted < 1) return 1;
+    return wanted < BENCH_MOST_ROUNDS ? wanted : BENCH_MOST_ROUNDS;
+}
+
+void bench_must(clshear_status status)
+{
+    if (status == CLSHEAR_OK) return;
+    fprintf(stderr, "%s: %s\n", clshear_status_name(status), clshear_message());
+    exit(1);
+}
+
+clshear_settings *bench_settings(const char *path)
+{
+    clshear_settings *settings = NULL;
+    bench_must(clshear_settings_create(&settings));
+    if (path != NULL) bench_must(clshear_settings_read(settings, path, NULL, NULL));
+    return settings;
+}
+
+void bench_set(clshear_settings *settings, clshear_setting setting, double value)
+{
+    bench_must(clshear_settings_set_numbers(settings, setting, &value, 1));
+}
+
+void bench_set_vector(clshear_settings *settings, clshear_setting setting, const float *vector)
+{
+    const double numbers[3] = {(double)vector[0], (double)vector[1], (double)vector[2]};
+    bench_must(clshear_settings_set_numbers(settings, setting, numbers, 3));
+}
+
+void bench_set_text(clshear_settings *settings, clshear_setting setting, const char *text)
+{
+    if (text != NULL) bench_must(clshear_settings_set_text(settings, setting, text));
+}
+
+clshear_film *bench_render(clshear_scene *scene, const clshear_settings *settings)
+{
+    clshear_film *film = NULL;
+    bench_must(clshear_render(scene, settings, &film));
+    return film;
 }
 
 struct bench_record {

@@ -1,5 +1,6 @@
 #include "support.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #include "clshear/device/sampler/sampler.h"
@@ -14,19 +15,45 @@ static void keep_warning(void *user, const char *line)
     snprintf(warnings + used, sizeof warnings - used, "%s\n", line);
 }
 
+void test_near(double a, double b, double tolerance, const char *what, const char *file, int line)
+{
+    if (a == b || fabs(a - b) <= tolerance) return;
+    print_error("%s is %.9g, not %.9g +- %.3g\n", what, a, b, tolerance);
+    _fail(file, line);
+}
+
+void test_compare(double a, const char *relation, double b, const char *what, const char *file,
+                  int line)
+{
+    const int equal = relation[1] == '=';
+    if (relation[0] == '<' ? a < b : a > b) return;
+    if (equal && a == b) return;
+    print_error("%s is %.9g, not %s %.9g\n", what, a, relation, b);
+    _fail(file, line);
+}
+
 clshear_context *test_context(void)
 {
     clshear_context *context = NULL;
-    clshear_context_options options = clshear_context_defaults();
-    options.warn = keep_warning;
-    if (clshear_context_create(&options, &context) != CLSHEAR_OK)
-        fail_msg("%s", clshear_message(NULL));
+    test_ok(clshear_context_create(NULL, &context));
+    clshear_context_set_warning(context, keep_warning, NULL);
     return context;
 }
 
-void test_ok(const clshear_context *context, clshear_status status)
+void test_ok(clshear_status status)
 {
-    if (status != CLSHEAR_OK) fail_msg("%s", clshear_message(context));
+    if (status != CLSHEAR_OK) fail_msg("%s: %s", clshear_status_name(status), clshear_message());
+}
+
+void test_expect_refusal(clshear_status status, clshear_status expected, const char *words,
+                         const char *call, const char *file, int line)
+{
+    const char *message = status != CLSHEAR_OK ? clshear_message() : "";
+    if (status == expected && strstr(message, words) != NULL && strchr(message, '\n') == NULL)
+        return;
+    print_error("%s: status %d, not %d; \"%s\" is to be one line with \"%s\"\n", call, (int)status,
+                (int)expected, message, words);
+    _fail(file, line);
 }
 
 const char *test_path(const char *name)
@@ -55,6 +82,73 @@ const char *test_warnings(void)
     return shown;
 }
 
+clshear_settings *test_settings(const clshear_settings *base, int width, int height, uint32_t spp)
+{
+    clshear_settings *settings = NULL;
+    test_ok(base != NULL ? clshear_settings_copy(base, &settings)
+                         : clshear_settings_create(&settings));
+    test_set_number(settings, CLSHEAR_WIDTH, width);
+    test_set_number(settings, CLSHEAR_HEIGHT, height);
+    test_set_number(settings, CLSHEAR_SPP, spp);
+    return settings;
+}
+
+void test_set(clshear_settings *settings, clshear_setting setting, const char *format, ...)
+{
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    test_ok(clshear_settings_set_text(settings, setting, text));
+}
+
+void test_set_number(clshear_settings *settings, clshear_setting setting, double value)
+{
+    test_ok(clshear_settings_set_numbers(settings, setting, &value, 1));
+}
+
+clshear_film *test_render(clshear_scene *scene, const clshear_settings *settings)
+{
+    clshear_film *film = NULL;
+    test_ok(clshear_render(scene, settings, &film));
+    return film;
+}
+
+clshear_film_info test_film_info(const clshear_film *film)
+{
+    clshear_film_info info = {.struct_size = sizeof info};
+    clshear_film_describe(film, &info);
+    return info;
+}
+
+clshear_scene_info test_scene_info(const clshear_scene *scene)
+{
+    clshear_scene_info info = {.struct_size = sizeof info};
+    clshear_scene_describe(scene, &info);
+    return info;
+}
+
+clshear_scene *test_meshes(clshear_context *context, const clshear_mesh *meshes, size_t count)
+{
+    clshear_scene *scene = NULL;
+    test_ok(clshear_scene_create(context, &scene));
+    for (size_t i = 0; i < count; i++) {
+        clshear_mesh mesh = meshes[i];
+        mesh.struct_size = sizeof mesh;
+        test_ok(clshear_scene_add_mesh(scene, &mesh));
+    }
+    test_ok(clshear_scene_complete(scene));
+    return scene;
+}
+
+void test_add_light(clshear_scene *scene, const clshear_light *light)
+{
+    clshear_light added = *light;
+    added.struct_size = sizeof added;
+    test_ok(clshear_scene_add_light(scene, &added));
+}
+
 clshear_scene *test_floor(clshear_context *context, float half, float albedo)
 {
     const float positions[12] = {-half, 0, -half, half, 0, -half, half, 0, half, -half, 0, half};
@@ -64,31 +158,31 @@ clshear_scene *test_floor(clshear_context *context, float half, float albedo)
                                .vertex_count = 4,
                                .triangle_count = 2,
                                .diffuse = {albedo, albedo, albedo}};
+    return test_meshes(context, &mesh, 1);
+}
+
+clshear_scene *test_cornell(clshear_context *context)
+{
     clshear_scene *scene = NULL;
-    test_ok(context, clshear_scene_create(context, &mesh, 1, &scene));
+    test_ok(clshear_scene_load(context, SCENES "/cornell.obj", &scene));
     return scene;
 }
 
-clshear_scene *test_cornell(clshear_context *context, clshear_camera *camera)
+clshear_settings *test_cornell_settings(void)
 {
-    clshear_scene *scene = NULL;
-    const clshear_light light = {.vector = {278, 430, -20}, .colour = {230000, 215000, 185000}};
-    test_ok(context, clshear_scene_load(context, SCENES "/cornell.obj", &scene));
-    test_ok(context, clshear_scene_add_light(scene, &light));
-    *camera = (clshear_camera){.eye = {276.4f, 274.4f, 800},
-                               .target = {276.4f, 274.4f, 0},
-                               .up = {0, 1, 0},
-                               .fov_deg = 36.0f,
-                               .lens_radius = 25.0f,
-                               .focal_distance = 930.0f};
-    return scene;
+    clshear_settings *settings = NULL;
+    test_ok(clshear_settings_create(&settings));
+    test_ok(clshear_settings_read(settings, SCENES "/cornell.flags", NULL, NULL));
+    test_set(settings, CLSHEAR_APERTURE, "disk");
+    return settings;
 }
 
 int test_open_cornell(void **state)
 {
     test_fixture *made = calloc(1, sizeof *made);
     made->context = test_context();
-    made->scene = test_cornell(made->context, &made->camera);
+    made->scene = test_cornell(made->context);
+    made->settings = test_cornell_settings();
     *state = made;
     return 0;
 }
@@ -96,6 +190,7 @@ int test_open_cornell(void **state)
 int test_close(void **state)
 {
     test_fixture *made = *state;
+    clshear_settings_free(made->settings);
     clshear_scene_free(made->scene);
     clshear_context_free(made->context);
     free(made);
@@ -122,17 +217,17 @@ void test_draw(const test_pattern *pattern, cs_u32 key, cs_u32 index, cs_f32 *tu
     cs_draw_all(&pattern->pattern, pattern->rows.items, key, index, tuple);
 }
 
-cs_optics_tables test_optics(const clshear_camera *camera, clshear_filter filter, float width_px)
+cs_optics_tables test_optics(const cs_view *view, clshear_filter filter, float width_px)
 {
     cs_error error;
     cs_optics_tables tables = {0};
-    assert_int_equal(cs_optics_make(camera, filter, width_px, &tables, &error), CLSHEAR_OK);
+    assert_int_equal(cs_optics_make(view, filter, width_px, &tables, &error), CLSHEAR_OK);
     return tables;
 }
 
-const clshear_aperture_image *test_aperture_image(void)
+const cs_aperture_image *test_aperture_image(void)
 {
     static float luminance[5 * 4] = {0, 1, 0, 2, 3, 1, 4, 0, 0, 2, 0, 0, 0, 1, 1, 5, 2, 0, 0, 0};
-    static const clshear_aperture_image image = {luminance, 5, 4};
+    static const cs_aperture_image image = {luminance, 5, 4};
     return &image;
 }

@@ -15,11 +15,29 @@
 #include "optics/optics.h"
 #include "pattern/pattern.h"
 
+/* Comparisons of numbers that print them. A NaN fails all of them. */
+#define assert_near(a, b, tolerance) \
+    test_near((double)(a), (double)(b), (double)(tolerance), #a, __FILE__, __LINE__)
+#define assert_below(a, b) test_compare((double)(a), "<", (double)(b), #a, __FILE__, __LINE__)
+#define assert_above(a, b) test_compare((double)(a), ">", (double)(b), #a, __FILE__, __LINE__)
+#define assert_at_most(a, b) test_compare((double)(a), "<=", (double)(b), #a, __FILE__, __LINE__)
+#define assert_at_least(a, b) test_compare((double)(a), ">=", (double)(b), #a, __FILE__, __LINE__)
+
+void test_near(double a, double b, double tolerance, const char *what, const char *file, int line);
+void test_compare(double a, const char *relation, double b, const char *what, const char *file,
+                  int line);
+
 /* A context on the first device; fails the test if there is none. */
 clshear_context *test_context(void);
 
-/* Fails the test, with the context's message, unless `status` is CLSHEAR_OK. */
-void test_ok(const clshear_context *context, clshear_status status);
+/* Fails the test, with the thread's message, unless `status` is CLSHEAR_OK. */
+void test_ok(clshear_status status);
+
+/* Fails the test unless `status` is `expected`, a failure whose one-line message has `words`. */
+#define test_refused(status, expected, words) \
+    test_expect_refusal((status), (expected), (words), #status, __FILE__, __LINE__)
+void test_expect_refusal(clshear_status status, clshear_status expected, const char *words,
+                         const char *call, const char *file, int line);
 
 /* Path of a file in the scratch folder; valid for the next few calls. */
 const char *test_path(const char *name);
@@ -30,28 +48,47 @@ const char *test_file(const char *name, const char *text);
 /* Warnings of contexts made by test_context since the last call, joined; owned by the support. */
 const char *test_warnings(void);
 
+/* A copy of `base` (NULL: fallbacks) with another size and number of samples. */
+clshear_settings *test_settings(const clshear_settings *base, int width, int height, uint32_t spp);
+
+/* Set a value from formatted text, or a number of any kind but text; fail the test on errors. */
+void test_set(clshear_settings *settings, clshear_setting setting, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+void test_set_number(clshear_settings *settings, clshear_setting setting, double value);
+
+/* Renders; fails the test if that fails. */
+clshear_film *test_render(clshear_scene *scene, const clshear_settings *settings);
+clshear_film_info test_film_info(const clshear_film *film);
+clshear_scene_info test_scene_info(const clshear_scene *scene);
+
+/* A complete scene of some meshes, whose struct_size need not be set. */
+clshear_scene *test_meshes(clshear_context *context, const clshear_mesh *meshes, size_t count);
+
+/* Adds a light, whose struct_size need not be set. */
+void test_add_light(clshear_scene *scene, const clshear_light *light);
+
 /* A horizontal square of half width `half` at height 0, one triangle pair. */
 clshear_scene *test_floor(clshear_context *context, float half, float albedo);
 
-/* scenes/cornell.obj with the light of its settings file, and the camera of that file but for the
- * aperture, which is a disk. */
-clshear_scene *test_cornell(clshear_context *context, clshear_camera *camera);
+/* scenes/cornell.obj, and the settings of scenes/cornell.flags but for the aperture, a disk. */
+clshear_scene *test_cornell(clshear_context *context);
+clshear_settings *test_cornell_settings(void);
 
 /* The Cornell box, opened and closed by cmocka. */
 typedef struct test_fixture {
     clshear_context *context;
     clshear_scene *scene;
-    clshear_camera camera;
+    clshear_settings *settings;
 } test_fixture;
 
 int test_open_cornell(void **state);
 int test_close(void **state);
 
 /* Aperture and filter; freed by cs_optics_free. */
-cs_optics_tables test_optics(const clshear_camera *camera, clshear_filter filter, float width_px);
+cs_optics_tables test_optics(const cs_view *view, clshear_filter filter, float width_px);
 
 /* A small image without any symmetry, with a dark column and dark texels. */
-const clshear_aperture_image *test_aperture_image(void);
+const cs_aperture_image *test_aperture_image(void);
 
 /* A pattern with its table, to draw from on the host. */
 typedef struct test_pattern {

@@ -13,14 +13,12 @@ enum {
 
 static clshear_film *render(test_fixture *made, clshear_oracle oracle, int adaptive, uint32_t seed)
 {
-    clshear_options options = clshear_options_defaults();
-    clshear_film *film = NULL;
-    options.width = options.height = SIZE;
-    options.spp = SPP;
-    options.seed = seed;
-    options.oracle = oracle;
-    options.adaptive = adaptive;
-    test_ok(made->context, clshear_render(made->scene, &made->camera, &options, &film));
+    clshear_settings *settings = test_settings(made->settings, SIZE, SIZE, SPP);
+    test_set_number(settings, CLSHEAR_SEED, seed);
+    test_set_number(settings, CLSHEAR_ORACLE, oracle);
+    test_set_number(settings, CLSHEAR_ADAPTIVE, adaptive);
+    clshear_film *film = test_render(made->scene, settings);
+    clshear_settings_free(settings);
     return film;
 }
 
@@ -31,7 +29,7 @@ static void the_choice_is_visible(void **state)
     clshear_film *pilot = render(made, CLSHEAR_ORACLE_PILOT, 0, 1), *rules[4];
     const float *rule = clshear_film_channel(pilot, "Oracle");
     const float *shear = clshear_film_channel(pilot, "Shear");
-    const clshear_film_info info = clshear_film_describe(pilot);
+    const clshear_film_info info = test_film_info(pilot);
     assert_true(info.pilot_samples > 0);
     assert_true((double)info.pilot_samples <= 0.1 * (double)info.samples);
     for (int r = 0; r < 4; r++)
@@ -60,7 +58,7 @@ static void samples_are_counted(void **state)
         least = fmin(least, (double)samples[i]);
         most = fmax(most, (double)samples[i]);
     }
-    assert_true(total == (double)clshear_film_describe(film).samples);
+    assert_true(total == (double)test_film_info(film).samples);
     assert_true(total <= (double)SPP * PIXELS && total > 0.5 * SPP * PIXELS);
     assert_true(least >= SPP / 16.0 && most <= 16.0 * SPP && most >= 4.0 * least);
     clshear_film_free(film);
@@ -77,18 +75,16 @@ static int stop_after_a_third(void *user, const clshear_progress *progress)
 static void interruption_leaves_no_holes(void **state)
 {
     test_fixture *made = *state;
-    clshear_options options = clshear_options_defaults();
-    clshear_film *film = NULL;
-    options.width = options.height = SIZE;
-    options.spp = 1024;
-    options.replicates = 1;
-    options.adaptive = 1;
-    options.progress = stop_after_a_third;
-    assert_int_equal(clshear_render(made->scene, &made->camera, &options, &film),
-                     CLSHEAR_CANCELLED);
+    clshear_settings *settings = test_settings(made->settings, SIZE, SIZE, 1024);
+    test_set(settings, CLSHEAR_REPLICATES, "1");
+    test_set(settings, CLSHEAR_ADAPTIVE, "1");
+    clshear_settings_set_progress(settings, stop_after_a_third, NULL);
+    clshear_film *film = test_render(made->scene, settings);
+    assert_int_equal(test_film_info(film).complete, 0);
     for (int i = 0; i < PIXELS; i++)
         assert_true(clshear_film_channel(film, "Samples")[i] > 0.0f);
     clshear_film_free(film);
+    clshear_settings_free(settings);
 }
 
 /* The same picture as with even samples, and less noise. 16 seeds each: the image means differ by
@@ -122,14 +118,11 @@ static void gain_is_shown(void **state)
 {
     test_fixture *made = *state;
     for (int shear = 0; shear <= CLSHEAR_SHEAR_EQUAL_AREA; shear += CLSHEAR_SHEAR_EQUAL_AREA) {
-        clshear_options options = clshear_options_defaults();
-        clshear_film *film = NULL;
+        clshear_settings *settings = test_settings(made->settings, SIZE, SIZE, 64);
         int better = 0;
-        options.width = options.height = SIZE;
-        options.spp = 64;
-        options.shear = (clshear_shear)shear;
-        options.gain = 1;
-        test_ok(made->context, clshear_render(made->scene, &made->camera, &options, &film));
+        test_set_number(settings, CLSHEAR_SHEAR, shear);
+        test_set(settings, CLSHEAR_GAIN, "1");
+        clshear_film *film = test_render(made->scene, settings);
         const float *gain = clshear_film_channel(film, "Gain");
         assert_non_null(gain);
         for (int i = 0; i < PIXELS; i++) {
@@ -139,6 +132,7 @@ static void gain_is_shown(void **state)
         }
         if (shear != 0) assert_true(better > PIXELS / 2);
         clshear_film_free(film);
+        clshear_settings_free(settings);
     }
 }
 

@@ -5,23 +5,24 @@
 #include <pthread.h>
 #include <stdio.h>
 
+#include "clshear/analysis.h"
 #include "clshear/device/hash.h"
 
 static const double pi = 3.14159265358979323846;
 
-static clshear_points drawn(const char *sampler, size_t count, size_t sets, const char *names)
+static clshear_points *drawn(const char *sampler, size_t count, size_t sets, const char *names)
 {
-    clshear_points points = {0};
-    assert_int_equal(clshear_points_draw(sampler, count, sets, 3, &points), CLSHEAR_OK);
-    assert_int_equal(clshear_points_select(&points, names), CLSHEAR_OK);
+    clshear_points *points = NULL;
+    test_ok(clshear_points_draw(sampler, count, sets, 3, &points));
+    test_ok(clshear_points_select(points, names));
     return points;
 }
 
-static clshear_spectrum measured(const clshear_points *points, size_t width, size_t height)
+static clshear_spectrum *measured(const clshear_points *points, size_t width, size_t height)
 {
     clshear_context *context = test_context();
-    clshear_spectrum spectrum = {0};
-    test_ok(context, clshear_spectrum_measure(context, points, width, height, &spectrum));
+    clshear_spectrum *spectrum = NULL;
+    test_ok(clshear_spectrum_measure(context, points, width, height, &spectrum));
     clshear_context_free(context);
     return spectrum;
 }
@@ -35,8 +36,8 @@ static void spectra_are_direct_sums(void **state)
                         sides[][2] = {{2, 2}, {33, 18}, {64, 7}};
     for (int c = 0; c < 5; c++)
         for (int s = 0; s < 3; s++) {
-            clshear_points points = drawn("random", counts[c], 2, "xu");
-            clshear_spectrum spectrum = measured(&points, sides[s][0], sides[s][1]);
+            clshear_points *points = drawn("random", counts[c], 2, "xu");
+            clshear_spectrum *spectrum = measured(points, sides[s][0], sides[s][1]);
             for (size_t i = 0; i < sides[s][0] * sides[s][1]; i++) {
                 const double x = (double)(i % sides[s][0]) - (double)(sides[s][0] / 2);
                 const double y = (double)(i / sides[s][0]) - (double)(sides[s][1] / 2);
@@ -44,18 +45,20 @@ static void spectra_are_direct_sums(void **state)
                 for (size_t set = 0; set < 2; set++) {
                     double re = 0.0, im = 0.0;
                     for (size_t j = 0; j < counts[c]; j++) {
-                        const float *p = points.values + 2 * (set * counts[c] + j);
+                        const float *p = clshear_points_values(points) + 2 * (set * counts[c] + j);
                         const double phase = 2.0 * pi * (x * (double)p[0] + y * (double)p[1]);
                         re += cos(phase), im += sin(phase);
                     }
                     power += 0.5 * (re * re + im * im) / (double)counts[c];
                 }
-                assert_true(fabs((double)spectrum.power[i] - power) < 2e-4 * (1.0 + power));
+                assert_true(fabs((double)clshear_spectrum_power(spectrum)[i] - power) <
+                            2e-4 * (1.0 + power));
             }
             const size_t dc = sides[s][1] / 2 * sides[s][0] + sides[s][0] / 2;
-            assert_true(fabs((double)spectrum.power[dc] - (double)counts[c]) < 1e-3);
-            clshear_spectrum_free(&spectrum);
-            clshear_points_free(&points);
+            assert_true(fabs((double)clshear_spectrum_power(spectrum)[dc] - (double)counts[c]) <
+                        1e-3);
+            clshear_spectrum_free(spectrum);
+            clshear_points_free(points);
         }
 }
 
@@ -84,19 +87,19 @@ static void spectra_match_closed_forms(void **state)
     static const char *const samplers[] = {"random", "jittered", "nrooks"};
     const int side = 61, sets = 400;
     for (int which = 0; which < 3; which++) {
-        clshear_points points = drawn(samplers[which], 64, (size_t)sets, "xy");
-        clshear_spectrum spectrum = measured(&points, (size_t)side, (size_t)side);
+        clshear_points *points = drawn(samplers[which], 64, (size_t)sets, "xy");
+        clshear_spectrum *spectrum = measured(points, (size_t)side, (size_t)side);
         double sum = 0.0, count = 0.0;
         for (int y = 0; y <= side / 2; y++)
             for (int x = y == 0 ? 1 : -side / 2; x <= side / 2; x++) {
                 const size_t at = (size_t)((y + side / 2) * side + x + side / 2);
                 const double expected = closed_form(which, x, y);
-                sum += sets * pow((double)spectrum.power[at] / expected - 1.0, 2);
+                sum += sets * pow((double)clshear_spectrum_power(spectrum)[at] / expected - 1.0, 2);
                 count++;
             }
         if (fabs(sum / count - 1.0) > 0.23) fail_msg("%s: %g", samplers[which], sum / count);
-        clshear_spectrum_free(&spectrum);
-        clshear_points_free(&points);
+        clshear_spectrum_free(spectrum);
+        clshear_points_free(points);
     }
 }
 
@@ -106,21 +109,21 @@ static void rings_and_directions_are_read_off(void **state)
 {
     (void)state;
     float mean[32], anisotropy[32], along[32];
-    clshear_points points = drawn("random", 256, 100, "xy");
-    clshear_spectrum spectrum = measured(&points, 65, 80);
-    assert_int_equal(clshear_spectrum_radius(&spectrum), 32);
-    clshear_spectrum_radial(&spectrum, mean, anisotropy);
+    clshear_points *points = drawn("random", 256, 100, "xy");
+    clshear_spectrum *spectrum = measured(points, 65, 80);
+    assert_int_equal(clshear_spectrum_radius(spectrum), 32);
+    clshear_spectrum_radial(spectrum, mean, anisotropy);
     for (int r = 20; r < 32; r++) {
         assert_true(fabsf(mean[r] - 1.0f) < 0.08f);
         assert_true(fabsf(anisotropy[r] + 10.0f) < 4.0f);
     }
-    clshear_spectrum_along(&spectrum, 0.0, 1.0, along);
+    clshear_spectrum_along(spectrum, 0.0, 1.0, along);
     for (size_t r = 0; r < 32; r++)
-        assert_true(along[r] == spectrum.power[(40 + r + 1) * 65 + 32]);
-    clshear_spectrum_along(&spectrum, 1.0, -3.0, along); /* radius 20: 6 times */
-    assert_true(along[19] == spectrum.power[(40 - 18) * 65 + 32 + 6]);
-    clshear_spectrum_free(&spectrum);
-    clshear_points_free(&points);
+        assert_true(along[r] == clshear_spectrum_power(spectrum)[(40 + r + 1) * 65 + 32]);
+    clshear_spectrum_along(spectrum, 1.0, -3.0, along); /* radius 20: 6 times */
+    assert_true(along[19] == clshear_spectrum_power(spectrum)[(40 - 18) * 65 + 32 + 6]);
+    clshear_spectrum_free(spectrum);
+    clshear_points_free(points);
 }
 
 static double variance_of(const double *values, size_t count)
@@ -143,10 +146,18 @@ enum {
 static clshear_integrand integrand_called(int which)
 {
     static const char *const names[] = {"step", "box", "disk", "gaussian", "tent", "plane-wave"};
-    clshear_integrand integrand;
-    assert_int_equal(clshear_integrand_find(names[which], &integrand), CLSHEAR_OK);
+    clshear_integrand integrand = {.struct_size = sizeof integrand};
+    test_ok(clshear_integrand_find(names[which], &integrand));
     integrand.angle_deg = which == 0 ? 0.0 : 20.0;
     return integrand;
+}
+
+/* What lies beyond the spectrum: the last part. */
+static double tail_of(const clshear_prediction *prediction)
+{
+    const size_t last = clshear_prediction_parts(prediction) - 1;
+    assert_string_equal(clshear_prediction_part_name(prediction, last), "tail");
+    return clshear_prediction_part_variance(prediction, last);
 }
 
 /* Six integrands, five samplers: 8000 shifted sets of 64 points against the spectrum of 2000
@@ -157,38 +168,38 @@ static void prediction_equals_measurement(void **state)
 {
     (void)state;
     static const char *const samplers[SAMPLERS] = {"random", "jittered", "nrooks", "mj", "sobol"};
-    clshear_spectrum spectra[SAMPLERS];
-    clshear_points points[SAMPLERS];
+    clshear_spectrum *spectra[SAMPLERS];
+    clshear_points *points[SAMPLERS];
     float *cells = malloc((size_t)SIDE * SIDE * sizeof *cells);
     double *means = malloc(2 * SETS * sizeof *means);
     for (int s = 0; s < SAMPLERS; s++) {
         points[s] = drawn(samplers[s], 64, 2000, "xy");
-        spectra[s] = measured(&points[s], 255, 255);
-        clshear_points_free(&points[s]);
+        spectra[s] = measured(points[s], 255, 255);
+        clshear_points_free(points[s]);
         points[s] = drawn(samplers[s], 64, 2 * SETS, "xy");
     }
     for (int f = 0; f < 6; f++) {
         const clshear_integrand integrand = integrand_called(f);
         double mean_square;
-        clshear_prediction predicted;
-        assert_int_equal(clshear_integrand_tabulate(&integrand, SIDE, cells, &mean_square),
-                         CLSHEAR_OK);
+        test_ok(clshear_integrand_tabulate(&integrand, SIDE, cells, &mean_square));
         for (int s = 0; s < SAMPLERS; s++) {
-            assert_int_equal(
-                clshear_predict_variance(&spectra[s], cells, SIDE, mean_square, &predicted),
-                CLSHEAR_OK);
-            clshear_points_integrate(&points[s], &integrand, 1, 5, means);
+            clshear_prediction *predicted = NULL;
+            test_ok(clshear_predict_variance(spectra[s], cells, SIDE, mean_square, &predicted));
+            const double expected = clshear_prediction_variance(predicted);
+            const double tail = tail_of(predicted);
+            clshear_prediction_free(predicted);
+            clshear_points_integrate(points[s], &integrand, 1, 5, means);
             const double variance = variance_of(means + SETS, SETS);
-            const double ratio = predicted.variance / variance;
+            const double ratio = expected / variance;
             printf("%-9s %d at %.0f: predicted %.3e measured %.3e ratio %.3f, tail %.0f %%\n",
-                   samplers[s], f, integrand.angle_deg, predicted.variance, variance, ratio,
-                   100.0 * predicted.tail / predicted.variance);
+                   samplers[s], f, integrand.angle_deg, expected, variance, ratio,
+                   100.0 * tail / expected);
             if (fabs(ratio - 1.0) > 0.1) fail_msg("%s, integrand %d: %g", samplers[s], f, ratio);
         }
     }
     for (int s = 0; s < SAMPLERS; s++) {
-        clshear_spectrum_free(&spectra[s]);
-        clshear_points_free(&points[s]);
+        clshear_spectrum_free(spectra[s]);
+        clshear_points_free(points[s]);
     }
     free(cells);
     free(means);
@@ -202,7 +213,7 @@ static void slopes_are_fitted(void **state)
     static const uint32_t counts[] = {16, 64, 256, 1024};
     double means[4 * 200], errors[4];
     const double reference = 1.0;
-    clshear_fit fit;
+    clshear_fit fit = {.struct_size = sizeof fit};
     for (cs_u32 i = 0; i < 800; i++) {
         const double a = 0x1p-32 * (cs_key(i, 1) + 0.5), b = 0x1p-32 * cs_key(i, 2);
         means[i] = 1.0 + pow(counts[i / 200], -0.75) * sqrt(-2.0 * log(a)) * cos(2.0 * pi * b);
@@ -233,15 +244,16 @@ static void *transform_waves(void *argument)
     const size_t first = *(const size_t *)argument;
     float values[40 * 40];
     for (size_t side = first; side < 40; side++) {
-        clshear_spectrum spectrum = {0};
+        clshear_spectrum *spectrum = NULL;
         for (size_t i = 0; i < side * side; i++)
             values[i] = (float)cos(2.0 * pi * (double)(i % side) / (double)side);
         if (clshear_spectrum_of_grid(values, side, side, &spectrum) != CLSHEAR_OK) return argument;
+        const float *power = clshear_spectrum_power(spectrum);
         const size_t middle = side / 2 * side + side / 2;
         const double expected = 0.5 * (double)(side * side - 1);
-        const int good = fabs((double)spectrum.power[middle - 1] / expected - 1.0) < 1e-4 &&
-                         fabs((double)spectrum.power[middle + 1] / expected - 1.0) < 1e-4;
-        clshear_spectrum_free(&spectrum);
+        const int good = fabs((double)power[middle - 1] / expected - 1.0) < 1e-4 &&
+                         fabs((double)power[middle + 1] / expected - 1.0) < 1e-4;
+        clshear_spectrum_free(spectrum);
         if (!good) return argument;
     }
     return NULL;

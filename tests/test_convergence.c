@@ -14,6 +14,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "clshear/analysis.h"
+
 enum {
     REPLICATES = 512,
     SIZES = 4
@@ -21,36 +23,46 @@ enum {
 
 static const uint32_t sizes[SIZES] = {64, 256, 1024, 4096};
 
-typedef struct fit {
+typedef struct measurement {
     double slope;
-    double variance[SIZES];
-    double mean;
-} fit;
+    double error[SIZES]; /* variance of one pattern, of green */
+} measurement;
 
-static fit measure(test_fixture *made, int x, int y, const char *sampler, clshear_shear shear)
+/* Means of the patterns of one size. */
+static void measure_size(test_fixture *made, clshear_settings *settings, uint32_t size,
+                         double *means)
 {
-    fit result = {0};
-    double sums[4] = {0}; /* x, y, xx, xy of the logarithms */
-    for (int k = 0; k < SIZES; k++) {
-        clshear_options options = clshear_options_defaults();
-        const int crop[4] = {x, x + 1, y, y + 1};
-        clshear_film *film = NULL;
-        memcpy(options.crop, crop, sizeof crop);
-        options.spp = REPLICATES * sizes[k];
-        options.replicates = REPLICATES;
-        options.sampler = sampler;
-        options.shear = shear;
-        options.oracle = CLSHEAR_ORACLE_CENTRE;
-        test_ok(made->context, clshear_render(made->scene, &made->camera, &options, &film));
-        result.variance[k] = REPLICATES * (double)*clshear_film_channel(film, "Variance.G");
-        result.mean = (double)*clshear_film_channel(film, "G");
-        clshear_film_free(film);
-        double a = log(sizes[k]), b = log(result.variance[k]);
-        sums[0] += a, sums[1] += b, sums[2] += a * a, sums[3] += a * b;
+    test_set(settings, CLSHEAR_SPP, "%u", REPLICATES * size);
+    clshear_film *film = test_render(made->scene, settings);
+    for (int r = 0; r < REPLICATES; r++) {
+        char name[32];
+        snprintf(name, sizeof name, "Pattern%d.G", r);
+        means[r] = (double)*clshear_film_channel(film, name);
     }
-    result.slope = (SIZES * sums[3] - sums[0] * sums[1]) / (SIZES * sums[2] - sums[0] * sums[0]);
-    printf("pixel %d,%d %s shear %d: slope %.3f, variance at N = 1024 %.3g, mean %.4f\n", x, y,
-           sampler, (int)shear, result.slope, result.variance[2], result.mean);
+    clshear_film_free(film);
+}
+
+static measurement measure(test_fixture *made, int x, int y, const char *aperture,
+                           const char *sampler, clshear_shear shear)
+{
+    static double means[SIZES][REPLICATES];
+    measurement result;
+    clshear_fit fit = {.struct_size = sizeof fit};
+    clshear_settings *settings = test_settings(made->settings, 512, 512, REPLICATES);
+    test_set(settings, CLSHEAR_CROP, "%d,%d,%d,%d", x, x + 1, y, y + 1);
+    test_set(settings, CLSHEAR_REPLICATES, "%d", REPLICATES);
+    test_set(settings, CLSHEAR_KEEP_PATTERNS, "1");
+    test_set(settings, CLSHEAR_SAMPLER, "%s", sampler);
+    test_set(settings, CLSHEAR_ORACLE, "centre");
+    test_set(settings, CLSHEAR_APERTURE, "%s", aperture);
+    test_set_number(settings, CLSHEAR_SHEAR, shear);
+    for (int k = 0; k < SIZES; k++)
+        measure_size(made, settings, sizes[k], means[k]);
+    test_ok(clshear_fit_slope(sizes, SIZES, means[0], REPLICATES, NULL, result.error, &fit));
+    result.slope = fit.slope;
+    printf("pixel %d,%d %s shear %d: slope %.3f, variance at N = 1024 %.3g\n", x, y, sampler,
+           (int)shear, result.slope, result.error[2]);
+    clshear_settings_free(settings);
     return result;
 }
 
@@ -58,27 +70,26 @@ static fit measure(test_fixture *made, int x, int y, const char *sampler, clshea
  * false-alarm rate 2e-4 (1e-13 with light ones). Sheared, edges give -1.5: -1.35 is 3.7 and 7.5
  * standard errors away, one-sided 1e-4 and 3e-14. The ratio at N = 1024 is 10 and more; that it
  * comes out below 5 by chance takes 5 standard errors of its logarithm, 6e-7. */
-static void expect_gain(test_fixture *made, int x, int y, clshear_aperture aperture)
+static void expect_gain(test_fixture *made, int x, int y, const char *aperture)
 {
-    made->camera.aperture = aperture;
-    fit none = measure(made, x, y, "mj", CLSHEAR_SHEAR_NONE);
-    fit sheared = measure(made, x, y, "mj", CLSHEAR_SHEAR_EQUAL_AREA);
+    const measurement none = measure(made, x, y, aperture, "mj", CLSHEAR_SHEAR_NONE);
+    const measurement sheared = measure(made, x, y, aperture, "mj", CLSHEAR_SHEAR_EQUAL_AREA);
     assert_true(fabs(none.slope + 1.0) < 0.15);
     assert_true(sheared.slope <= -1.35);
-    assert_true(none.variance[2] >= 5.0 * sheared.variance[2]);
+    assert_true(none.error[2] >= 5.0 * sheared.error[2]);
 }
 
 /* The textured back wall, out of focus. */
 static void back_wall_converges_faster(void **state)
 {
-    expect_gain(*state, 302, 130, CLSHEAR_APERTURE_SQUARE);
+    expect_gain(*state, 302, 130, "square");
 }
 
 /* The left front edge of the tall box, out of focus: a lit and a dark face meet at one depth. */
 static void box_edge_converges_faster(void **state)
 {
-    expect_gain(*state, 146, 330, CLSHEAR_APERTURE_SQUARE);
-    expect_gain(*state, 146, 330, CLSHEAR_APERTURE_DISK);
+    expect_gain(*state, 146, 330, "square");
+    expect_gain(*state, 146, 330, "disk");
 }
 
 /* A 4D net gains from shear too: less than pairs, since it does not start at -1. A ratio of 3 that
@@ -87,12 +98,13 @@ static void nets_converge_faster(void **state)
 {
     static const char *const samplers[] = {"sobol", "halton", "sz"};
     test_fixture *made = *state;
-    made->camera.aperture = CLSHEAR_APERTURE_SQUARE;
     for (int i = 0; i < 3; i++) {
-        fit none = measure(made, 146, 330, samplers[i], CLSHEAR_SHEAR_NONE);
-        fit sheared = measure(made, 146, 330, samplers[i], CLSHEAR_SHEAR_EQUAL_AREA);
+        const char *sampler = samplers[i];
+        const measurement none = measure(made, 146, 330, "square", sampler, CLSHEAR_SHEAR_NONE);
+        const measurement sheared =
+            measure(made, 146, 330, "square", sampler, CLSHEAR_SHEAR_EQUAL_AREA);
         assert_true(sheared.slope <= -1.35);
-        assert_true(none.variance[2] >= 1.5 * sheared.variance[2]);
+        assert_true(none.error[2] >= 1.5 * sheared.error[2]);
     }
 }
 

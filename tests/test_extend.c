@@ -3,22 +3,21 @@
 
 #include <math.h>
 
-static clshear_options options_of(const char *sampler, uint32_t spp)
+static clshear_settings *settings_of(test_fixture *made, const char *sampler, uint32_t spp)
 {
-    clshear_options options = clshear_options_defaults();
-    options.width = 24;
-    options.height = 24;
-    options.spp = spp;
-    options.sampler = sampler;
-    options.extendable = 1;
-    options.oracle = CLSHEAR_ORACLE_CENTRE; /* a pilot chooses by the samples it may spend */
-    return options;
+    clshear_settings *settings = test_settings(made->settings, 24, 24, spp);
+    test_set(settings, CLSHEAR_SAMPLER, "%s", sampler);
+    test_set(settings, CLSHEAR_EXTENDABLE, "1");
+    test_set(settings, CLSHEAR_ORACLE, "centre"); /* a pilot chooses by what it may spend */
+    return settings;
 }
 
-static clshear_film *render(test_fixture *made, const clshear_options *options)
+static clshear_film *extend(test_fixture *made, clshear_settings *settings, uint32_t spp,
+                            const clshear_film *base)
 {
     clshear_film *film = NULL;
-    test_ok(made->context, clshear_render(made->scene, &made->camera, options, &film));
+    test_set(settings, CLSHEAR_SPP, "%u", spp);
+    test_ok(clshear_render_extend(made->scene, settings, base, &film));
     return film;
 }
 
@@ -27,7 +26,7 @@ static clshear_film *render(test_fixture *made, const clshear_options *options)
 static void expect_same(const clshear_film *a, const clshear_film *b)
 {
     const char *name;
-    const clshear_film_info info = clshear_film_describe(a);
+    const clshear_film_info info = test_film_info(a);
     for (size_t c = 0; (name = clshear_film_channel_name(a, c)) != NULL; c++) {
         const float *pa = clshear_film_channel(a, name), *pb = clshear_film_channel(b, name);
         double most = 0.0, off = 0.0;
@@ -45,30 +44,26 @@ static void expect_same(const clshear_film *a, const clshear_film *b)
 static void extended_equals_whole(void **state)
 {
     test_fixture *made = *state;
-    clshear_sampler_info info;
+    clshear_sampler_info info = {.struct_size = sizeof info};
     int seen = 0;
     for (size_t s = 0; clshear_sampler_describe(s, &info); s++) {
         if (!info.progressive) continue;
-        clshear_options options = options_of(info.name, 100);
-        clshear_film *first = render(made, &options), *read = NULL;
+        clshear_settings *settings = settings_of(made, info.name, 100);
+        clshear_film *first = test_render(made->scene, settings), *read = NULL;
         const char *path = test_path("extend.exr");
-        test_ok(made->context, clshear_film_write(first, path));
-        test_ok(made->context, clshear_film_read(made->context, path, &read));
-        options.spp = 300;
-        options.extend = read;
-        clshear_film *second = render(made, &options);
-        options.spp = 1024;
-        options.extend = second;
-        clshear_film *third = render(made, &options);
-        options.extend = NULL;
-        clshear_film *whole = render(made, &options);
-        assert_true(clshear_film_describe(whole).samples == 24 * 24 * 1024);
+        test_ok(clshear_film_write(first, path));
+        test_ok(clshear_film_read(path, &read));
+        clshear_film *second = extend(made, settings, 300, read);
+        clshear_film *third = extend(made, settings, 1024, second);
+        clshear_film *whole = test_render(made->scene, settings);
+        assert_int_equal(test_film_info(whole).samples, 24 * 24 * 1024);
         expect_same(whole, third);
         clshear_film_free(first);
         clshear_film_free(read);
         clshear_film_free(second);
         clshear_film_free(third);
         clshear_film_free(whole);
+        clshear_settings_free(settings);
         seen++;
     }
     assert_true(seen >= 5);
@@ -78,19 +73,18 @@ static void extended_equals_whole(void **state)
 static void the_choice_of_the_pilot_stays(void **state)
 {
     test_fixture *made = *state;
-    clshear_options options = options_of("sz", 128);
-    options.oracle = CLSHEAR_ORACLE_PILOT;
-    clshear_film *first = render(made, &options);
-    options.spp = 512;
-    options.extend = first;
-    clshear_film *second = render(made, &options);
+    clshear_settings *settings = settings_of(made, "sz", 128);
+    test_set(settings, CLSHEAR_ORACLE, "pilot");
+    clshear_film *first = test_render(made->scene, settings);
+    clshear_film *second = extend(made, settings, 512, first);
     assert_memory_equal(clshear_film_channel(first, "Shear"), clshear_film_channel(second, "Shear"),
                         24 * 24 * sizeof(float));
     assert_memory_equal(clshear_film_channel(first, "Oracle"),
                         clshear_film_channel(second, "Oracle"), 24 * 24 * sizeof(float));
-    assert_true(clshear_film_describe(second).pilot_samples == 0);
+    assert_int_equal(test_film_info(second).pilot_samples, 0);
     clshear_film_free(first);
     clshear_film_free(second);
+    clshear_settings_free(settings);
 }
 
 /* Stops after a few launches. */
@@ -108,15 +102,12 @@ static int stop(void *user, const clshear_progress *progress)
 static void an_interrupted_extension_is_whole(void **state)
 {
     test_fixture *made = *state;
-    clshear_options options = options_of("sz", 4096);
-    clshear_film *first = render(made, &options), *second = NULL;
+    clshear_settings *settings = settings_of(made, "sz", 4096);
+    clshear_film *first = test_render(made->scene, settings);
     int calls = 0;
-    options.extend = first;
-    options.progress = stop;
-    options.progress_user = &calls;
-    options.spp = 2000000;
-    assert_int_equal(clshear_render(made->scene, &made->camera, &options, &second),
-                     CLSHEAR_CANCELLED);
+    clshear_settings_set_progress(settings, stop, &calls);
+    clshear_film *second = extend(made, settings, 2000000, first);
+    assert_int_equal(test_film_info(second).complete, 0);
     const float *a = clshear_film_channel(first, "G"), *b = clshear_film_channel(second, "G");
     const float *counts = clshear_film_channel(second, "Samples");
     const float *variance = clshear_film_channel(second, "SampleVariance.G");
@@ -130,6 +121,7 @@ static void an_interrupted_extension_is_whole(void **state)
     assert_true(off <= limit);
     clshear_film_free(first);
     clshear_film_free(second);
+    clshear_settings_free(settings);
 }
 
 static int stop_at_once(void *user, const clshear_progress *progress)
@@ -143,14 +135,12 @@ static int stop_at_once(void *user, const clshear_progress *progress)
 static void an_extension_that_never_began_is_whole(void **state)
 {
     test_fixture *made = *state;
-    clshear_options options = options_of("sz", 256);
-    clshear_film *first = render(made, &options), *second = NULL;
-    options.extend = first;
-    options.gain = 1;
-    options.progress = stop_at_once;
-    options.spp = 1024;
-    assert_int_equal(clshear_render(made->scene, &made->camera, &options, &second),
-                     CLSHEAR_CANCELLED);
+    clshear_settings *settings = settings_of(made, "sz", 256);
+    clshear_film *first = test_render(made->scene, settings);
+    test_set(settings, CLSHEAR_GAIN, "1");
+    clshear_settings_set_progress(settings, stop_at_once, NULL);
+    clshear_film *second = extend(made, settings, 1024, first);
+    assert_int_equal(test_film_info(second).complete, 0);
     const float *a = clshear_film_channel(first, "G"), *b = clshear_film_channel(second, "G");
     for (int i = 0; i < 24 * 24; i++) {
         assert_true(clshear_film_channel(second, "Samples")[i] == 256.0f);
@@ -159,57 +149,46 @@ static void an_extension_that_never_began_is_whole(void **state)
     assert_null(clshear_film_channel(second, "Gain"));
     clshear_film_free(first);
     clshear_film_free(second);
+    clshear_settings_free(settings);
 }
 
-static void refuse(test_fixture *made, const clshear_options *options, const char *words)
+/* Continues `base` with one setting changed. */
+static void refuse(test_fixture *made, const clshear_film *base, const clshear_settings *settings,
+                   clshear_setting changed, const char *value, const char *words)
 {
+    clshear_settings *other = NULL;
     clshear_film *film = NULL;
-    assert_int_equal(clshear_render(made->scene, &made->camera, options, &film),
-                     CLSHEAR_BAD_ARGUMENT);
+    test_ok(clshear_settings_copy(settings, &other));
+    test_set(other, changed, "%s", value);
+    test_refused(clshear_render_extend(made->scene, other, base, &film), CLSHEAR_BAD_ARGUMENT,
+                 words);
     assert_null(film);
-    if (strstr(clshear_message(made->context), words) == NULL)
-        fail_msg("no \"%s\" in: %s", words, clshear_message(made->context));
+    clshear_settings_free(other);
 }
 
 static void what_does_not_continue_is_refused(void **state)
 {
     test_fixture *made = *state;
-    clshear_options options = options_of("sobol", 64);
-    clshear_film *base = render(made, &options);
-    options.sampler = "mj";
-    clshear_film *none = NULL;
-    assert_int_equal(clshear_render(made->scene, &made->camera, &options, &none),
-                     CLSHEAR_BAD_ARGUMENT);
-    options.sampler = "sobol";
-    options.extendable = 0;
-    clshear_film *plain = render(made, &options);
-    options.spp = 128;
-    options.extend = plain;
-    refuse(made, &options, "--extendable");
-    options.extend = base;
-    options.sampler = "mj";
-    refuse(made, &options, "mj cannot extend");
-    options.sampler = "halton";
-    refuse(made, &options, "another sampler");
-    options = options_of("sobol", 128);
-    options.extend = base;
-    options.seed = 1;
-    refuse(made, &options, "another seed");
-    options.seed = 0;
-    options.shear = CLSHEAR_SHEAR_NONE;
-    refuse(made, &options, "another shear");
-    options.shear = CLSHEAR_SHEAR_EQUAL_AREA;
-    options.spp = 64;
-    refuse(made, &options, "64 samples per pixel already");
-    options.spp = 128;
-    options.crop[1] = options.crop[3] = 8;
-    refuse(made, &options, "--crop");
-    options.crop[1] = options.crop[3] = 0;
-    made->camera.focal_distance += 1.0f;
-    refuse(made, &options, "another camera");
-    made->camera.focal_distance -= 1.0f;
+    clshear_settings *settings = settings_of(made, "sobol", 64);
+    clshear_film *base = test_render(made->scene, settings), *none = NULL;
+    test_set(settings, CLSHEAR_SAMPLER, "mj");
+    test_refused(clshear_render(made->scene, settings, &none), CLSHEAR_BAD_ARGUMENT, "mj");
+    test_set(settings, CLSHEAR_SAMPLER, "sobol");
+    test_set(settings, CLSHEAR_EXTENDABLE, "0");
+    clshear_film *plain = test_render(made->scene, settings);
+    test_set(settings, CLSHEAR_SPP, "128");
+    refuse(made, plain, settings, CLSHEAR_SPP, "128", "extendable");
+    refuse(made, base, settings, CLSHEAR_SAMPLER, "mj", "mj cannot extend");
+    test_set(settings, CLSHEAR_EXTENDABLE, "1");
+    refuse(made, base, settings, CLSHEAR_SAMPLER, "halton", "another sampler");
+    refuse(made, base, settings, CLSHEAR_SEED, "1", "another seed");
+    refuse(made, base, settings, CLSHEAR_SHEAR, "none", "another shear");
+    refuse(made, base, settings, CLSHEAR_SPP, "64", "64 samples per pixel already");
+    refuse(made, base, settings, CLSHEAR_CROP, "0,8,0,8", "crop");
+    refuse(made, base, settings, CLSHEAR_FOCAL_DISTANCE, "931", "another focal-distance");
     clshear_film_free(base);
     clshear_film_free(plain);
+    clshear_settings_free(settings);
 }
 
 int main(void)

@@ -96,11 +96,11 @@ static void failures_leave_files_alone(void **state)
     clshear_film *film = make_film();
     const char *kept = test_file("kept.xyz", "precious");
     assert_int_equal(clshear_film_write(film, kept), CLSHEAR_BAD_FILE);
-    assert_non_null(strstr(error.message, "kept.xyz"));
+    assert_non_null(strstr(clshear_film_message(film), "kept.xyz"));
     assert_string_equal(output_of("cat '%s'", kept), "precious");
     const char *nowhere = test_path("no/such/folder/a.exr");
     assert_int_equal(clshear_film_write(film, nowhere), CLSHEAR_BAD_FILE);
-    assert_non_null(strstr(error.message, "a.exr"));
+    assert_non_null(strstr(clshear_film_message(film), "a.exr"));
     assert_false(exists(nowhere));
     /* A folder in the way of the final name: written, but it cannot be moved there. */
     const char *folder = test_path("folder.exr");
@@ -139,7 +139,7 @@ static void full_disks_are_noticed(void **state)
         const clshear_status status = clshear_film_write(film, kept);
         setrlimit(RLIMIT_FSIZE, &before);
         assert_int_equal(status, CLSHEAR_BAD_FILE);
-        assert_non_null(strstr(error.message, kept));
+        assert_non_null(strstr(clshear_film_message(film), kept));
         assert_string_equal(output_of("cat '%s'", kept), "precious");
         assert_string_equal(output_of("ls '%s'.part* 2>/dev/null", kept), "");
         remove(kept);

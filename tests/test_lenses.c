@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "clshear/analysis.h"
+
 enum {
     REPLICATES = 64,
     SIZES = 4,
@@ -20,19 +22,19 @@ typedef struct lens {
 } lens;
 
 static const lens lenses[] = {
-    {"disk", CLSHEAR_APERTURE_DISK, 0, 0, CLSHEAR_FILTER_BOX},
-    {"square", CLSHEAR_APERTURE_SQUARE, 0, 0, CLSHEAR_FILTER_BOX},
-    {"hexagon", CLSHEAR_APERTURE_POLYGON, 6, 0, CLSHEAR_FILTER_BOX},
-    {"triangle", CLSHEAR_APERTURE_POLYGON, 3, 0, CLSHEAR_FILTER_BOX},
+    {"disk", CLSHEAR_APERTURE_DISK, 0, 1, CLSHEAR_FILTER_BOX},
+    {"square", CLSHEAR_APERTURE_SQUARE, 0, 1, CLSHEAR_FILTER_BOX},
+    {"hexagon", CLSHEAR_APERTURE_POLYGON, 6, 1, CLSHEAR_FILTER_BOX},
+    {"triangle", CLSHEAR_APERTURE_POLYGON, 3, 1, CLSHEAR_FILTER_BOX},
     {"disk, anamorphic", CLSHEAR_APERTURE_DISK, 0, 2, CLSHEAR_FILTER_BOX},
     {"hexagon, anamorphic", CLSHEAR_APERTURE_POLYGON, 6, 0.5f, CLSHEAR_FILTER_BOX},
-    {"image", CLSHEAR_APERTURE_IMAGE, 0, 0, CLSHEAR_FILTER_BOX},
-    {"square, tent", CLSHEAR_APERTURE_SQUARE, 0, 0, CLSHEAR_FILTER_TENT},
-    {"square, gaussian", CLSHEAR_APERTURE_SQUARE, 0, 0, CLSHEAR_FILTER_GAUSSIAN},
-    {"disk, gaussian", CLSHEAR_APERTURE_DISK, 0, 0, CLSHEAR_FILTER_GAUSSIAN},
-    {"disk, blackman-harris", CLSHEAR_APERTURE_DISK, 0, 0, CLSHEAR_FILTER_BLACKMAN_HARRIS},
-    {"hexagon, blackman-harris", CLSHEAR_APERTURE_POLYGON, 6, 0, CLSHEAR_FILTER_BLACKMAN_HARRIS},
-    {"image, gaussian", CLSHEAR_APERTURE_IMAGE, 0, 0, CLSHEAR_FILTER_GAUSSIAN},
+    {"image", CLSHEAR_APERTURE_IMAGE, 0, 1, CLSHEAR_FILTER_BOX},
+    {"square, tent", CLSHEAR_APERTURE_SQUARE, 0, 1, CLSHEAR_FILTER_TENT},
+    {"square, gaussian", CLSHEAR_APERTURE_SQUARE, 0, 1, CLSHEAR_FILTER_GAUSSIAN},
+    {"disk, gaussian", CLSHEAR_APERTURE_DISK, 0, 1, CLSHEAR_FILTER_GAUSSIAN},
+    {"disk, blackman-harris", CLSHEAR_APERTURE_DISK, 0, 1, CLSHEAR_FILTER_BLACKMAN_HARRIS},
+    {"hexagon, blackman-harris", CLSHEAR_APERTURE_POLYGON, 6, 1, CLSHEAR_FILTER_BLACKMAN_HARRIS},
+    {"image, gaussian", CLSHEAR_APERTURE_IMAGE, 0, 1, CLSHEAR_FILTER_GAUSSIAN},
 };
 enum {
     LENSES = sizeof lenses / sizeof *lenses
@@ -48,27 +50,26 @@ static patch render(test_fixture *made, const lens *lens, int x, int y, uint32_t
                     clshear_shear shear)
 {
     patch result;
-    clshear_film *film = NULL;
-    clshear_options options = clshear_options_defaults();
-    const int crop[4] = {x, x + 4, y, y + 4};
-    memcpy(options.crop, crop, sizeof crop);
-    options.spp = REPLICATES * pattern;
-    options.replicates = REPLICATES;
-    options.shear = shear;
-    options.oracle = CLSHEAR_ORACLE_CENTRE;
-    options.filter = lens->filter;
-    options.seed = (uint32_t)shear; /* independent of each other */
-    made->camera.aperture = lens->aperture;
-    made->camera.blades = lens->blades;
-    made->camera.blade_rotation_deg = 20.0f;
-    made->camera.anamorphic = lens->anamorphic;
-    made->camera.image = test_aperture_image();
-    test_ok(made->context, clshear_render(made->scene, &made->camera, &options, &film));
+    const cs_aperture_image *image = test_aperture_image();
+    clshear_settings *settings = test_settings(made->settings, 512, 512, REPLICATES * pattern);
+    test_set(settings, CLSHEAR_CROP, "%d,%d,%d,%d", x, x + 4, y, y + 4);
+    test_set(settings, CLSHEAR_REPLICATES, "%d", REPLICATES);
+    test_set(settings, CLSHEAR_ORACLE, "centre");
+    test_set(settings, CLSHEAR_BLADE_ROTATION, "20");
+    test_set_number(settings, CLSHEAR_SHEAR, shear);
+    test_set_number(settings, CLSHEAR_FILTER, lens->filter);
+    test_set_number(settings, CLSHEAR_SEED, shear); /* independent of each other */
+    test_set_number(settings, CLSHEAR_ANAMORPHIC, (double)lens->anamorphic);
+    if (lens->blades > 0) test_set_number(settings, CLSHEAR_BLADES, lens->blades);
+    test_ok(clshear_settings_set_aperture(settings, image->luminance, image->width, image->height));
+    test_set_number(settings, CLSHEAR_APERTURE, lens->aperture);
+    clshear_film *film = test_render(made->scene, settings);
     for (int i = 0; i < PIXELS; i++) {
         result.mean[i] = (double)clshear_film_channel(film, "G")[i];
         result.variance[i] = (double)clshear_film_channel(film, "Variance.G")[i];
     }
     clshear_film_free(film);
+    clshear_settings_free(settings);
     return result;
 }
 
@@ -99,29 +100,24 @@ static void sheared_equals_unsheared(void **state)
  * the slope 0.029; -1.35 is 3.5 of them or more above all that is measured. */
 static void wall_converges_faster(void **state)
 {
+    static const uint32_t sizes[SIZES] = {64, 256, 1024, 4096};
     test_fixture *made = *state;
     printf("%-26s slope   none/sheared at N = 1024\n", "");
     for (int l = 0; l < LENSES; l++) {
-        double sums[4] = {0}, gain = 0.0;
+        double variance[SIZES][PIXELS], errors[SIZES], unsheared = 0.0;
+        clshear_fit fit = {.struct_size = sizeof fit};
         for (int k = 0; k < SIZES; k++) {
-            const uint32_t pattern = 64u << 2 * k;
             const patch sheared =
-                render(made, &lenses[l], 302, 130, pattern, CLSHEAR_SHEAR_EQUAL_AREA);
-            double variance = 0.0, unsheared = 0.0;
-            for (int i = 0; i < PIXELS; i++)
-                variance += sheared.variance[i];
-            const double a = log(pattern), b = log(variance);
-            sums[0] += a, sums[1] += b, sums[2] += a * a, sums[3] += a * b;
-            if (pattern != 1024) continue;
-            const patch none = render(made, &lenses[l], 302, 130, pattern, CLSHEAR_SHEAR_NONE);
-            for (int i = 0; i < PIXELS; i++)
-                unsheared += none.variance[i];
-            gain = unsheared / variance;
+                render(made, &lenses[l], 302, 130, sizes[k], CLSHEAR_SHEAR_EQUAL_AREA);
+            memcpy(variance[k], sheared.variance, sizeof variance[k]);
         }
-        const double slope =
-            (SIZES * sums[3] - sums[0] * sums[1]) / (SIZES * sums[2] - sums[0] * sums[0]);
-        printf("%-26s %.2f   %.1f\n", lenses[l].name, slope, gain);
-        assert_true(slope <= -1.35);
+        const patch none = render(made, &lenses[l], 302, 130, sizes[2], CLSHEAR_SHEAR_NONE);
+        for (int i = 0; i < PIXELS; i++)
+            unsheared += none.variance[i] / PIXELS;
+        test_ok(clshear_fit_slope_of_parts(sizes, SIZES, variance[0], PIXELS, errors, &fit));
+        const double gain = unsheared / errors[2];
+        printf("%-26s %.2f   %.1f\n", lenses[l].name, fit.slope, gain);
+        assert_true(fit.slope <= -1.35);
         assert_true(gain > 0.8); /* 0.09 * sqrt(2) for the standard error of its logarithm */
     }
 }
@@ -135,15 +131,17 @@ static void radiance_is_the_integrand(void **state)
         COUNT = 20000
     };
     test_fixture *made = *state;
-    const lens square = {"square", CLSHEAR_APERTURE_SQUARE, 0, 0, CLSHEAR_FILTER_BOX};
+    const lens square = {"square", CLSHEAR_APERTURE_SQUARE, 0, 1, CLSHEAR_FILTER_BOX};
     const patch rendered = render(made, &square, 146, 330, 256, CLSHEAR_SHEAR_EQUAL_AREA);
-    clshear_points points = {0};
+    clshear_settings *settings = test_settings(made->settings, 512, 512, 16);
+    clshear_points *points = NULL;
     float *rgb = malloc(3 * COUNT * sizeof *rgb);
     double sum = 0.0, squares = 0.0;
-    assert_int_equal(clshear_points_draw("random", COUNT, 1, 1, &points), CLSHEAR_OK);
-    assert_int_equal(clshear_points_select(&points, "xyuv"), CLSHEAR_OK);
-    test_ok(made->context, clshear_radiance(made->scene, &made->camera, 512, 512, 146, 330,
-                                            points.values, COUNT, rgb));
+    test_set(settings, CLSHEAR_APERTURE, "square");
+    test_ok(clshear_points_draw("random", COUNT, 1, 1, &points));
+    test_ok(clshear_points_select(points, "xyuv"));
+    const float *values = clshear_points_values(points);
+    test_ok(clshear_radiance(made->scene, settings, 146, 330, values, COUNT, rgb));
     for (int i = 0; i < COUNT; i++) {
         sum += (double)rgb[3 * i + 1] / COUNT;
         squares += (double)rgb[3 * i + 1] * (double)rgb[3 * i + 1] / COUNT;
@@ -151,13 +149,12 @@ static void radiance_is_the_integrand(void **state)
     const double error = sqrt((squares - sum * sum) / COUNT + rendered.variance[0]);
     assert_true(fabs(sum - rendered.mean[0]) < 5.0 * error);
     const float ends[2][4] = {{0.5f, 0.5f, 0.02f, 0.5f}, {0.5f, 0.5f, 0.98f, 0.5f}};
-    test_ok(made->context,
-            clshear_radiance(made->scene, &made->camera, 512, 512, 146, 330, ends[0], 2, rgb));
+    test_ok(clshear_radiance(made->scene, settings, 146, 330, ends[0], 2, rgb));
     assert_true(rgb[1] > 0.1f && rgb[4] < 0.05f);
-    assert_int_equal(
-        clshear_radiance(made->scene, &made->camera, 512, 512, 512, 0, ends[0], 2, rgb),
-        CLSHEAR_BAD_ARGUMENT);
-    clshear_points_free(&points);
+    test_refused(clshear_radiance(made->scene, settings, 512, 0, ends[0], 2, rgb),
+                 CLSHEAR_BAD_ARGUMENT, "512,0");
+    clshear_points_free(points);
+    clshear_settings_free(settings);
     free(rgb);
 }
 

@@ -21,7 +21,7 @@ enum {
 /* A variety of apertures; filters in turn. */
 static cs_optics_tables lens(cs_u32 which)
 {
-    const clshear_camera cameras[LENSES] = {
+    const cs_view views[LENSES] = {
         {.aperture = CLSHEAR_APERTURE_DISK},
         {.aperture = CLSHEAR_APERTURE_SQUARE, .anamorphic = 2.0f},
         {.aperture = CLSHEAR_APERTURE_POLYGON, .blades = 3, .blade_rotation_deg = 17.0f},
@@ -33,7 +33,7 @@ static cs_optics_tables lens(cs_u32 which)
                                              CLSHEAR_FILTER_BOX, CLSHEAR_FILTER_TENT,
                                              CLSHEAR_FILTER_BLACKMAN_HARRIS};
     const cs_u32 filter = which / LENSES;
-    return test_optics(&cameras[which % LENSES], filters[filter], widths[filter]);
+    return test_optics(&views[which % LENSES], filters[filter], widths[filter]);
 }
 enum {
     VARIANTS = 5 * LENSES
@@ -198,10 +198,10 @@ static void polygons_are_regular(void **state)
     const cs_u32 count = 100000;
     for (int blades = 3; blades <= 32; blades += blades < 9 ? 1 : 23) {
         const double rotation = 7.0 * blades, pi = 3.14159265358979;
-        const clshear_camera camera = {.aperture = CLSHEAR_APERTURE_POLYGON,
-                                       .blades = blades,
-                                       .blade_rotation_deg = (float)rotation};
-        cs_optics_tables made = test_optics(&camera, CLSHEAR_FILTER_BOX, 0.0f);
+        const cs_view view = {.aperture = CLSHEAR_APERTURE_POLYGON,
+                              .blades = blades,
+                              .blade_rotation_deg = (float)rotation};
+        cs_optics_tables made = test_optics(&view, CLSHEAR_FILTER_BOX, 0.0f);
         double sums[5] = {0}, squares[5] = {0};
         for (cs_u32 i = 0; i < count; i++) {
             const cs_camera_sample p = cs_shear(0.5f, 0.5f, uniform(i, 2), uniform(i, 3), 0,
@@ -228,9 +228,9 @@ static void polygons_are_regular(void **state)
 static void images_are_sampled_by_luminance(void **state)
 {
     (void)state;
-    const clshear_aperture_image *image = test_aperture_image();
-    const clshear_camera camera = {.aperture = CLSHEAR_APERTURE_IMAGE, .image = image};
-    cs_optics_tables made = test_optics(&camera, CLSHEAR_FILTER_BOX, 0.0f);
+    const cs_aperture_image *image = test_aperture_image();
+    const cs_view view = {.aperture = CLSHEAR_APERTURE_IMAGE, .image = image};
+    cs_optics_tables made = test_optics(&view, CLSHEAR_FILTER_BOX, 0.0f);
     const cs_u32 count = 50000;
     cs_u32 hits[20] = {0};
     double sum = 0.0, chi = 0.0;
@@ -256,9 +256,9 @@ static void images_are_sampled_by_luminance(void **state)
 static void filters_are_filters(void **state)
 {
     (void)state;
-    const clshear_camera camera = {.aperture = CLSHEAR_APERTURE_SQUARE};
+    const cs_view view = {.aperture = CLSHEAR_APERTURE_SQUARE};
     for (cs_u32 kind = 0; kind < 4; kind++) {
-        cs_optics_tables made = test_optics(&camera, (clshear_filter)kind, 2.0f);
+        cs_optics_tables made = test_optics(&view, (clshear_filter)kind, 2.0f);
         const cs_f32 *heights = made.table.items;
         const cs_u32 steps = made.optics.filter_steps;
         double sum = 0.0;
@@ -277,10 +277,9 @@ static void bad_lenses_are_refused(void **state)
 {
     (void)state;
     static float dark[4], negative[4] = {1, -1, 0, 0};
-    const clshear_aperture_image black = {dark, 2, 2}, wrong = {negative, 2, 2},
-                                 huge = {dark, 300, 1};
+    const cs_aperture_image black = {dark, 2, 2}, wrong = {negative, 2, 2}, huge = {dark, 300, 1};
     const struct {
-        clshear_camera camera;
+        cs_view view;
         clshear_filter filter;
         float width;
         const char *said;
@@ -301,7 +300,7 @@ static void bad_lenses_are_refused(void **state)
         cs_error error = {{0}};
         cs_optics_tables made = {0};
         assert_int_equal(
-            cs_optics_make(&cases[i].camera, cases[i].filter, cases[i].width, &made, &error),
+            cs_optics_make(&cases[i].view, cases[i].filter, cases[i].width, &made, &error),
             CLSHEAR_BAD_ARGUMENT);
         if (strstr(error.message, cases[i].said) == NULL) fail_msg("%s", error.message);
         cs_optics_free(&made);

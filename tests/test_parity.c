@@ -66,45 +66,80 @@ static void compare(const cs_launch *frame, const test_pattern *drawn, const cs_
     }
 }
 
-/* Square and disk with a box filter for all shears; besides them, for the equal-area shear, the
- * other apertures and filters. */
-static cs_optics_tables optics_of(cs_u32 variant)
+/* Every sampler meets every lens: shear, aperture, filter, and shear in pixels. The toroidal shear
+ * knows disks, squares and boxes only. */
+typedef struct lens {
+    cs_u32 shear_mode;
+    clshear_aperture aperture;
+    clshear_filter filter;
+    cs_f32 shear_px;
+} lens;
+
+static const lens lenses[] = {
+    {CS_SHEAR_NONE, CLSHEAR_APERTURE_SQUARE, CLSHEAR_FILTER_BOX, 0.0f},
+    {CS_SHEAR_NONE, CLSHEAR_APERTURE_DISK, CLSHEAR_FILTER_BOX, 12.0f},
+    {CS_SHEAR_NONE, CLSHEAR_APERTURE_IMAGE, CLSHEAR_FILTER_TENT, -3.0f},
+    {CS_SHEAR_TOROIDAL, CLSHEAR_APERTURE_SQUARE, CLSHEAR_FILTER_BOX, 0.4f},
+    {CS_SHEAR_TOROIDAL, CLSHEAR_APERTURE_DISK, CLSHEAR_FILTER_BOX, -3.0f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_DISK, CLSHEAR_FILTER_BOX, -3.0f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_DISK, CLSHEAR_FILTER_TENT, 12.0f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_DISK, CLSHEAR_FILTER_GAUSSIAN, 0.4f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_DISK, CLSHEAR_FILTER_BLACKMAN_HARRIS, 0.0f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_SQUARE, CLSHEAR_FILTER_BOX, 12.0f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_SQUARE, CLSHEAR_FILTER_TENT, 0.4f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_SQUARE, CLSHEAR_FILTER_GAUSSIAN, 0.0f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_SQUARE, CLSHEAR_FILTER_BLACKMAN_HARRIS, -3.0f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_POLYGON, CLSHEAR_FILTER_BOX, 0.4f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_POLYGON, CLSHEAR_FILTER_TENT, 0.0f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_POLYGON, CLSHEAR_FILTER_GAUSSIAN, -3.0f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_POLYGON, CLSHEAR_FILTER_BLACKMAN_HARRIS, 12.0f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_IMAGE, CLSHEAR_FILTER_BOX, 0.0f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_IMAGE, CLSHEAR_FILTER_TENT, -3.0f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_IMAGE, CLSHEAR_FILTER_GAUSSIAN, 12.0f},
+    {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_IMAGE, CLSHEAR_FILTER_BLACKMAN_HARRIS, 0.4f},
+};
+
+static cs_optics_tables optics_of(const lens *lens)
 {
-    const cs_u32 other = variant % 3 == CS_SHEAR_TOROIDAL ? 0 : variant / 6 % 5;
-    const clshear_camera camera = {.aperture =
-                                       (clshear_aperture)(other == 0 ? variant / 3 % 2 : other - 1),
-                                   .blades = 5,
-                                   .blade_rotation_deg = 11.0f,
-                                   .anamorphic = 1.5f,
-                                   .image = test_aperture_image()};
-    return test_optics(&camera, (clshear_filter)(other == 0 ? 0 : variant / 3 % 4), 0.0f);
+    const cs_view view = {.aperture = lens->aperture,
+                          .blades = 5,
+                          .blade_rotation_deg = 11.0f,
+                          .anamorphic = 1.5f,
+                          .image = test_aperture_image()};
+    return test_optics(&view, lens->filter, 0.0f);
+}
+
+static void expect_parity(cs_device *device, const lens *lens, const test_pattern *drawn,
+                          const cs_optics_tables *optics, cs_u32 pixel)
+{
+    cs_launch frame = {.pattern = drawn->pattern,
+                       .seed = pixel,
+                       .replicate = pixel / 3,
+                       .shear_mode = lens->shear_mode};
+    float *points = malloc(drawn->pattern.grid.count * CS_POINT_VALUES * sizeof *points);
+    frame.camera.optics = optics->optics;
+    run_points(device, &frame, &drawn->rows, &optics->table, pixel, lens->shear_px, points);
+    compare(&frame, drawn, &optics->table, pixel, lens->shear_px, points);
+    free(points);
 }
 
 static void host_equals_device(void **state)
 {
-    const cs_u32 counts[] = {1, 7, 49, 64, 1000};
-    const cs_f32 shears[] = {0.0f, 0.4f, -3.0f, 12.0f};
+    static const cs_u32 counts[] = {1, 7, 49, 64, 1000};
     (void)state;
     for (int w = 0; w < WIDTHS; w++) {
         cs_device *device = NULL;
         assert_int_equal(cs_device_open(NULL, 0, widths[w], &device, &error), CLSHEAR_OK);
-        for (cs_u32 variant = 0; variant < 5 * CS_SAMPLER_COUNT; variant++) {
-            test_pattern drawn =
-                test_pattern_of(variant / 5, counts[variant % 5], CS_ORDER_COHERENT);
-            cs_launch frame = {.pattern = drawn.pattern,
-                               .seed = variant,
-                               .replicate = variant / 3,
-                               .shear_mode = variant % 3};
-            cs_optics_tables optics = optics_of(variant);
-            frame.camera.optics = optics.optics;
-            float *points = malloc(drawn.pattern.grid.count * CS_POINT_VALUES * sizeof *points);
-            const cs_f32 shear = shears[variant / 6 % 4];
-            run_points(device, &frame, &drawn.rows, &optics.table, 1234u + variant, shear, points);
-            compare(&frame, &drawn, &optics.table, 1234u + variant, shear, points);
-            free(points);
-            test_pattern_free(&drawn);
-            cs_optics_free(&optics);
-        }
+        for (cs_u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
+            for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
+                test_pattern drawn = test_pattern_of(sampler, counts[c], CS_ORDER_COHERENT);
+                for (cs_u32 l = 0; l < sizeof lenses / sizeof *lenses; l++) {
+                    cs_optics_tables optics = optics_of(&lenses[l]);
+                    expect_parity(device, &lenses[l], &drawn, &optics, 1234u + 7u * l + sampler);
+                    cs_optics_free(&optics);
+                }
+                test_pattern_free(&drawn);
+            }
         cs_device_close(device);
     }
 }

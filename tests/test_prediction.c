@@ -4,13 +4,15 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "clshear/analysis.h"
+
 static const double pi = 3.14159265358979323846;
 
-static clshear_points drawn(const char *sampler, size_t count, size_t sets, uint32_t seed)
+static clshear_points *drawn(const char *sampler, size_t count, size_t sets, uint32_t seed)
 {
-    clshear_points points = {0};
-    assert_int_equal(clshear_points_draw(sampler, count, sets, seed, &points), CLSHEAR_OK);
-    assert_int_equal(clshear_points_select(&points, "xyuv"), CLSHEAR_OK);
+    clshear_points *points = NULL;
+    test_ok(clshear_points_draw(sampler, count, sets, seed, &points));
+    test_ok(clshear_points_select(points, "xyuv"));
     return points;
 }
 
@@ -52,26 +54,29 @@ static clshear_status sum_of_waves(void *user, const float *points, size_t count
 static void energies_are_where_they_are(void **state)
 {
     (void)state;
-    const clshear_reach reach = {128, 15, 4};
+    const clshear_reach reach = {sizeof reach, 128, 15, 4};
     clshear_context *context = test_context();
-    clshear_points points = drawn("random", 64, 2000, 1);
-    clshear_prediction_4d p;
+    clshear_points *points = drawn("random", 64, 2000, 1);
+    clshear_prediction *p = NULL;
     double sum = 0.0, energy = 0.0;
-    test_ok(context, clshear_predict_variance_4d(context, &points, sum_of_waves, NULL, &reach, &p));
-    for (int part = 0; part < CLSHEAR_PARTS; part++) {
+    test_ok(clshear_predict_variance_4d(context, points, sum_of_waves, NULL, &reach, &p));
+    for (size_t part = 0; part < clshear_prediction_parts(p); part++) {
+        const char *name = clshear_prediction_part_name(p, part);
+        const double found = clshear_prediction_part_energy(p, part);
         double expected = 0.0;
         for (int w = 0; w < WAVES; w++)
-            if (strcmp(waves[w].part, clshear_prediction_part(part)) == 0)
+            if (strcmp(waves[w].part, name) == 0)
                 expected += 0.5 * waves[w].amplitude * waves[w].amplitude;
-        if (fabs(p.energies[part] - expected) > 1e-3)
-            fail_msg("%s: %g, not %g", clshear_prediction_part(part), p.energies[part], expected);
+        if (fabs(found - expected) > 1e-3) fail_msg("%s: %g, not %g", name, found, expected);
         energy += expected;
-        sum += p.parts[part];
+        sum += clshear_prediction_part_variance(p, part);
     }
-    assert_true(fabs(p.energy - energy) < 1e-3);
-    assert_true(fabs(p.variance - sum) < 1e-12);
-    assert_true(fabs(64.0 * p.variance / energy - 1.0) < 4.0 / sqrt(2000.0));
-    clshear_points_free(&points);
+    const double variance = clshear_prediction_variance(p);
+    assert_true(fabs(clshear_prediction_energy(p) - energy) < 1e-3);
+    assert_true(fabs(variance - sum) < 1e-12);
+    assert_true(fabs(64.0 * variance / energy - 1.0) < 4.0 / sqrt(2000.0));
+    clshear_prediction_free(p);
+    clshear_points_free(points);
     clshear_context_free(context);
 }
 
@@ -81,26 +86,25 @@ static clshear_status failing(void *user, const float *points, size_t count, flo
     (void)points;
     (void)count;
     (void)values;
-    return CLSHEAR_CANCELLED;
+    return CLSHEAR_NO_DEVICE;
 }
 
 static void wrong_arguments_are_refused(void **state)
 {
     (void)state;
-    const clshear_reach reach = {16, 4, 2}, too_far = {16, 4, 16};
+    const clshear_reach reach = {sizeof reach, 16, 4, 2}, too_far = {sizeof reach, 16, 4, 16};
     clshear_context *context = test_context();
-    clshear_points points = drawn("random", 4, 2, 1);
-    clshear_prediction_4d p;
-    assert_int_equal(clshear_predict_variance_4d(context, &points, failing, NULL, &reach, &p),
-                     CLSHEAR_CANCELLED);
-    assert_int_equal(
-        clshear_predict_variance_4d(context, &points, sum_of_waves, NULL, &too_far, &p),
-        CLSHEAR_BAD_ARGUMENT);
-    assert_int_equal(clshear_points_select(&points, "xy"), CLSHEAR_OK);
-    assert_int_equal(clshear_predict_variance_4d(context, &points, sum_of_waves, NULL, &reach, &p),
-                     CLSHEAR_BAD_ARGUMENT);
-    assert_null(clshear_prediction_part(CLSHEAR_PARTS));
-    clshear_points_free(&points);
+    clshear_points *points = drawn("random", 4, 2, 1);
+    clshear_prediction *p = NULL;
+    assert_int_equal(clshear_predict_variance_4d(context, points, failing, NULL, &reach, &p),
+                     CLSHEAR_NO_DEVICE);
+    test_refused(clshear_predict_variance_4d(context, points, sum_of_waves, NULL, &too_far, &p),
+                 CLSHEAR_BAD_ARGUMENT, "16");
+    test_ok(clshear_points_select(points, "xy"));
+    test_refused(clshear_predict_variance_4d(context, points, sum_of_waves, NULL, &reach, &p),
+                 CLSHEAR_BAD_ARGUMENT, "x, y, u");
+    assert_null(p);
+    clshear_points_free(points);
     clshear_context_free(context);
 }
 
@@ -108,7 +112,7 @@ typedef struct pixel {
     test_fixture *made;
     int x;
     int y;
-    clshear_options options;
+    clshear_settings *settings;
     float shear_px;
     float *rgb;
 } pixel;
@@ -121,38 +125,23 @@ static clshear_status green(void *user, const float *points, size_t count, float
 {
     const pixel *p = user;
     assert_true(count <= MOST);
-    const clshear_status status =
-        clshear_radiance_of_samples(p->made->scene, &p->made->camera, &p->options, p->x, p->y,
-                                    p->shear_px, points, count, p->rgb);
+    const clshear_status status = clshear_radiance_of_samples(
+        p->made->scene, p->settings, p->x, p->y, p->shear_px, points, count, p->rgb);
     for (size_t i = 0; i < count; i++)
         values[i] = p->rgb[3 * i + 1];
     return status;
 }
 
-static float shear_of(const pixel *p)
-{
-    clshear_film *film = NULL;
-    clshear_options options = p->options;
-    const int crop[4] = {p->x, p->x + 1, p->y, p->y + 1};
-    memcpy(options.crop, crop, sizeof crop);
-    options.spp = options.replicates = 1;
-    options.oracle = CLSHEAR_ORACLE_CENTRE;
-    test_ok(p->made->context, clshear_render(p->made->scene, &p->made->camera, &options, &film));
-    const float shear = *clshear_film_channel(film, "Shear");
-    clshear_film_free(film);
-    return shear;
-}
-
 static double measured(pixel *p, const char *sampler, size_t count, size_t sets)
 {
-    clshear_points points = drawn(sampler, count, sets, 77);
+    clshear_points *points = drawn(sampler, count, sets, 77);
     double *means = calloc(sets, sizeof *means), mean = 0.0, variance = 0.0;
-    test_ok(p->made->context, clshear_points_integrate_4d(&points, green, p, 1, 5, means));
+    test_ok(clshear_points_integrate_4d(points, green, p, 1, 5, means));
     for (size_t i = 0; i < sets; i++)
         mean += means[i] / (double)sets;
     for (size_t i = 0; i < sets; i++)
         variance += (means[i] - mean) * (means[i] - mean) / ((double)sets - 1.0);
-    clshear_points_free(&points);
+    clshear_points_free(points);
     free(means);
     return variance;
 }
@@ -164,26 +153,30 @@ static double measured(pixel *p, const char *sampler, size_t count, size_t sets)
 static void pixels_are_predicted(void **state)
 {
     static const int places[3][2] = {{242, 488}, {302, 130}, {154, 213}};
-    const clshear_reach reach = {1024, 127, 8};
-    pixel p = {.made = *state, .options = clshear_options_defaults()};
+    const clshear_reach reach = {sizeof reach, 1024, 127, 8};
+    pixel p = {.made = *state};
+    p.settings = test_settings(p.made->settings, 512, 512, 256);
     p.rgb = malloc((size_t)3 * MOST * sizeof *p.rgb);
     printf("pixel     shear       predicted  measured\n");
     for (int i = 0; i < 6; i++) {
-        clshear_prediction_4d prediction;
-        clshear_points points = drawn("mj", 256, 200, 3);
+        clshear_prediction *prediction = NULL;
+        clshear_points *points = drawn("mj", 256, 200, 3);
         p.x = places[i / 2][0];
         p.y = places[i / 2][1];
-        p.shear_px = shear_of(&p);
-        p.options.shear = i % 2 ? CLSHEAR_SHEAR_EQUAL_AREA : CLSHEAR_SHEAR_NONE;
-        test_ok(p.made->context, clshear_predict_variance_4d(p.made->context, &points, green, &p,
-                                                             &reach, &prediction));
+        test_set(p.settings, CLSHEAR_SHEAR, "equal-area"); /* without it there is none */
+        test_ok(clshear_pixel_shear(p.made->scene, p.settings, p.x, p.y, &p.shear_px));
+        if (i % 2 == 0) test_set(p.settings, CLSHEAR_SHEAR, "none");
+        test_ok(
+            clshear_predict_variance_4d(p.made->context, points, green, &p, &reach, &prediction));
+        const double predicted = clshear_prediction_variance(prediction);
         const double truth = measured(&p, "mj", 256, 4000);
-        printf("%d,%d   %-10s  %.3g   %.3g\n", p.x, p.y, i % 2 ? "equal-area" : "none",
-               prediction.variance, truth);
-        if (fabs(prediction.variance / truth - 1.0) > 0.25)
-            fail_msg("%g, not %g", prediction.variance, truth);
-        clshear_points_free(&points);
+        printf("%d,%d   %-10s  %.3g   %.3g\n", p.x, p.y, i % 2 ? "equal-area" : "none", predicted,
+               truth);
+        if (fabs(predicted / truth - 1.0) > 0.25) fail_msg("%g, not %g", predicted, truth);
+        clshear_prediction_free(prediction);
+        clshear_points_free(points);
     }
+    clshear_settings_free(p.settings);
     free(p.rgb);
 }
 

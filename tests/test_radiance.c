@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "clshear/analysis.h"
+
 static const double pi = 3.14159265358979;
 
 typedef struct fixture {
@@ -29,16 +31,15 @@ static int tear_down(void **state)
 }
 
 /* Straight down on the plane from height 3. */
-static clshear_camera looking_down(float lens_radius, float focal_distance,
-                                   clshear_aperture aperture)
+static cs_view looking_down(float lens_radius, float focal_distance, clshear_aperture aperture)
 {
-    return (clshear_camera){.eye = {0.2f, 3.0f, -0.1f},
-                            .target = {0.2f, 0.0f, -0.1f},
-                            .up = {0, 0, -1},
-                            .fov_deg = 60.0f,
-                            .lens_radius = lens_radius,
-                            .focal_distance = focal_distance,
-                            .aperture = aperture};
+    return (cs_view){.eye = {0.2f, 3.0f, -0.1f},
+                     .target = {0.2f, 0.0f, -0.1f},
+                     .up = {0, 0, -1},
+                     .fov_deg = 60.0f,
+                     .lens_radius = lens_radius,
+                     .focal_distance = focal_distance,
+                     .aperture = aperture};
 }
 
 static const float light_position[3] = {0.7f, 1.5f, 0.4f};
@@ -54,39 +55,56 @@ static double plane_radiance(double x, double z)
 
 /* Mean over pixel (px, py) and the lens, by midpoint quadrature of the thin lens: a lens point l
  * and a point f of the focal plane see the plane point l + (f - l) * depth / focal distance. */
-static double expected_pixel(const clshear_camera *camera, int size, int px, int py)
+static double expected_pixel(const cs_view *view, int size, int px, int py)
 {
     enum {
         STEPS = 12
     };
-    const double depth = 3.0, focus = camera->focal_distance, radius = camera->lens_radius;
-    const double width = 2.0 * focus * tan(0.5 * camera->fov_deg * pi / 180.0) / size;
+    const double depth = 3.0, focus = view->focal_distance, radius = view->lens_radius;
+    const double width = 2.0 * focus * tan(0.5 * view->fov_deg * pi / 180.0) / size;
     double sum = 0.0, weight = 0.0;
     for (int i = 0; i < STEPS * STEPS * STEPS * STEPS; i++) {
         double c[4];
         for (int k = 0, rest = i; k < 4; k++, rest /= STEPS)
             c[k] = (rest % STEPS + 0.5) / STEPS;
         double u = (2.0 * c[2] - 1.0) * radius, v = (2.0 * c[3] - 1.0) * radius;
-        if (camera->aperture == CLSHEAR_APERTURE_DISK && u * u + v * v > radius * radius) continue;
+        if (view->aperture == CLSHEAR_APERTURE_DISK && u * u + v * v > radius * radius) continue;
         double fx = (px + c[0] - 0.5 * size) * width, fz = (py + c[1] - 0.5 * size) * width;
-        double x = camera->eye[0] + u + (fx - u) * depth / focus;
-        double z = camera->eye[2] + v + (fz - v) * depth / focus;
+        double x = view->eye[0] + u + (fx - u) * depth / focus;
+        double z = view->eye[2] + v + (fz - v) * depth / focus;
         sum += plane_radiance(x, z);
         weight += 1.0;
     }
     return sum / weight;
 }
 
-static clshear_film *render(fixture *made, clshear_scene *scene, const clshear_camera *camera,
-                            int size, clshear_shear shear)
+static void set_vector(clshear_settings *settings, clshear_setting setting, const float *vector)
 {
-    clshear_film *film = NULL;
-    clshear_options options = clshear_options_defaults();
-    options.width = options.height = size;
-    options.spp = 4096;
-    options.replicates = 16;
-    options.shear = shear;
-    test_ok(made->context, clshear_render(scene, camera, &options, &film));
+    const double numbers[3] = {(double)vector[0], (double)vector[1], (double)vector[2]};
+    test_ok(clshear_settings_set_numbers(settings, setting, numbers, 3));
+}
+
+static clshear_settings *settings_of(const cs_view *view, int size)
+{
+    clshear_settings *settings = test_settings(NULL, size, size, 4096);
+    set_vector(settings, CLSHEAR_EYE, view->eye);
+    set_vector(settings, CLSHEAR_TARGET, view->target);
+    set_vector(settings, CLSHEAR_UP, view->up);
+    test_set_number(settings, CLSHEAR_FOV, (double)view->fov_deg);
+    test_set_number(settings, CLSHEAR_LENS_RADIUS, (double)view->lens_radius);
+    test_set_number(settings, CLSHEAR_FOCAL_DISTANCE, (double)view->focal_distance);
+    test_set_number(settings, CLSHEAR_APERTURE, view->aperture);
+    return settings;
+}
+
+static clshear_film *render(clshear_scene *scene, const cs_view *view, int size,
+                            clshear_shear shear)
+{
+    clshear_settings *settings = settings_of(view, size);
+    test_set(settings, CLSHEAR_REPLICATES, "16");
+    test_set_number(settings, CLSHEAR_SHEAR, shear);
+    clshear_film *film = test_render(scene, settings);
+    clshear_settings_free(settings);
     return film;
 }
 
@@ -99,18 +117,17 @@ static void point_light_over_a_plane(void **state)
     const float lenses[][2] = {{0.0f, 3.0f}, {0.3f, 3.0f}, {0.3f, 2.0f}, {0.2f, 5.0f}};
     const int size = 12;
     const clshear_light light = {
-        .kind = CLSHEAR_LIGHT_POINT, .vector = {0.7f, 1.5f, 0.4f}, .colour = {5.0f, 5.0f, 5.0f}};
-    test_ok(made->context, clshear_scene_add_light(made->floor, &light));
+        .kind = CLSHEAR_LIGHT_POINT, .position = {0.7f, 1.5f, 0.4f}, .colour = {5.0f, 5.0f, 5.0f}};
+    test_add_light(made->floor, &light);
     for (int k = 0; k < 4; k++)
         for (int variant = 0; variant < 6; variant++) {
-            clshear_camera camera =
+            cs_view view =
                 looking_down(lenses[k][0], lenses[k][1], (clshear_aperture)(variant % 2));
-            clshear_film *film =
-                render(made, made->floor, &camera, size, (clshear_shear)(variant / 2));
+            clshear_film *film = render(made->floor, &view, size, (clshear_shear)(variant / 2));
             const float *red = clshear_film_channel(film, "R");
             const float *variance = clshear_film_channel(film, "Variance.R");
             for (int p = 0; p < size * size; p += 5) {
-                double truth = expected_pixel(&camera, size, p % size, p / size);
+                double truth = expected_pixel(&view, size, p % size, p / size);
                 double error = sqrt((double)variance[p]);
                 assert_true(fabs(red[p] - truth) < 6.0 * error + 0.002 * truth);
             }
@@ -125,14 +142,14 @@ static void light_stays_where_it_is(void **state)
     fixture *made = *state;
     clshear_scene *floor = test_floor(made->context, 1000.0f, 0.5f);
     const clshear_light light = {
-        .kind = CLSHEAR_LIGHT_POINT, .vector = {0, 100, 0}, .colour = {1e4f, 1e4f, 1e4f}};
-    const clshear_camera camera = {.eye = {0, 1000, 0},
-                                   .target = {0, 0, 0},
-                                   .up = {0, 0, -1},
-                                   .fov_deg = 0.01f,
-                                   .focal_distance = 1000.0f};
-    test_ok(made->context, clshear_scene_add_light(floor, &light));
-    clshear_film *film = render(made, floor, &camera, 2, CLSHEAR_SHEAR_EQUAL_AREA);
+        .kind = CLSHEAR_LIGHT_POINT, .position = {0, 100, 0}, .colour = {1e4f, 1e4f, 1e4f}};
+    const cs_view view = {.eye = {0, 1000, 0},
+                          .target = {0, 0, 0},
+                          .up = {0, 0, -1},
+                          .fov_deg = 0.01f,
+                          .focal_distance = 1000.0f};
+    test_add_light(floor, &light);
+    clshear_film *film = render(floor, &view, 2, CLSHEAR_SHEAR_EQUAL_AREA);
     const double truth = 0.5 / pi;
     for (int p = 0; p < 4; p++)
         assert_true(fabs(clshear_film_channel(film, "R")[p] - truth) < 1e-4 * truth);
@@ -146,11 +163,11 @@ static void directional_light(void **state)
     fixture *made = *state;
     clshear_scene *floor = test_floor(made->context, 10.0f, 0.5f);
     const clshear_light light = {.kind = CLSHEAR_LIGHT_DIRECTIONAL,
-                                 .vector = {3.0f, 4.0f, 0.0f},
+                                 .direction = {3.0f, 4.0f, 0.0f},
                                  .colour = {1.0f, 2.0f, 3.0f}};
-    test_ok(made->context, clshear_scene_add_light(floor, &light));
-    clshear_camera camera = looking_down(0.1f, 2.0f, CLSHEAR_APERTURE_DISK);
-    clshear_film *film = render(made, floor, &camera, 4, CLSHEAR_SHEAR_EQUAL_AREA);
+    test_add_light(floor, &light);
+    cs_view view = looking_down(0.1f, 2.0f, CLSHEAR_APERTURE_DISK);
+    clshear_film *film = render(floor, &view, 4, CLSHEAR_SHEAR_EQUAL_AREA);
     const char *const names[3] = {"R", "G", "B"};
     for (int c = 0; c < 3; c++)
         for (int p = 0; p < 16; p++)
@@ -178,17 +195,16 @@ static void area_light_over_a_plane(void **state)
                                      .vertex_count = 4,
                                      .triangle_count = 2,
                                      .emission = {3.0f, 3.0f, 3.0f}}};
-    clshear_scene *scene = NULL;
-    test_ok(made->context, clshear_scene_create(made->context, meshes, 2, &scene));
-    assert_int_equal(clshear_scene_describe(scene).emitters, 2);
+    clshear_scene *scene = test_meshes(made->context, meshes, 2);
+    assert_int_equal(test_scene_info(scene).emitters, 2);
     /* A narrow view along the floor, below the panel, at the point under its centre. */
-    clshear_camera camera = {.eye = {4.0f, 0.5f, 0},
-                             .target = {0, 0, 0},
-                             .up = {0, 1, 0},
-                             .fov_deg = 0.2f,
-                             .lens_radius = 0.0f,
-                             .focal_distance = 4.0f};
-    clshear_film *film = render(made, scene, &camera, 3, CLSHEAR_SHEAR_EQUAL_AREA);
+    cs_view view = {.eye = {4.0f, 0.5f, 0},
+                    .target = {0, 0, 0},
+                    .up = {0, 1, 0},
+                    .fov_deg = 0.2f,
+                    .lens_radius = 0.0f,
+                    .focal_distance = 4.0f};
+    clshear_film *film = render(scene, &view, 3, CLSHEAR_SHEAR_EQUAL_AREA);
     const double x = 0.5, root = sqrt(1.0 + x * x); /* half side / height, both ways */
     const double factor = 4.0 / (2.0 * pi) * 2.0 * x / root * atan(x / root);
     double error = sqrt((double)clshear_film_channel(film, "Variance.R")[4]);
@@ -197,9 +213,9 @@ static void area_light_over_a_plane(void **state)
     assert_true(error < 0.01);
     clshear_film_free(film);
     /* Seen directly, the panel shows its own radiance and reflects nothing. */
-    camera.eye[0] = 0.3f, camera.eye[1] = 1.0f, camera.target[0] = 0.3f, camera.target[1] = 2.0f;
-    camera.up[1] = 0.0f, camera.up[2] = 1.0f;
-    film = render(made, scene, &camera, 3, CLSHEAR_SHEAR_EQUAL_AREA);
+    view.eye[0] = 0.3f, view.eye[1] = 1.0f, view.target[0] = 0.3f, view.target[1] = 2.0f;
+    view.up[1] = 0.0f, view.up[2] = 1.0f;
+    film = render(scene, &view, 3, CLSHEAR_SHEAR_EQUAL_AREA);
     assert_true(fabs(clshear_film_channel(film, "G")[4] - 3.0f) < 1e-5f);
     clshear_film_free(film);
     clshear_scene_free(scene);
@@ -219,19 +235,18 @@ static void shadows_fall(void **state)
                                .diffuse = {1, 1, 1}}};
     meshes[1] = meshes[0];
     meshes[1].positions = panel;
-    clshear_scene *scene = NULL;
-    test_ok(made->context, clshear_scene_create(made->context, meshes, 2, &scene));
-    const clshear_light light = {.vector = {0, 2, 0}, .colour = {1, 1, 1}};
-    test_ok(made->context, clshear_scene_add_light(scene, &light));
+    clshear_scene *scene = test_meshes(made->context, meshes, 2);
+    const clshear_light light = {.position = {0, 2, 0}, .colour = {1, 1, 1}};
+    test_add_light(scene, &light);
     const float places[][2] = {{0.0f, 0.0f}, {0.9f, 0.0f}, {1.1f, 1.0f}, {3.0f, 1.0f}};
     for (int k = 0; k < 4; k++) {
         const float x = places[k][0];
-        const clshear_camera camera = {.eye = {x, 0.5f, 0},
-                                       .target = {x, 0, 0},
-                                       .up = {0, 0, 1},
-                                       .fov_deg = 1.0f,
-                                       .focal_distance = 0.5f};
-        clshear_film *film = render(made, scene, &camera, 2, CLSHEAR_SHEAR_EQUAL_AREA);
+        const cs_view view = {.eye = {x, 0.5f, 0},
+                              .target = {x, 0, 0},
+                              .up = {0, 0, 1},
+                              .fov_deg = 1.0f,
+                              .focal_distance = 0.5f};
+        clshear_film *film = render(scene, &view, 2, CLSHEAR_SHEAR_EQUAL_AREA);
         double square = (double)(x * x) + 4.0;
         double lit = places[k][1] / pi * 2.0 / (square * sqrt(square));
         assert_true(fabs(clshear_film_channel(film, "R")[0] - lit) < 0.01 * lit + 1e-6);
@@ -254,19 +269,18 @@ static void no_acne_far_from_the_origin(void **state)
                                .vertex_count = 4,
                                .triangle_count = 2,
                                .diffuse = {1.0f, 1.0f, 1.0f}};
-    clshear_scene *scene = NULL;
-    test_ok(made->context, clshear_scene_create(made->context, &mesh, 1, &scene));
+    clshear_scene *scene = test_meshes(made->context, &mesh, 1);
     const clshear_light light = {.kind = CLSHEAR_LIGHT_DIRECTIONAL,
-                                 .vector = {1.0f, 0.05f, 0.0f},
+                                 .direction = {1.0f, 0.05f, 0.0f},
                                  .colour = {1.0f, 1.0f, 1.0f}};
-    test_ok(made->context, clshear_scene_add_light(scene, &light));
-    clshear_camera camera = {.eye = {base, base + 5, base + 8},
-                             .target = {base, base, base},
-                             .up = {0, 1, 0},
-                             .fov_deg = 40.0f,
-                             .lens_radius = 0.2f,
-                             .focal_distance = 9.0f};
-    clshear_film *film = render(made, scene, &camera, 8, CLSHEAR_SHEAR_EQUAL_AREA);
+    test_add_light(scene, &light);
+    cs_view view = {.eye = {base, base + 5, base + 8},
+                    .target = {base, base, base},
+                    .up = {0, 1, 0},
+                    .fov_deg = 40.0f,
+                    .lens_radius = 0.2f,
+                    .focal_distance = 9.0f};
+    clshear_film *film = render(scene, &view, 8, CLSHEAR_SHEAR_EQUAL_AREA);
     const double truth = 0.05 / sqrt(1.0 + 0.05 * 0.05) / pi;
     for (int p = 0; p < 64; p++)
         assert_true(fabs(clshear_film_channel(film, "R")[p] - truth) < 1e-3 * truth);
@@ -278,27 +292,25 @@ static void no_acne_far_from_the_origin(void **state)
 static void integrands_check_what_they_are_given(void **state)
 {
     fixture *made = *state;
-    const clshear_camera good = looking_down(0.1f, 3.0f, CLSHEAR_APERTURE_DISK);
-    clshear_camera wide = good;
-    clshear_options options = clshear_options_defaults();
+    const cs_view view = looking_down(0.1f, 3.0f, CLSHEAR_APERTURE_DISK);
+    clshear_settings *settings = settings_of(&view, 8);
     const float point[4] = {0.5f, 0.5f, 0.5f, 0.5f};
     float rgb[3];
-    wide.lens_radius = INFINITY;
-    options.width = options.height = 8;
-    static const int sizes[][4] = {{-5, -5, 0, 0},       {8, 8, -1, 0}, {8, 8, 0, 8},
-                                   {1000000, 8, 100, 0}, {0, 8, 0, 0},  {8, 8, 8, 0}};
-    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
-        assert_int_equal(clshear_radiance(made->floor, &good, sizes[i][0], sizes[i][1], sizes[i][2],
-                                          sizes[i][3], point, 1, rgb),
-                         CLSHEAR_BAD_ARGUMENT);
-    assert_int_equal(clshear_radiance(made->floor, &wide, 8, 8, 0, 0, point, 1, rgb),
-                     CLSHEAR_BAD_ARGUMENT);
-    test_ok(made->context,
-            clshear_radiance_of_samples(made->floor, &good, &options, 7, 7, 0.0f, point, 1, rgb));
-    options.shear = (clshear_shear)77;
-    assert_int_equal(
-        clshear_radiance_of_samples(made->floor, &good, &options, 7, 7, 0.0f, point, 1, rgb),
-        CLSHEAR_BAD_ARGUMENT);
+    static const int places[][2] = {{-1, 0}, {0, 8}, {8, 0}, {0, -1}, {1000000, 0}};
+    static const char *const words[] = {"-1,0", "0,8", "8,0", "0,-1", "1000000,0"};
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        const int x = places[i][0], y = places[i][1];
+        test_refused(clshear_radiance(made->floor, settings, x, y, point, 1, rgb),
+                     CLSHEAR_BAD_ARGUMENT, words[i]);
+        test_refused(clshear_radiance_of_samples(made->floor, settings, x, y, 0.0f, point, 1, rgb),
+                     CLSHEAR_BAD_ARGUMENT, words[i]);
+    }
+    test_ok(clshear_radiance(made->floor, settings, 7, 7, point, 1, rgb));
+    test_ok(clshear_radiance_of_samples(made->floor, settings, 7, 7, 0.0f, point, 1, rgb));
+    test_set(settings, CLSHEAR_LENS_RADIUS, "1e9");
+    test_refused(clshear_radiance(made->floor, settings, 0, 0, point, 1, rgb), CLSHEAR_BAD_ARGUMENT,
+                 "lens radius 1e+09");
+    clshear_settings_free(settings);
 }
 
 int main(void)

@@ -11,56 +11,36 @@ enum {
     PIXELS = SIZE * SIZE
 };
 
-typedef struct fixture {
-    clshear_context *context;
-    clshear_scene *scene;
-    clshear_camera camera;
-} fixture;
-
-static void open_scene(fixture *made, int threads, int packet)
+/* The Cornell box on a context of its own. */
+static void open_scene(test_fixture *made, int threads, int packet)
 {
-    clshear_context_options options = clshear_context_defaults();
-    options.threads = threads;
-    options.packet = packet;
-    if (clshear_context_create(&options, &made->context) != CLSHEAR_OK)
-        fail_msg("%s", clshear_message(NULL));
-    made->scene = test_cornell(made->context, &made->camera);
+    clshear_settings *settings = test_cornell_settings();
+    if (threads > 0) test_set(settings, CLSHEAR_THREADS, "%d", threads);
+    if (packet > 0) test_set(settings, CLSHEAR_PACKET, "%d", packet);
+    test_ok(clshear_context_create(settings, &made->context));
+    made->scene = test_cornell(made->context);
+    made->settings = settings;
 }
 
-static void close_scene(fixture *made)
+static void close_scene(test_fixture *made)
 {
+    clshear_settings_free(made->settings);
     clshear_scene_free(made->scene);
     clshear_context_free(made->context);
 }
 
-static int set_up(void **state)
+static clshear_settings *small(test_fixture *made, uint32_t spp, uint32_t replicates)
 {
-    fixture *made = calloc(1, sizeof *made);
-    open_scene(made, 0, 0);
-    *state = made;
-    return 0;
+    clshear_settings *settings = test_settings(made->settings, SIZE, SIZE, spp);
+    if (replicates > 0) test_set(settings, CLSHEAR_REPLICATES, "%u", replicates);
+    return settings;
 }
 
-static int tear_down(void **state)
+/* Renders, and frees the settings. */
+static clshear_film *render_once(test_fixture *made, clshear_settings *settings)
 {
-    close_scene(*state);
-    free(*state);
-    return 0;
-}
-
-static clshear_options small(uint32_t spp, uint32_t replicates)
-{
-    clshear_options options = clshear_options_defaults();
-    options.width = options.height = SIZE;
-    options.spp = spp;
-    options.replicates = replicates;
-    return options;
-}
-
-static clshear_film *render(fixture *made, const clshear_options *options)
-{
-    clshear_film *film = NULL;
-    test_ok(made->context, clshear_render(made->scene, &made->camera, options, &film));
+    clshear_film *film = test_render(made->scene, settings);
+    clshear_settings_free(settings);
     return film;
 }
 
@@ -77,15 +57,16 @@ static int same_bits(const clshear_film *a, const clshear_film *b)
 
 static void one_seed_gives_one_image(void **state)
 {
-    fixture *made = *state, alone;
-    clshear_options options = small(200, 2);
-    clshear_film *first = render(made, &options), *second = render(made, &options);
+    test_fixture *made = *state, alone;
+    clshear_settings *settings = small(made, 200, 2);
+    clshear_film *first = test_render(made->scene, settings);
+    clshear_film *second = test_render(made->scene, settings);
     open_scene(&alone, 1, 0);
-    clshear_film *third = render(&alone, &options);
+    clshear_film *third = test_render(alone.scene, settings);
     assert_true(same_bits(first, second));
     assert_true(same_bits(first, third));
-    options.seed = 1;
-    clshear_film *other = render(made, &options);
+    test_set(settings, CLSHEAR_SEED, "1");
+    clshear_film *other = render_once(made, settings);
     assert_false(same_bits(first, other));
     clshear_film_free(first);
     clshear_film_free(second);
@@ -94,27 +75,25 @@ static void one_seed_gives_one_image(void **state)
     close_scene(&alone);
 }
 
-/* Widths differ by rounding only: a sample may fall on the other side of an edge, and the rest
- * agree to a part in 10^4. */
 /* Large images keep their pixels in several buffers: here of 8 rows each, six of them. */
 static void pages_do_not_change_a_bit(void **state)
 {
-    fixture *made = *state;
+    test_fixture *made = *state;
     const size_t before = made->context->page_bytes;
     clshear_film *films[2][3], *parts[2];
     for (int paged = 0; paged < 2; paged++) {
         made->context->page_bytes = paged ? 8 * SIZE * sizeof(cs_pixel) : before;
-        clshear_options options = small(128, 2);
-        films[paged][0] = render(made, &options);
-        options.adaptive = 1;
-        films[paged][1] = render(made, &options);
-        options = small(64, 2);
-        options.sampler = "sz";
-        options.extendable = 1;
-        parts[paged] = render(made, &options);
-        options.spp = 128;
-        options.extend = parts[paged];
-        films[paged][2] = render(made, &options);
+        clshear_settings *settings = small(made, 128, 2);
+        films[paged][0] = test_render(made->scene, settings);
+        test_set(settings, CLSHEAR_ADAPTIVE, "1");
+        films[paged][1] = render_once(made, settings);
+        settings = small(made, 64, 2);
+        test_set(settings, CLSHEAR_SAMPLER, "sz");
+        test_set(settings, CLSHEAR_EXTENDABLE, "1");
+        parts[paged] = test_render(made->scene, settings);
+        test_set(settings, CLSHEAR_SPP, "128");
+        test_ok(clshear_render_extend(made->scene, settings, parts[paged], &films[paged][2]));
+        clshear_settings_free(settings);
     }
     made->context->page_bytes = before;
     for (int i = 0; i < 3; i++) {
@@ -126,16 +105,18 @@ static void pages_do_not_change_a_bit(void **state)
     clshear_film_free(parts[1]);
 }
 
+/* Widths differ by rounding only: a sample may fall on the other side of an edge, and the rest
+ * agree to a part in 10^4. */
 static void packet_widths_agree(void **state)
 {
     (void)state;
     const int widths[] = {1, 4, 8, 16};
     float reference[PIXELS];
-    clshear_options options = small(2 * 85, 2); /* 11 blocks, the last one not full */
     for (int w = 0; w < 4; w++) {
-        fixture made;
+        test_fixture made;
         open_scene(&made, 0, widths[w]);
-        clshear_film *film = render(&made, &options);
+        /* 11 blocks, the last one not full */
+        clshear_film *film = render_once(&made, small(&made, 2 * 85, 2));
         const float *red = clshear_film_channel(film, "R");
         int different = 0;
         if (w == 0) memcpy(reference, red, sizeof reference);
@@ -151,15 +132,14 @@ static void packet_widths_agree(void **state)
 
 static void a_crop_is_part_of_the_whole(void **state)
 {
-    fixture *made = *state;
-    clshear_options options = small(64, 2);
-    options.oracle = CLSHEAR_ORACLE_MEDIAN; /* a pilot sees less in a crop */
-    clshear_film *whole = render(made, &options);
-    const int crop[4] = {5, 30, 11, 22};
-    memcpy(options.crop, crop, sizeof crop);
-    clshear_film *part = render(made, &options);
-    assert_int_equal(clshear_film_describe(part).width, 25);
-    assert_int_equal(clshear_film_describe(part).height, 11);
+    test_fixture *made = *state;
+    clshear_settings *settings = small(made, 64, 2);
+    test_set(settings, CLSHEAR_ORACLE, "median"); /* a pilot sees less in a crop */
+    clshear_film *whole = test_render(made->scene, settings);
+    test_set(settings, CLSHEAR_CROP, "5,30,11,22");
+    clshear_film *part = render_once(made, settings);
+    assert_int_equal(test_film_info(part).width, 25);
+    assert_int_equal(test_film_info(part).height, 11);
     for (size_t i = 0; clshear_film_channel_name(whole, i) != NULL; i++) {
         const char *name = clshear_film_channel_name(whole, i);
         for (int y = 0; y < 11; y++)
@@ -176,14 +156,14 @@ typedef struct estimates {
     float mean[PIXELS], variance[PIXELS];
 } estimates;
 
-static void measure(fixture *made, const char *sampler, clshear_shear shear, uint32_t seed,
+static void measure(test_fixture *made, const char *sampler, clshear_shear shear, uint32_t seed,
                     estimates *result)
 {
-    clshear_options options = small(32 * 64, 32);
-    options.seed = seed;
-    options.sampler = sampler;
-    options.shear = shear;
-    clshear_film *film = render(made, &options);
+    clshear_settings *settings = small(made, 32 * 64, 32);
+    test_set(settings, CLSHEAR_SEED, "%u", seed);
+    test_set(settings, CLSHEAR_SAMPLER, "%s", sampler);
+    test_set_number(settings, CLSHEAR_SHEAR, shear);
+    clshear_film *film = render_once(made, settings);
     memcpy(result->mean, clshear_film_channel(film, "R"), sizeof result->mean);
     memcpy(result->variance, clshear_film_channel(film, "Variance.R"), sizeof result->variance);
     clshear_film_free(film);
@@ -223,7 +203,7 @@ static void shears_agree(void **state)
 static void samplers_agree(void **state)
 {
     static estimates reference, of;
-    clshear_sampler_info info;
+    clshear_sampler_info info = {.struct_size = sizeof info};
     measure(*state, "random", CLSHEAR_SHEAR_NONE, 99, &reference);
     for (uint32_t i = 0; clshear_sampler_describe(i, &info); i++) {
         measure(*state, info.name, CLSHEAR_SHEAR_EQUAL_AREA, 50u + i, &of);
@@ -236,7 +216,7 @@ static void samplers_agree(void **state)
  * standard error of either, from batches of seeds, is 2 to 3 %, so this is 4 or more of them. */
 static void variance_channel_is_honest(void **state)
 {
-    fixture *made = *state;
+    test_fixture *made = *state;
     enum {
         SEEDS = 64
     };
@@ -244,10 +224,10 @@ static void variance_channel_is_honest(void **state)
         double *sum = calloc(PIXELS, sizeof *sum), *squares = calloc(PIXELS, sizeof *squares);
         double claimed = 0.0, across = 0.0;
         for (uint32_t seed = 0; seed < SEEDS; seed++) {
-            clshear_options options = small(64, 2);
-            options.seed = seed;
-            options.shear = (clshear_shear)shear;
-            clshear_film *film = render(made, &options);
+            clshear_settings *settings = small(made, 64, 2);
+            test_set(settings, CLSHEAR_SEED, "%u", seed);
+            test_set_number(settings, CLSHEAR_SHEAR, shear);
+            clshear_film *film = render_once(made, settings);
             const float *red = clshear_film_channel(film, "R");
             const float *variance = clshear_film_channel(film, "Variance.R");
             for (int p = 0; p < PIXELS; p++) {
@@ -265,7 +245,7 @@ static void variance_channel_is_honest(void **state)
     }
 }
 
-static int stop_at_half(void *user, const clshear_progress *progress)
+static int stop_at_a_third(void *user, const clshear_progress *progress)
 {
     *(double *)user = progress->fraction;
     return progress->fraction > 0.3;
@@ -274,20 +254,21 @@ static int stop_at_half(void *user, const clshear_progress *progress)
 /* An interrupted render keeps what it has, says how much that is, and is unbiased: compared pixel
  * by pixel with a finished one, whose sample variance is the better known. It drew whole blocks of
  * CS_BLOCK = 16 neighbouring strata, so its variance is at most 16 times that of as many
- * independent samples; 6 such standard errors, false alarms 2e-9 a pixel. */
+ * independent samples; 6 such standard errors, false alarms 2e-9 a pixel. A launch ends with each
+ * replicate at the latest, so that the third stops in the second of four however fast the machine.
+ */
 static void interrupted_renders_are_usable(void **state)
 {
-    fixture *made = *state;
+    test_fixture *made = *state;
     double fraction = 0.0, samples = 0.0, bias = 0.0, error = 0.0;
-    clshear_options options = small(16384, 1); /* several launches on a fast machine too */
-    clshear_film *whole = render(made, &options), *part = NULL;
-    options.progress = stop_at_half;
-    options.progress_user = &fraction;
-    options.seed = 5;
-    assert_int_equal(clshear_render(made->scene, &made->camera, &options, &part),
-                     CLSHEAR_CANCELLED);
-    assert_true(fraction > 0.3 && fraction < 0.95);
-    assert_null(clshear_film_channel(part, "Variance.R"));
+    clshear_settings *settings = small(made, 16384, 4);
+    clshear_film *whole = test_render(made->scene, settings);
+    clshear_settings_set_progress(settings, stop_at_a_third, &fraction);
+    test_set(settings, CLSHEAR_SEED, "5");
+    clshear_film *part = render_once(made, settings);
+    assert_int_equal(test_film_info(whole).complete, 1);
+    assert_int_equal(test_film_info(part).complete, 0);
+    assert_true(fraction > 0.3 && fraction <= 0.5);
     const float *counts = clshear_film_channel(part, "Samples");
     for (int p = 0; p < PIXELS; p++) {
         samples += (double)counts[p];
@@ -300,16 +281,16 @@ static void interrupted_renders_are_usable(void **state)
     }
     assert_true(fabs(bias) < 5.0 * sqrt(error));
     assert_true(fabs(samples / (16384.0 * PIXELS) - fraction) < 1e-9);
-    assert_true(samples == (double)clshear_film_describe(part).samples);
+    assert_true(samples == (double)test_film_info(part).samples);
     clshear_film_free(whole);
     clshear_film_free(part);
 }
 
 static void counts_and_channels(void **state)
 {
-    fixture *made = *state;
-    clshear_options options = small(7, 2); /* rounded up to two patterns of 4 */
-    clshear_film *film = render(made, &options);
+    test_fixture *made = *state;
+    /* rounded up to two patterns of 4 */
+    clshear_film *film = render_once(made, small(made, 7, 2));
     for (int p = 0; p < PIXELS; p++) {
         assert_true(clshear_film_channel(film, "Samples")[p] == 8.0f);
         float depth = clshear_film_channel(film, "Z")[p];
@@ -318,61 +299,67 @@ static void counts_and_channels(void **state)
         assert_true(isfinite(clshear_film_channel(film, "B")[p]));
     }
     assert_null(clshear_film_channel(film, "nonsense"));
-    assert_int_equal(clshear_film_describe(film).samples, 8 * PIXELS);
+    assert_int_equal(test_film_info(film).samples, 8 * PIXELS);
     clshear_film_free(film);
-    options = small(1, 0);
-    film = render(made, &options);
+    film = render_once(made, small(made, 1, 0));
     assert_null(clshear_film_channel(film, "Variance.R"));
     clshear_film_free(film);
 }
 
-static void bad_options_are_refused(void **state)
+/* What is wrong by itself is refused when it is set; what does not go together, by the render. */
+static void bad_settings_are_refused(void **state)
 {
-    fixture *made = *state;
+    static const struct {
+        clshear_setting setting;
+        const char *text, *words;
+    } alone[] =
+        {
+            {CLSHEAR_SPP, "0", "spp 0: must be a whole number, 1 to 2000000000"},
+            {CLSHEAR_WIDTH, "0", "width 0: must be a whole number, 1 to 65536"},
+            {CLSHEAR_CROP, "5,5,0,1", "with X0 < X1 and Y0 < Y1"},
+            {CLSHEAR_SHEAR, "sideways", "none, toroidal or equal-area"},
+            {CLSHEAR_LENS_RADIUS, "-1", "lens-radius -1: must be a number, 0 to"},
+            {CLSHEAR_FOV, "180", "fov 180: must be a number"},
+        },
+      together[] = {
+          {CLSHEAR_REPLICATES, "17", "17 replicates of 16 samples per pixel: must be 1 to 16"},
+          {CLSHEAR_CROP, "0,49,0,1", "crop 0,49,0,1: needs 0 <= x0 < x1 <= 48"},
+          {CLSHEAR_SPP, "3000000", "1500000 samples in one pattern of sz: at most 1048576"},
+          {CLSHEAR_TARGET, "276.4,274.4,800", "target"},
+      };
+    test_fixture *made = *state;
     clshear_film *film = NULL;
-    clshear_options good = small(16, 2), bad[6];
-    for (int i = 0; i < 6; i++)
-        bad[i] = good;
-    bad[0].spp = 0;
-    bad[1].replicates = 17;
-    bad[2].width = 0;
-    bad[3].crop[1] = SIZE + 1;
-    bad[3].crop[3] = 1;
-    bad[4].spp = 3000000;
-    bad[5].shear = (clshear_shear)7;
-    for (int i = 0; i < 6; i++) {
-        assert_int_equal(clshear_render(made->scene, &made->camera, &bad[i], &film),
-                         CLSHEAR_BAD_ARGUMENT);
-        assert_true(strlen(clshear_message(made->context)) > 10);
-        assert_null(strchr(clshear_message(made->context), '\n'));
-        assert_null(film);
+    clshear_settings *settings = small(made, 16, 2);
+    for (size_t i = 0; i < sizeof alone / sizeof *alone; i++)
+        test_refused(clshear_settings_set_text(settings, alone[i].setting, alone[i].text),
+                     CLSHEAR_BAD_ARGUMENT, alone[i].words);
+    test_refused(clshear_settings_set_integer(settings, CLSHEAR_SHEAR, 7), CLSHEAR_BAD_ARGUMENT,
+                 "shear 7");
+    for (size_t i = 0; i < sizeof together / sizeof *together; i++) {
+        clshear_settings *wrong = test_settings(settings, SIZE, SIZE, 16);
+        test_set(wrong, together[i].setting, "%s", together[i].text);
+        test_refused(clshear_render(made->scene, wrong, &film), CLSHEAR_BAD_ARGUMENT,
+                     together[i].words);
+        clshear_settings_free(wrong);
     }
-    clshear_camera camera = made->camera;
-    camera.lens_radius = -1.0f;
-    assert_int_equal(clshear_render(made->scene, &camera, &good, &film), CLSHEAR_BAD_ARGUMENT);
-    camera = made->camera;
-    memcpy(camera.target, camera.eye, sizeof camera.eye);
-    assert_int_equal(clshear_render(made->scene, &camera, &good, &film), CLSHEAR_BAD_ARGUMENT);
-    camera = made->camera;
-    camera.fov_deg = 180.0f;
-    assert_int_equal(clshear_render(made->scene, &camera, &good, &film), CLSHEAR_BAD_ARGUMENT);
+    assert_null(film);
+    clshear_film_free(render_once(made, settings)); /* nothing was changed */
 }
 
 static void bad_contexts_are_refused(void **state)
 {
     (void)state;
     clshear_context *context = NULL;
-    clshear_context_options options = clshear_context_defaults();
-    options.device = "no such device";
-    assert_int_equal(clshear_context_create(&options, &context), CLSHEAR_NO_DEVICE);
-    assert_non_null(strstr(clshear_message(NULL), "no such device"));
-    options = clshear_context_defaults();
-    options.packet = 5;
-    assert_int_equal(clshear_context_create(&options, &context), CLSHEAR_BAD_ARGUMENT);
-    options = clshear_context_defaults();
-    options.threads = -1;
-    assert_int_equal(clshear_context_create(&options, &context), CLSHEAR_BAD_ARGUMENT);
+    clshear_settings *settings = NULL;
+    test_ok(clshear_settings_create(&settings));
+    test_set(settings, CLSHEAR_DEVICE, "no such device");
+    test_refused(clshear_context_create(settings, &context), CLSHEAR_NO_DEVICE, "no such device");
+    test_refused(clshear_settings_set_text(settings, CLSHEAR_PACKET, "5"), CLSHEAR_BAD_ARGUMENT,
+                 "packet 5: must be 1, 4, 8 or 16");
+    test_refused(clshear_settings_set_text(settings, CLSHEAR_THREADS, "-1"), CLSHEAR_BAD_ARGUMENT,
+                 "threads -1");
     assert_null(context);
+    clshear_settings_free(settings);
 }
 
 int main(void)
@@ -387,8 +374,8 @@ int main(void)
         cmocka_unit_test(variance_channel_is_honest),
         cmocka_unit_test(interrupted_renders_are_usable),
         cmocka_unit_test(counts_and_channels),
-        cmocka_unit_test(bad_options_are_refused),
+        cmocka_unit_test(bad_settings_are_refused),
         cmocka_unit_test(bad_contexts_are_refused),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, test_open_cornell, test_close);
 }

@@ -223,7 +223,7 @@ static void large_patterns_are_sound(void **state)
 static void names_are_found(void **state)
 {
     cs_error error;
-    clshear_sampler_info info;
+    clshear_sampler_info info = {.struct_size = sizeof info};
     cs_u32 number, defaults = 0;
     (void)state;
     for (cs_u32 i = 0; i < CS_SAMPLER_COUNT; i++) {

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <sys/stat.h>
 
+#include "settings/view.h"
+
 typedef struct fixture {
     clshear_context *context;
 } fixture;
@@ -29,7 +31,7 @@ static clshear_scene *load(fixture *made, const char *path)
 {
     clshear_scene *scene = NULL;
     test_warnings();
-    test_ok(made->context, clshear_scene_load(made->context, path, &scene));
+    test_ok(clshear_scene_load(made->context, path, &scene));
     return scene;
 }
 
@@ -39,39 +41,44 @@ static void refuse(fixture *made, const char *path)
     const char *name = strrchr(path, '/') + 1;
     assert_int_equal(clshear_scene_load(made->context, path, &scene), CLSHEAR_BAD_FILE);
     assert_null(scene);
-    if (strstr(clshear_message(made->context), name) == NULL)
-        fail_msg("\"%s\" does not name %s", clshear_message(made->context), name);
-    assert_null(strchr(clshear_message(made->context), '\n'));
+    if (strstr(clshear_context_message(made->context), name) == NULL)
+        fail_msg("\"%s\" does not name %s", clshear_context_message(made->context), name);
+    assert_null(strchr(clshear_context_message(made->context), '\n'));
+}
+
+/* A narrow view of (x, y, 0) from a height above it. */
+static clshear_settings *looking_down_z(double x, double y, double height)
+{
+    clshear_settings *settings = test_settings(NULL, 1, 1, 4);
+    test_set(settings, CLSHEAR_EYE, "%.9g,%.9g,%.9g", x, y, height);
+    test_set(settings, CLSHEAR_TARGET, "%.9g,%.9g,0", x, y);
+    test_set(settings, CLSHEAR_UP, "0,1,0");
+    test_set(settings, CLSHEAR_FOV, "0.1");
+    test_set(settings, CLSHEAR_LENS_RADIUS, "0");
+    test_set(settings, CLSHEAR_FOCAL_DISTANCE, "%.9g", height);
+    return settings;
 }
 
 /* Colour in the middle of a square of half width 1 in the plane z = 0, lit head-on so that radiance
  * is albedo: distance 1, intensity pi. */
-static void look_at(fixture *made, clshear_scene *scene, float x, float y, float *colour)
+static void look_at(clshear_scene *scene, float x, float y, float *colour)
 {
     const float pi = 3.14159265f;
-    const clshear_light light = {.vector = {x, y, 1.0f}, .colour = {pi, pi, pi}};
-    const clshear_camera camera = {.eye = {x, y, 2},
-                                   .target = {x, y, 0},
-                                   .up = {0, 1, 0},
-                                   .fov_deg = 0.1f,
-                                   .focal_distance = 2.0f};
-    clshear_options options = clshear_options_defaults();
-    clshear_film *film = NULL;
-    options.width = options.height = 1;
-    options.spp = 4;
-    test_ok(made->context, clshear_scene_add_light(scene, &light));
-    test_ok(made->context, clshear_render(scene, &camera, &options, &film));
+    const clshear_light light = {.position = {x, y, 1.0f}, .colour = {pi, pi, pi}};
+    clshear_settings *settings = looking_down_z((double)x, (double)y, 2.0);
+    test_add_light(scene, &light);
+    clshear_film *film = test_render(scene, settings);
+    clshear_settings_free(settings);
     colour[0] = *clshear_film_channel(film, "R");
     colour[1] = *clshear_film_channel(film, "G");
     colour[2] = *clshear_film_channel(film, "B");
     clshear_film_free(film);
 }
 
-static void expect_colour(fixture *made, clshear_scene *scene, float x, float y, float r, float g,
-                          float b)
+static void expect_colour(clshear_scene *scene, float x, float y, float r, float g, float b)
 {
     float colour[3];
-    look_at(made, scene, x, y, colour);
+    look_at(scene, x, y, colour);
     if (fabsf(colour[0] - r) + fabsf(colour[1] - g) + fabsf(colour[2] - b) > 0.01f)
         fail_msg("colour %g %g %g, not %g %g %g", (double)colour[0], (double)colour[1],
                  (double)colour[2], (double)r, (double)g, (double)b);
@@ -86,8 +93,8 @@ static void obj_polygons_and_negative_indices(void **state)
                                                         "v 2 -1 0\nv 4 -1 0\nv 4 1 0\nv 2 1 0\n"
                                                         "f -4 -3 -2 -1\n");
     clshear_scene *scene = load(made, path);
-    assert_int_equal(clshear_scene_describe(scene).triangles, 3 + 2);
-    expect_colour(made, scene, 3.0f, 0.0f, 0.5f, 0.5f, 0.5f);
+    assert_int_equal(test_scene_info(scene).triangles, 3 + 2);
+    expect_colour(scene, 3.0f, 0.0f, 0.5f, 0.5f, 0.5f);
     clshear_scene_free(scene);
 }
 
@@ -107,10 +114,10 @@ static void several_material_files(void **state)
         const char *path = test_file("materials.obj", text);
         clshear_scene *scene = load(made, path);
         assert_string_equal(test_warnings(), "");
-        expect_colour(made, scene, 0, 0, 0.8f, 0.1f, 0.1f);
+        expect_colour(scene, 0, 0, 0.8f, 0.1f, 0.1f);
         clshear_scene_free(scene);
         scene = load(made, path);
-        expect_colour(made, scene, 3, 0, 0.1f, 0.2f, 0.9f);
+        expect_colour(scene, 3, 0, 0.1f, 0.2f, 0.9f);
         clshear_scene_free(scene);
     }
 }
@@ -121,8 +128,8 @@ static void emission_is_seen(void **state)
     test_file("glow.mtl", "newmtl glow\nKd 0 0 0\nKe 2 3 4\n");
     clshear_scene *scene =
         load(made, test_file("glow.obj", "mtllib glow.mtl\n" SQUARE "usemtl glow\nf 1 2 3 4\n"));
-    assert_int_equal(clshear_scene_describe(scene).emitters, 2);
-    expect_colour(made, scene, 0, 0, 2.0f, 3.0f, 4.0f);
+    assert_int_equal(test_scene_info(scene).emitters, 2);
+    expect_colour(scene, 0, 0, 2.0f, 3.0f, 4.0f);
     clshear_scene_free(scene);
 }
 
@@ -152,7 +159,7 @@ static void textures_are_bilinear_and_upright(void **state)
         {0.0f, 0.0f, 0.5f, 0.5f, 0.5f}};
     for (int i = 0; i < 6; i++) {
         clshear_scene *scene = load(made, path);
-        expect_colour(made, scene, expected[i][0], expected[i][1], expected[i][2], expected[i][3],
+        expect_colour(scene, expected[i][0], expected[i][1], expected[i][2], expected[i][3],
                       expected[i][4]);
         clshear_scene_free(scene);
     }
@@ -168,7 +175,7 @@ static void texture_names_are_decoded(void **state)
         load(made, test_file("spaced.obj", "mtllib spaced.mtl\n" SQUARE
                                            "vt 0.25 0.25\nusemtl t\nf 1/1 2/1 3/1 4/1\n"));
     assert_string_equal(test_warnings(), "");
-    expect_colour(made, scene, 0.3f, 0.1f, 0, 0, 1);
+    expect_colour(scene, 0.3f, 0.1f, 0, 0, 1);
     clshear_scene_free(scene);
 }
 
@@ -183,7 +190,7 @@ static void wild_texture_coordinates_are_safe(void **state)
         load(made, test_file("wild.obj", "mtllib wild.mtl\n" SQUARE
                                          "vt 3e38 3e38\nvt -3e38 0\nvt nan 1\nvt 0.99999999 1\n"
                                          "usemtl t\nf 1/1 2/2 3/3 4/4\n"));
-    look_at(made, scene, 0.1f, 0.2f, colour);
+    look_at(scene, 0.1f, 0.2f, colour);
     for (int c = 0; c < 3; c++)
         assert_true(colour[c] >= 0.0f && colour[c] <= 1.01f);
     clshear_scene_free(scene);
@@ -195,7 +202,7 @@ static void smooth_normals_shade(void **state)
     fixture *made = *state;
     clshear_scene *scene =
         load(made, test_file("smooth.obj", SQUARE "vn 0.8660254 0 0.5\nf 1//1 2//1 3//1 4//1\n"));
-    expect_colour(made, scene, 0, 0, 0.25f, 0.25f, 0.25f);
+    expect_colour(scene, 0, 0, 0.25f, 0.25f, 0.25f);
     clshear_scene_free(scene);
 }
 
@@ -205,13 +212,13 @@ static void missing_parts_become_grey(void **state)
     clshear_scene *scene =
         load(made, test_file("bare.obj", "mtllib nowhere.mtl\n" SQUARE "usemtl lost\nf 1 2 3 4\n"));
     assert_non_null(strstr(test_warnings(), "nowhere.mtl"));
-    expect_colour(made, scene, 0, 0, 0.5f, 0.5f, 0.5f);
+    expect_colour(scene, 0, 0, 0.5f, 0.5f, 0.5f);
     clshear_scene_free(scene);
     test_file("nomap.mtl", "newmtl t\nKd 1 0 0\nmap_Kd nomap.png\n");
     scene = load(made, test_file("nomap.obj", "mtllib nomap.mtl\n" SQUARE
                                               "vt 0 0\nusemtl t\nf 1/1 2/1 3/1 4/1\n"));
     assert_non_null(strstr(test_warnings(), "nomap.png"));
-    expect_colour(made, scene, 0, 0, 0.5f, 0.5f, 0.5f);
+    expect_colour(scene, 0, 0, 0.5f, 0.5f, 0.5f);
     clshear_scene_free(scene);
 }
 
@@ -220,8 +227,8 @@ static void degenerate_triangles_are_dropped(void **state)
     fixture *made = *state;
     clshear_scene *scene =
         load(made, test_file("thin.obj", SQUARE "f 1 2 3\nf 1 1 2\nf 1 2 2\nv 0 -1 0\nf 1 2 5\n"));
-    assert_int_equal(clshear_scene_describe(scene).triangles, 1);
-    assert_int_equal(clshear_scene_describe(scene).degenerate, 3);
+    assert_int_equal(test_scene_info(scene).triangles, 1);
+    assert_int_equal(test_scene_info(scene).degenerate, 3);
     assert_non_null(strstr(test_warnings(), "3 triangles without area"));
     clshear_scene_free(scene);
 }
@@ -234,12 +241,12 @@ static void other_formats(void **state)
                                       "property float y\nproperty float z\nelement face 1\n"
                                       "property list uchar int vertex_indices\nend_header\n"
                                       "-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n4 0 1 2 3\n"));
-    assert_int_equal(clshear_scene_describe(scene).triangles, 2);
+    assert_int_equal(test_scene_info(scene).triangles, 2);
     clshear_scene_free(scene);
     scene = load(made, test_file("one.stl", "solid one\nfacet normal 0 0 1\nouter loop\n"
                                             "vertex -1 -1 0\nvertex 1 -1 0\nvertex 0 1 0\n"
                                             "endloop\nendfacet\nendsolid one\n"));
-    assert_int_equal(clshear_scene_describe(scene).triangles, 1);
+    assert_int_equal(test_scene_info(scene).triangles, 1);
     clshear_scene_free(scene);
 }
 
@@ -266,25 +273,22 @@ static void gltf_with_camera_and_light(void **state)
             "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
             "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
             "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}"));
-    clshear_scene_info info = clshear_scene_describe(scene);
+    const clshear_scene_info info = test_scene_info(scene);
     assert_int_equal(info.triangles, 1);
     assert_int_equal(info.lights, 1);
     assert_int_equal(info.file_camera, 1);
-    clshear_camera camera;
-    test_ok(made->context, clshear_scene_camera(scene, 300, 200, &camera));
-    assert_true(fabsf(camera.eye[0] - 0.25f) < 1e-5f && fabsf(camera.eye[2] - 3.0f) < 1e-5f);
-    assert_true(fabsf(camera.target[2] - 2.0f) < 1e-4f && camera.up[1] > 0.99f);
-    assert_true(fabsf(camera.fov_deg - 0.7f * 57.29578f) < 0.01f);
+    clshear_settings *settings = test_settings(NULL, 300, 200, 256);
+    cs_view view;
+    test_ok(clshear_camera_complete(scene, settings));
+    cs_view_of(settings, &view);
+    clshear_settings_free(settings);
+    assert_true(fabsf(view.eye[0] - 0.25f) < 1e-5f && fabsf(view.eye[2] - 3.0f) < 1e-5f);
+    assert_true(fabsf(view.target[2] - 2.0f) < 1e-4f && view.up[1] > 0.99f);
+    assert_true(fabsf(view.fov_deg - 0.7f * 57.29578f) < 0.01f);
     /* Head-on below the light: albedo / pi * intensity / 2^2. */
-    clshear_options options = clshear_options_defaults();
-    clshear_film *film = NULL;
-    options.width = options.height = 1;
-    const clshear_camera close = {.eye = {0.02f, 0.02f, 1},
-                                  .target = {0.02f, 0.02f, 0},
-                                  .up = {0, 1, 0},
-                                  .fov_deg = 0.1f,
-                                  .focal_distance = 1.0f};
-    test_ok(made->context, clshear_render(scene, &close, &options, &film));
+    settings = looking_down_z(0.02, 0.02, 1.0);
+    clshear_film *film = test_render(scene, settings);
+    clshear_settings_free(settings);
     assert_true(fabsf(*clshear_film_channel(film, "R") / (0.2f / 3.14159265f * 2.0f) - 1) < 0.01f);
     assert_true(fabsf(*clshear_film_channel(film, "B") / (0.6f / 3.14159265f * 0.5f) - 1) < 0.01f);
     clshear_film_free(film);
@@ -322,23 +326,29 @@ static void bad_meshes_are_refused(void **state)
     fixture *made = *state;
     clshear_scene *scene = NULL;
     const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-    const uint32_t outside[3] = {0, 1, 3};
-    const clshear_mesh mesh = {
-        .positions = positions, .indices = outside, .vertex_count = 3, .triangle_count = 1};
-    assert_int_equal(clshear_scene_create(made->context, &mesh, 1, &scene), CLSHEAR_BAD_ARGUMENT);
-    assert_int_equal(clshear_scene_create(made->context, NULL, 0, &scene), CLSHEAR_BAD_ARGUMENT);
+    const uint32_t outside[3] = {0, 1, 3}, inside[3] = {0, 1, 2};
     const float wrong[] = {NAN, -1.0f, INFINITY, 1e16f};
+    clshear_mesh mesh = {.struct_size = sizeof mesh,
+                         .positions = positions,
+                         .indices = outside,
+                         .vertex_count = 3,
+                         .triangle_count = 1};
+    test_ok(clshear_scene_create(made->context, &scene));
+    test_refused(clshear_scene_add_mesh(scene, &mesh), CLSHEAR_BAD_ARGUMENT, "3");
+    test_refused(clshear_scene_complete(scene), CLSHEAR_BAD_ARGUMENT, "no triangles");
+    mesh.indices = NULL;
+    test_refused(clshear_scene_add_mesh(scene, &mesh), CLSHEAR_BAD_ARGUMENT, "indices are NULL");
+    mesh.indices = inside;
     for (int i = 0; i < 4; i++) {
-        const uint32_t inside[3] = {0, 1, 2};
         clshear_mesh dark = mesh, bright = mesh;
-        dark.indices = bright.indices = inside;
         dark.diffuse[1] = bright.emission[2] = wrong[i];
-        assert_int_equal(clshear_scene_create(made->context, &dark, 1, &scene),
-                         CLSHEAR_BAD_ARGUMENT);
-        assert_int_equal(clshear_scene_create(made->context, &bright, 1, &scene),
-                         CLSHEAR_BAD_ARGUMENT);
+        test_refused(clshear_scene_add_mesh(scene, &dark), CLSHEAR_BAD_ARGUMENT, "diffuse");
+        test_refused(clshear_scene_add_mesh(scene, &bright), CLSHEAR_BAD_ARGUMENT, "emission");
     }
-    assert_null(scene);
+    test_ok(clshear_scene_add_mesh(scene, &mesh));
+    test_ok(clshear_scene_complete(scene));
+    assert_int_equal(test_scene_info(scene).triangles, 1); /* of the refused ones nothing stays */
+    clshear_scene_free(scene);
 }
 
 static void colours_that_are_none_become_black(void **state)
@@ -351,13 +361,14 @@ static void colours_that_are_none_become_black(void **state)
     const char *warnings = test_warnings();
     assert_non_null(strstr(warnings, "material \"a\" has the colour inf 1 1"));
     assert_non_null(strstr(warnings, "material \"b\" has the colour -5 nan 1e+38"));
-    expect_colour(made, scene, -0.5f, 0.5f, 0.5f, 0.25f, 1);
-    assert_int_equal(clshear_scene_describe(scene).emitters, 0);
-    const clshear_light lights[] = {{.kind = (clshear_light_kind)9, .colour = {1, 1, 1}},
-                                    {.colour = {1e38f, 1, 1}},
-                                    {.vector = {NAN, 0, 0}}};
+    expect_colour(scene, -0.5f, 0.5f, 0.5f, 0.25f, 1);
+    assert_int_equal(test_scene_info(scene).emitters, 0);
+    const clshear_light lights[] = {
+        {.struct_size = sizeof *lights, .kind = (clshear_light_kind)9, .colour = {1, 1, 1}},
+        {.struct_size = sizeof *lights, .colour = {1e38f, 1, 1}},
+        {.struct_size = sizeof *lights, .position = {NAN, 0, 0}}};
     for (int i = 0; i < 3; i++)
-        assert_int_equal(clshear_scene_add_light(scene, &lights[i]), CLSHEAR_BAD_ARGUMENT);
+        test_refused(clshear_scene_add_light(scene, &lights[i]), CLSHEAR_BAD_ARGUMENT, "light");
     clshear_scene_free(scene);
 }
 

@@ -26,8 +26,8 @@ static cs_camera_sample sheared(cs_f32 a, cs_f32 b, cs_f32 c, cs_f32 d, cs_u32 m
 {
     static cs_optics_tables optics[APERTURES];
     if (optics[aperture].table.items == NULL) {
-        const clshear_camera camera = {.aperture = (clshear_aperture)aperture};
-        optics[aperture] = test_optics(&camera, CLSHEAR_FILTER_BOX, 0.0f);
+        const cs_view view = {.aperture = (clshear_aperture)aperture};
+        optics[aperture] = test_optics(&view, CLSHEAR_FILTER_BOX, 0.0f);
     }
     return cs_shear(a, b, c, d, mode, &optics[aperture].optics, optics[aperture].table.items,
                     shear);

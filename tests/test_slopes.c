@@ -16,6 +16,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "clshear/analysis.h"
 #include "clshear/device/sampler/sampler.h"
 
 enum {
@@ -40,11 +41,10 @@ static void integrands(const cs_f32 *t, double *values)
                             (v - 0.2) * (v - 0.2)));
 }
 
-/* Variance of the mean of one pattern, for each integrand. */
-static void measure(cs_u32 sampler, cs_u32 size, cs_u32 *count, double *variance)
+/* Means of patterns of one size, for each integrand: means[k][r]. */
+static void measure(cs_u32 sampler, cs_u32 size, cs_u32 *count, double (*means)[REPLICATES])
 {
     test_pattern drawn = test_pattern_of(sampler, size, CS_ORDER_SEQUENCE);
-    double mean[INTEGRANDS] = {0}, m2[INTEGRANDS] = {0};
     *count = drawn.pattern.grid.count;
     for (cs_u32 t = 0; t < REPLICATES; t++) {
         double sum[INTEGRANDS] = {0};
@@ -56,28 +56,43 @@ static void measure(cs_u32 sampler, cs_u32 size, cs_u32 *count, double *variance
             for (int k = 0; k < INTEGRANDS; k++)
                 sum[k] += values[k];
         }
-        for (int k = 0; k < INTEGRANDS; k++) {
-            const double delta = sum[k] / *count - mean[k];
-            mean[k] += delta / (t + 1.0);
-            m2[k] += delta * (sum[k] / *count - mean[k]);
-        }
+        for (int k = 0; k < INTEGRANDS; k++)
+            means[k][t] = sum[k] / *count;
     }
-    for (int k = 0; k < INTEGRANDS; k++)
-        variance[k] = m2[k] / (REPLICATES - 1.0);
     test_pattern_free(&drawn);
 }
 
-/* Least-squares slope of log variance over log N; variances of nothing but rounding are kept out.
- */
-static double slope_of(const cs_u32 *count, double (*variance)[INTEGRANDS], int k)
+/* How many sizes have variances of more than rounding, which is below 1e-14; two at least. */
+static int sizes_above_rounding(double (*means)[REPLICATES])
 {
-    double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
-    for (int i = 0; i < SIZES; i++) {
-        const double x = log(count[i]), y = log(variance[i][k]);
-        if (variance[i][k] < 1e-14) continue;
-        n++, sx += x, sy += y, sxx += x * x, sxy += x * y;
+    int kept = 2;
+    for (; kept < SIZES; kept++) {
+        double mean = 0.0, sum = 0.0;
+        for (int r = 0; r < REPLICATES; r++)
+            mean += means[kept][r] / REPLICATES;
+        for (int r = 0; r < REPLICATES; r++)
+            sum += pow(means[kept][r] - mean, 2);
+        if (sum / (REPLICATES - 1) < 1e-14) break;
     }
-    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+    return kept;
+}
+
+/* Slopes of one sampler. */
+static void measure_slopes(cs_u32 sampler, double *slope)
+{
+    static double means[SIZES][INTEGRANDS][REPLICATES], of_one[SIZES][REPLICATES];
+    cs_u32 count[SIZES];
+    for (int i = 0; i < SIZES; i++)
+        measure(sampler, sizes[i], &count[i], means[i]);
+    for (int k = 0; k < INTEGRANDS; k++) {
+        double errors[SIZES];
+        clshear_fit fit = {.struct_size = sizeof fit};
+        for (int i = 0; i < SIZES; i++)
+            memcpy(of_one[i], means[i][k], sizeof of_one[i]);
+        const int kept = sizes_above_rounding(of_one);
+        test_ok(clshear_fit_slope(count, (size_t)kept, of_one[0], REPLICATES, NULL, errors, &fit));
+        slope[k] = fit.slope;
+    }
 }
 
 typedef struct expectation {
@@ -119,13 +134,10 @@ static void slopes_are_as_in_theory(void **state)
         printf(" %s |", names[k]);
     printf("\n|---|---|---|---|---|---|---|\n");
     for (cs_u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++) {
-        cs_u32 count[SIZES];
-        double variance[SIZES][INTEGRANDS];
-        for (int i = 0; i < SIZES; i++)
-            measure(sampler, sizes[i], &count[i], variance[i]);
+        measure_slopes(sampler, slope[sampler]);
         printf("| %s |", cs_sampler_name(sampler));
         for (int k = 0; k < INTEGRANDS; k++)
-            printf(" %.2f |", slope[sampler][k] = slope_of(count, variance, k));
+            printf(" %.2f |", slope[sampler][k]);
         printf("\n");
         fflush(stdout);
     }

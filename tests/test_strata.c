@@ -13,6 +13,19 @@ enum {
     DIMENSIONS = 4 /* that promises are about */
 };
 
+#define COUNT_OF(array) (sizeof(array) / sizeof *(array))
+
+/* Which test looks at which samplers. */
+static const cs_u32 with_coordinates[] = {CS_SAMPLER_NROOKS, CS_SAMPLER_MJ,  CS_SAMPLER_CMJ,
+                                          CS_SAMPLER_OA,     CS_SAMPLER_OA3, CS_SAMPLER_RANK1};
+static const cs_u32 with_pairs[] = {CS_SAMPLER_JITTERED, CS_SAMPLER_MJ, CS_SAMPLER_CMJ};
+static const cs_u32 with_arrays[] = {CS_SAMPLER_OA, CS_SAMPLER_OA3};
+static const cs_u32 nets[] = {CS_SAMPLER_SOBOL, CS_SAMPLER_SOBOL_PAIRS, CS_SAMPLER_SZ};
+
+/* Tests of their own, or no strata. */
+static const cs_u32 others[] = {CS_SAMPLER_HALTON, CS_SAMPLER_JITTERED4D, CS_SAMPLER_RANDOM,
+                                CS_SAMPLER_POISSON, CS_SAMPLER_CCVT};
+
 /* A partition of the tuple's cube into cells[0] x ... x cells[3] boxes that hold equally many
  * points each. */
 typedef struct promise {
@@ -20,8 +33,6 @@ typedef struct promise {
     cs_u32 count;
     cs_u32 cells[DIMENSIONS];
 } promise;
-
-static cs_u32 promised; /* a bit for each sampler whose strata were looked at */
 
 static cs_u32 stratum(cs_f32 value, cs_u32 strata)
 {
@@ -53,7 +64,6 @@ static void expect_kept(const test_pattern *drawn, const promise *p)
                          p->cells[3], hits[box]);
     }
     free(hits);
-    promised |= 1u << p->sampler;
 }
 
 /* All boxes of `base`^a x base^b x base^c x base^d with a + b + c + d = `total`, each exponent up
@@ -80,14 +90,12 @@ static void expect_elementary(const test_pattern *drawn, cs_u32 base, cs_u32 tot
 /* Every coordinate has one point in each of N strata. */
 static void coordinates_are_stratified(void **state)
 {
-    static const cs_u32 samplers[] = {CS_SAMPLER_NROOKS, CS_SAMPLER_MJ,  CS_SAMPLER_CMJ,
-                                      CS_SAMPLER_OA,     CS_SAMPLER_OA3, CS_SAMPLER_RANK1};
     (void)state;
-    for (size_t s = 0; s < sizeof samplers / sizeof *samplers; s++)
+    for (size_t s = 0; s < COUNT_OF(with_coordinates); s++)
         for (int k = 0; k < COUNTS; k++) {
-            test_pattern drawn = test_pattern_of(samplers[s], counts[k], CS_ORDER_COHERENT);
+            test_pattern drawn = test_pattern_of(with_coordinates[s], counts[k], CS_ORDER_COHERENT);
             for (int d = 0; d < DIMENSIONS; d++) {
-                promise p = {samplers[s], 0, {1, 1, 1, 1}};
+                promise p = {with_coordinates[s], 0, {1, 1, 1, 1}};
                 p.cells[d] = drawn.pattern.grid.count;
                 expect_kept(&drawn, &p);
             }
@@ -98,14 +106,13 @@ static void coordinates_are_stratified(void **state)
 /* Film and lens pairs have one point in each cell of the grid, where it has no partial row. */
 static void pairs_are_stratified(void **state)
 {
-    static const cs_u32 samplers[] = {CS_SAMPLER_JITTERED, CS_SAMPLER_MJ, CS_SAMPLER_CMJ};
     (void)state;
-    for (size_t s = 0; s < sizeof samplers / sizeof *samplers; s++)
+    for (size_t s = 0; s < COUNT_OF(with_pairs); s++)
         for (int k = 0; k < COUNTS; k++) {
-            test_pattern drawn = test_pattern_of(samplers[s], counts[k], CS_ORDER_COHERENT);
+            test_pattern drawn = test_pattern_of(with_pairs[s], counts[k], CS_ORDER_COHERENT);
             const cs_grid *grid = &drawn.pattern.grid;
-            const promise film = {samplers[s], 0, {grid->columns, grid->rows, 1, 1}};
-            const promise lens = {samplers[s], 0, {1, 1, grid->columns, grid->rows}};
+            const promise film = {with_pairs[s], 0, {grid->columns, grid->rows, 1, 1}};
+            const promise lens = {with_pairs[s], 0, {1, 1, grid->columns, grid->rows}};
             if (grid->extra == 0) expect_kept(&drawn, &film), expect_kept(&drawn, &lens);
             test_pattern_free(&drawn);
         }
@@ -130,14 +137,14 @@ static void orthogonal_arrays_are_orthogonal(void **state)
     static const cs_u32 squares[] = {9, 16, 25, 49, 64, 81, 121, 256, 625, 1024};
     (void)state;
     for (size_t k = 0; k < sizeof squares / sizeof *squares; k++) {
-        test_pattern drawn = test_pattern_of(CS_SAMPLER_OA, squares[k], CS_ORDER_COHERENT);
+        test_pattern drawn = test_pattern_of(with_arrays[0], squares[k], CS_ORDER_COHERENT);
         const cs_u32 q = drawn.pattern.grid.columns, most[4] = {1, 1, 1, 1};
         assert_int_equal(q * q, squares[k]);
         expect_elementary(&drawn, q, 2, most);
         test_pattern_free(&drawn);
     }
     for (size_t k = 0; k < sizeof strong / sizeof *strong; k++) {
-        test_pattern drawn = test_pattern_of(CS_SAMPLER_OA3, strong[k], CS_ORDER_COHERENT);
+        test_pattern drawn = test_pattern_of(with_arrays[1], strong[k], CS_ORDER_COHERENT);
         const cs_u32 q = drawn.pattern.grid.columns, most[4] = {1, 1, 1, 1};
         assert_int_equal(q * q * q, strong[k]);
         expect_elementary(&drawn, q, 3, most);
@@ -150,7 +157,6 @@ static void orthogonal_arrays_are_orthogonal(void **state)
  * `sobol` is the sum of degree - 1 of its polynomials, 3 (Niederreiter 1992, theorem 4.49). */
 static void nets_fill_elementary_intervals(void **state)
 {
-    static const cs_u32 nets[] = {CS_SAMPLER_SOBOL, CS_SAMPLER_SOBOL_PAIRS, CS_SAMPLER_SZ};
     (void)state;
     for (cs_u32 bits = 0; bits <= 10; bits++) {
         const cs_u32 film[4] = {bits, bits, 0, 0}, lens[4] = {0, 0, bits, bits};
@@ -249,13 +255,26 @@ static void equal_capacity_has_no_low_frequencies(void **state)
     assert_true(power[1] > 0.02);
 }
 
-/* A sampler that is added to the table must have its promises tested. */
+/* A sampler that is added to the table must be put down here, with the test of its strata or among
+ * those that promise none. */
 static void every_sampler_is_tested(void **state)
 {
-    const cs_u32 without_strata =
-        1u << CS_SAMPLER_RANDOM | 1u << CS_SAMPLER_POISSON | 1u << CS_SAMPLER_CCVT;
+    static const struct {
+        const cs_u32 *samplers;
+        size_t count;
+    } lists[] = {{with_coordinates, COUNT_OF(with_coordinates)},
+                 {with_pairs, COUNT_OF(with_pairs)},
+                 {with_arrays, COUNT_OF(with_arrays)},
+                 {nets, COUNT_OF(nets)},
+                 {others, COUNT_OF(others)}};
     (void)state;
-    assert_int_equal(promised | without_strata, (1u << CS_SAMPLER_COUNT) - 1u);
+    for (cs_u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++) {
+        int found = 0;
+        for (size_t l = 0; l < COUNT_OF(lists); l++)
+            for (size_t i = 0; i < lists[l].count; i++)
+                found |= lists[l].samplers[i] == sampler;
+        if (!found) fail_msg("%s is in no list of this file", cs_sampler_name(sampler));
+    }
 }
 
 int main(void)

@@ -25,7 +25,7 @@ static void build(fixture *made, const char *mesh, size_t triangles)
 {
     memset(made, 0, sizeof *made);
     cs_scene_init(&made->scene);
-    assert_int_equal(bench_make_mesh(mesh, triangles, &made->scene, &error), CLSHEAR_OK);
+    assert_int_equal(test_make_mesh(mesh, triangles, &made->scene, &error), CLSHEAR_OK);
     assert_int_equal(cs_accel_create(&made->scene, 0, &made->accel, &error), CLSHEAR_OK);
     assert_int_equal(cs_accel_build_bvh(made->accel, &made->bvh, &error), CLSHEAR_OK);
 }
@@ -37,8 +37,8 @@ static void destroy(fixture *made)
     cs_scene_free(&made->scene);
 }
 
-/* Depth, which Embree traces, of the camera rays of one pinhole picture; and the same from the
- * kernel, which must agree but for rays that graze an edge. */
+/* Traces RAYS rays (3 planes of origins, 3 of directions) with the kernel. `distances` holds how
+ * far each may go and then where it hit, or below 0 where something blocks it. */
 static void trace_device(const fixture *made, int packet, int any_hit, const float *rays,
                          float *distances)
 {
@@ -143,7 +143,8 @@ static void hits_equal_brute_force(void **state)
     free(truth);
 }
 
-/* Camera rays into a mesh of many triangles: the kernel's distance is Embree's depth. */
+/* Camera rays of a pinhole picture of many triangles: the kernel's distance is the depth that
+ * Embree finds, but for rays that graze an edge. */
 static void hits_equal_embree(void **state)
 {
     (void)state;

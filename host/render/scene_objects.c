@@ -47,6 +47,8 @@ clshear_status cs_scene_append(clshear_scene *scene, const clshear_mesh *mesh, c
     cs_scene *into = &scene->scene;
     if (scene->is_complete)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "mesh: the scene is complete already");
+    if (mesh->triangle_count > 0 && (mesh->positions == NULL || mesh->indices == NULL))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "mesh: positions or indices are NULL");
     if (!cs_is_colour(mesh->diffuse) || !cs_is_colour(mesh->emission))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "mesh: diffuse and emission must be 0 to 1e15");
     cs_material *material = cs_array_extend(&into->materials, 1);
@@ -56,6 +58,7 @@ clshear_status cs_scene_append(clshear_scene *scene, const clshear_mesh *mesh, c
     memcpy(material->emission, mesh->emission, sizeof material->emission);
     const clshear_status status =
         cs_scene_add_mesh(into, mesh, NULL, (uint32_t)(into->materials.count - 1), "mesh", error);
+    if (status != CLSHEAR_OK) into->materials.count--;
     return status == CLSHEAR_BAD_FILE ? CLSHEAR_BAD_ARGUMENT : status; /* there is no file */
 }
 

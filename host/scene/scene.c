@@ -79,32 +79,32 @@ static int has_area(const float *a, const float *b, const float *c)
     return square > 1e-14 * first * second && square > 1e-37 && square < 1e37;
 }
 
-clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, const float *texture,
-                                 uint32_t material, const char *name, cs_error *error)
+static clshear_status check_indices(const clshear_mesh *mesh, const char *name, cs_error *error)
 {
-    const size_t first_vertex = scene->positions.count;
-    if (mesh->triangle_count == 0) return CLSHEAR_OK;
-    clshear_status status = add_vertices(scene, mesh, texture, name, error);
-    if (status != CLSHEAR_OK) return status;
+    for (size_t i = 0; i < mesh->triangle_count; i++)
+        for (int k = 0; k < 3; k++)
+            if (mesh->indices[3 * i + (size_t)k] >= mesh->vertex_count)
+                return cs_fail(
+                    error, CLSHEAR_BAD_FILE,
+                    "%s: triangle %zu names vertex %u, but there are %zu; repair the mesh", name, i,
+                    mesh->indices[3 * i + (size_t)k], mesh->vertex_count);
+    return CLSHEAR_OK;
+}
+
+/* Appends the triangles with an area, whose corners are counted from `first_vertex`. */
+static clshear_status add_triangles(cs_scene *scene, const clshear_mesh *mesh, size_t first_vertex,
+                                    uint32_t material, uint8_t flag, const char *name,
+                                    cs_error *error)
+{
     const size_t first = scene->indices.count;
     uint32_t(*indices)[3] = cs_array_extend(&scene->indices, mesh->triangle_count);
     uint32_t *materials = cs_array_extend(&scene->triangle_materials, mesh->triangle_count);
     uint8_t *flags = cs_array_extend(&scene->triangle_flags, mesh->triangle_count);
+    size_t kept = 0;
     if (indices == NULL || materials == NULL || flags == NULL)
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", name);
-    const cs_material *look = (const cs_material *)scene->materials.items + material;
-    const int textured = texture != NULL && look->texture != CS_NO_TEXTURE;
-    const uint8_t flag =
-        (uint8_t)((mesh->normals != NULL ? CS_FACE_SMOOTH : 0) | (textured ? CS_FACE_TEXTURED : 0));
-    size_t kept = 0;
     for (size_t i = 0; i < mesh->triangle_count; i++) {
         const uint32_t *corner = mesh->indices + 3 * i;
-        for (int k = 0; k < 3; k++)
-            if (corner[k] >= mesh->vertex_count)
-                return cs_fail(
-                    error, CLSHEAR_BAD_FILE,
-                    "%s: triangle %zu names vertex %u, but there are %zu; repair the mesh", name, i,
-                    corner[k], mesh->vertex_count);
         const float *p = mesh->positions;
         if (!has_area(p + 3 * corner[0], p + 3 * corner[1], p + 3 * corner[2])) continue;
         for (int k = 0; k < 3; k++)
@@ -118,6 +118,26 @@ clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, cons
     scene->triangle_materials.count = first + kept;
     scene->triangle_flags.count = first + kept;
     return CLSHEAR_OK;
+}
+
+clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, const float *texture,
+                                 uint32_t material, const char *name, cs_error *error)
+{
+    const size_t vertices = scene->positions.count, triangles = scene->indices.count;
+    const cs_material *look = (const cs_material *)scene->materials.items + material;
+    const int textured = texture != NULL && look->texture != CS_NO_TEXTURE;
+    const int flag =
+        (mesh->normals != NULL ? CS_FACE_SMOOTH : 0) | (textured ? CS_FACE_TEXTURED : 0);
+    if (mesh->triangle_count == 0) return CLSHEAR_OK;
+    clshear_status status = check_indices(mesh, name, error);
+    if (status == CLSHEAR_OK) status = add_vertices(scene, mesh, texture, name, error);
+    if (status == CLSHEAR_OK)
+        status = add_triangles(scene, mesh, vertices, material, (uint8_t)flag, name, error);
+    if (status == CLSHEAR_OK) return status;
+    scene->positions.count = scene->vertices.count = vertices; /* nothing of it stays */
+    scene->indices.count = scene->triangle_materials.count = triangles;
+    scene->triangle_flags.count = triangles;
+    return status;
 }
 
 clshear_status cs_scene_finish(cs_scene *scene, const char *name, cs_error *error)

@@ -19,11 +19,8 @@ clshear_status cs_settings_init(clshear_settings *settings, cs_error *error)
         value->numbers = calloc(entry->values, sizeof *value->numbers);
         CS_REQUIRE(value->numbers != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for settings");
         value->count = entry->values;
-        if (*entry->fallback != '\0')
-            CS_TRY(cs_settings_set_text(settings, i, entry->fallback, error));
+        cs_setting_parse(entry, entry->fallback, value->numbers);
     }
-    for (size_t i = 0; i < CS_SETTING_COUNT; i++)
-        settings->values[i].is_set = 0;
 done:
     return status;
 }
@@ -76,13 +73,12 @@ void cs_settings_unset(clshear_settings *settings, size_t index)
 {
     const cs_setting *entry = &cs_setting_table[index];
     cs_setting_value *value = &settings->values[index];
-    cs_error ignored;
     free(value->text);
     value->text = NULL;
     for (size_t i = 0; value->numbers != NULL && i < entry->values; i++)
         value->numbers[i] = 0.0;
     if (value->numbers != NULL) value->count = entry->values;
-    if (*entry->fallback != '\0') cs_settings_set_text(settings, index, entry->fallback, &ignored);
+    if (value->numbers != NULL) cs_setting_parse(entry, entry->fallback, value->numbers);
     value->is_set = 0;
 }
 

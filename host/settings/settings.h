@@ -50,6 +50,9 @@ void cs_settings_unset(clshear_settings *settings, size_t index);
 clshear_status cs_settings_set_aperture(clshear_settings *settings, const cs_aperture_image *image,
                                         cs_error *error);
 
+/* Reads the numbers of one value, without a look at their bounds; 0 where the text is none. */
+int cs_setting_parse(const cs_setting *setting, const char *text, double *numbers);
+
 /* The value as text that cs_settings_set_text takes back; "" where nothing is set and the render
  * chooses. */
 void cs_settings_print(const clshear_settings *settings, size_t index, char *text, size_t size);

@@ -90,6 +90,14 @@ static size_t read_numbers(const char *text, size_t capacity, double *numbers)
     return 0;
 }
 
+int cs_setting_parse(const cs_setting *setting, const char *text, double *numbers)
+{
+    if (setting->kind != CLSHEAR_CHOICE)
+        return read_numbers(text, setting->values, numbers) == setting->values;
+    numbers[0] = cs_choice_find(setting->choices, text);
+    return numbers[0] >= 0.0;
+}
+
 /* Numbers in the table are floats in the kernels; texts like 0.1 must become the float 0.1. */
 static clshear_status set_numbers(clshear_settings *settings, size_t index, const char *text,
                                   cs_error *error)
@@ -130,8 +138,9 @@ clshear_status cs_settings_set_text(clshear_settings *settings, size_t index, co
     const cs_setting *entry = &cs_setting_table[index];
     cs_setting_value *value = &settings->values[index];
     if (entry->kind == CLSHEAR_CHOICE) {
-        const double number = cs_choice_find(entry->choices, text);
-        if (number >= 0.0) return cs_settings_set(settings, entry->setting, &number, 1, error);
+        double number;
+        if (cs_setting_parse(entry, text, &number))
+            return cs_settings_set(settings, entry->setting, &number, 1, error);
         if (entry->setting == CLSHEAR_APERTURE && strpbrk(text, "./") != NULL)
             return set_aperture_file(settings, text, error);
         return refuse(entry, text, error);

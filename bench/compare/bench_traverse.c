@@ -241,7 +241,7 @@ int main(int argc, char **argv)
                                 {.name = "lens", .real = &view->lens_radius},
                                 {.name = "json", .text = &state.json}};
     bench_read_flags(argc, argv, flags, sizeof flags / sizeof *flags);
-    if (state.rounds < 1 || state.rounds > BENCH_MOST_ROUNDS) state.rounds = 7;
+    state.rounds = bench_rounds(state.rounds);
     set_up(&state);
     upload_rays(&state);
     outcome camera = compare(&state, 0);

@@ -8,6 +8,7 @@
 #include "clshear/device/lens.h"
 #include "clshear/device/shear.h"
 #include "kernels/launch.h"
+#include "measure.h"
 #include "meshes.h"
 #include "oracle/oracle.h"
 #include "scene/camera.h"
@@ -31,17 +32,34 @@ static void place_camera(bench_view *view, cs_error *error)
 {
     const float eye[3] = {0.5f, 0.5f, 2.2f}, target[3] = {0.5f, 0.5f, 0.5f};
     const float light[3] = {0.5f, 0.95f, 0.5f};
-    view->camera = cs_camera_of_scene(&view->scene, view->size, view->size);
-    memcpy(view->camera.eye, eye, sizeof eye);
-    memcpy(view->camera.target, target, sizeof target);
+    cs_view *camera = &view->camera;
+    *camera = cs_camera_of_scene(&view->scene, view->size, view->size);
+    memcpy(camera->eye, eye, sizeof eye);
+    memcpy(camera->target, target, sizeof target);
     memcpy(view->light, light, sizeof light);
-    view->camera.lens_radius = (float)view->lens_radius;
-    view->camera.aperture = view->square ? CLSHEAR_APERTURE_SQUARE : CLSHEAR_APERTURE_DISK;
-    view->camera.focal_distance = 1.5f;
-    view->camera.fov_deg = 45.0f;
-    must(cs_camera_frame(&view->camera, view->size, view->size, &view->frame, error), error);
+    camera->lens_radius = (float)view->lens_radius;
+    camera->aperture = view->square ? CLSHEAR_APERTURE_SQUARE : CLSHEAR_APERTURE_DISK;
+    camera->focal_distance = 1.5f;
+    camera->fov_deg = 45.0f;
+    must(cs_camera_frame(camera, view->size, view->size, &view->frame, error), error);
     must(cs_optics_make(&view->camera, CLSHEAR_FILTER_BOX, 0.0f, &view->optics, error), error);
     view->frame.optics = view->optics.optics;
+}
+
+clshear_settings *bench_view_settings(const bench_view *view)
+{
+    const cs_view *camera = &view->camera;
+    clshear_settings *settings = bench_settings(NULL);
+    bench_set_vector(settings, CLSHEAR_EYE, camera->eye);
+    bench_set_vector(settings, CLSHEAR_TARGET, camera->target);
+    bench_set_vector(settings, CLSHEAR_UP, camera->up);
+    bench_set(settings, CLSHEAR_FOV, (double)camera->fov_deg);
+    bench_set(settings, CLSHEAR_LENS_RADIUS, (double)camera->lens_radius);
+    bench_set(settings, CLSHEAR_FOCAL_DISTANCE, (double)camera->focal_distance);
+    bench_set(settings, CLSHEAR_APERTURE, camera->aperture);
+    bench_set(settings, CLSHEAR_WIDTH, view->size);
+    bench_set(settings, CLSHEAR_HEIGHT, view->size);
+    return settings;
 }
 
 /* The ray of sample number `place` of a pixel's order. */
@@ -92,7 +110,7 @@ void bench_view_open(bench_view *view)
     view->spp = (int)cs_sampler_count(view->sampler, (cs_u32)view->spp);
     view->pattern = cs_pattern_of(view->sampler, 0, (cs_u32)view->spp);
     cs_scene_init(&view->scene);
-    must(bench_make_mesh(view->mesh, view->triangles, &view->scene, &error), &error);
+    must(test_make_mesh(view->mesh, view->triangles, &view->scene, &error), &error);
     const double start_s = cs_now_s();
     must(cs_accel_create(&view->scene, view->threads, &view->accel, &error), &error);
     must(cs_accel_build_bvh(view->accel, &view->bvh, &error), &error);

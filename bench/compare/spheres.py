@@ -1,6 +1,6 @@
 """A scene of many triangles: spheres above a floor, near and far from the plane of focus.
 
-python3 bench/spheres.py FOLDER writes spheres.obj, .mtl and .flags there.
+python3 bench/compare/spheres.py FOLDER writes spheres.obj, .mtl and .flags there.
 """
 import pathlib
 import sys

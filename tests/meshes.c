@@ -138,7 +138,7 @@ static void make_terrain(builder *mesh, size_t triangles)
     add_grid(mesh, side > 0 ? side : 1, side > 0 ? side : 1, &height, on_terrain);
 }
 
-clshear_status bench_make_mesh(const char *name, size_t triangles, cs_scene *scene, cs_error *error)
+clshear_status test_make_mesh(const char *name, size_t triangles, cs_scene *scene, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     builder mesh = {.positions = {.item_size = 3 * sizeof(float)},

@@ -18,7 +18,7 @@
 
 #include "kernels/launch.h"
 #include "measure.h"
-#include "render/handles.h"
+#include "render/objects.h"
 #include "view.h"
 
 enum {
@@ -33,6 +33,7 @@ typedef struct bench {
     const char *json, *sampler, *aperture;
     clshear_context *context;
     clshear_scene *scene;
+    clshear_settings *settings;
     embree_scene *embree[2];
     cs_buffer *origins, *directions, *distances, *hits, *sums, *table;
     float *radiance[2]; /* mean and squares, by Embree; mean, by the kernel */
@@ -40,25 +41,11 @@ typedef struct bench {
     int *faces;
 } bench;
 
-static void must(const bench *state, clshear_status status)
-{
-    if (status == CLSHEAR_OK) return;
-    fprintf(stderr, "bench_frame: %s\n", clshear_message(state->context));
-    exit(1);
-}
-
 static double kernel_s(bench *state)
 {
-    clshear_film *film = NULL;
-    clshear_options options = clshear_options_defaults();
-    options.width = options.height = state->view.size;
-    options.spp = (uint32_t)state->view.spp;
-    options.replicates = 1;
-    options.sampler = state->sampler;
-    options.oracle = CLSHEAR_ORACLE_CENTRE;
-    options.lens_rays = 0;
-    must(state, clshear_render(state->scene, &state->view.camera, &options, &film));
-    const clshear_film_info info = clshear_film_describe(film);
+    clshear_film *film = bench_render(state->scene, state->settings);
+    clshear_film_info info = {.struct_size = sizeof info};
+    clshear_film_describe(film, &info);
     memcpy(state->radiance[1], clshear_film_channel(film, "G"),
            (size_t)state->view.size * (size_t)state->view.size * sizeof(float));
     clshear_film_free(film);
@@ -80,28 +67,30 @@ static double tuples_s(bench *state)
     cs_device *device = state->context->device;
     const cs_u32 pixels = (cs_u32)(view->size * view->size);
     const float shear_px = 3.0f;
-    const cs_buffer *rows = NULL;
+    cs_buffer *rows = NULL;
     cs_launch frame = {.camera = view->frame,
                        .pattern = view->pattern,
                        .pixel_count = pixels,
                        .shear_mode = CS_SHEAR_EQUAL_AREA};
-    must(state, cs_table_cache_find(&state->context->tables, device, &view->pattern, &rows,
-                                    &state->context->error));
+    cs_error *error = cs_thread_error();
+    bench_must(cs_table_cache_find(&state->context->tables, device, &view->pattern, &rows, error));
     const cs_argument arguments[] = {{.value = &frame, .size = sizeof frame},
                                      {.value = &shear_px, .size = sizeof shear_px},
                                      {.buffer = rows},
                                      {.buffer = state->table},
                                      {.buffer = state->sums}};
     const double start_s = cs_now_s();
-    must(state, CS_RUN(device, DRAW_SUM, pixels, arguments, &state->context->error));
-    return cs_now_s() - start_s;
+    bench_must(CS_RUN(device, DRAW_SUM, pixels, arguments, error));
+    const double took_s = cs_now_s() - start_s;
+    cs_buffer_free(rows);
+    return took_s;
 }
 
 /* Tracing alone, of the rays that the buffers hold. */
 static double trace_s(bench *state, int any_hit, const float *reach)
 {
     cs_device *device = state->context->device;
-    cs_error *error = &state->context->error;
+    cs_error *error = cs_thread_error();
     const cs_u32 count = (cs_u32)state->view.rays.count;
     const cs_argument arguments[] = {{.value = &count, .size = sizeof count},
                                      {.value = &any_hit, .size = sizeof any_hit},
@@ -109,20 +98,20 @@ static double trace_s(bench *state, int any_hit, const float *reach)
                                      {.buffer = state->directions},
                                      {.buffer = state->distances},
                                      {.buffer = state->hits},
-                                     {.buffer = state->scene->world.buffers[0]},
-                                     {.buffer = state->scene->world.buffers[1]}};
-    must(state, cs_buffer_write(state->distances, 0, count * sizeof *reach, reach, error));
+                                     {.buffer = state->scene->device_scene.buffers[0]},
+                                     {.buffer = state->scene->device_scene.buffers[1]}};
+    bench_must(cs_buffer_write(state->distances, 0, count * sizeof *reach, reach, error));
     const double start_s = cs_now_s();
-    must(state, CS_RUN(device, TRACE, count / (size_t)cs_device_packet(device), arguments, error));
+    bench_must(CS_RUN(device, TRACE, count / (size_t)cs_device_packet(device), arguments, error));
     return cs_now_s() - start_s;
 }
 
 static void upload(bench *state, const float *origins, const float *directions)
 {
     const size_t size = 3 * state->view.rays.count * sizeof(float);
-    cs_error *error = &state->context->error;
-    must(state, cs_buffer_write(state->origins, 0, size, origins, error));
-    must(state, cs_buffer_write(state->directions, 0, size, directions, error));
+    cs_error *error = cs_thread_error();
+    bench_must(cs_buffer_write(state->origins, 0, size, origins, error));
+    bench_must(cs_buffer_write(state->directions, 0, size, directions, error));
 }
 
 /* Rays from what camera rays hit to the light, in place of these. */
@@ -152,17 +141,28 @@ static void upload_shadow_rays(bench *state)
 static void open_scene(bench *state)
 {
     const bench_view *view = &state->view;
-    const clshear_context_options options = {.threads = view->threads, .packet = state->packet};
-    const clshear_mesh mesh = {.positions = view->scene.positions.items,
+    const clshear_mesh mesh = {.struct_size = sizeof mesh,
+                               .positions = view->scene.positions.items,
                                .indices = view->scene.indices.items,
                                .vertex_count = view->scene.positions.count,
                                .triangle_count = view->scene.indices.count,
                                .diffuse = {0.7f, 0.7f, 0.7f}};
-    clshear_light light = {.colour = {intensity, intensity, intensity}};
-    memcpy(light.vector, view->light, sizeof light.vector);
-    if (clshear_context_create(&options, &state->context) != CLSHEAR_OK) must(state, 1);
-    must(state, clshear_scene_create(state->context, &mesh, 1, &state->scene));
-    must(state, clshear_scene_add_light(state->scene, &light));
+    clshear_light light = {.struct_size = sizeof light,
+                           .colour = {intensity, intensity, intensity}};
+    memcpy(light.position, view->light, sizeof light.position);
+    state->settings = bench_view_settings(view);
+    bench_set(state->settings, CLSHEAR_SPP, view->spp);
+    bench_set(state->settings, CLSHEAR_REPLICATES, 1);
+    bench_set(state->settings, CLSHEAR_ORACLE, CLSHEAR_ORACLE_CENTRE);
+    bench_set(state->settings, CLSHEAR_LENS_RAYS, 0);
+    bench_set(state->settings, CLSHEAR_SAMPLER, view->sampler);
+    bench_set(state->settings, CLSHEAR_THREADS, view->threads);
+    if (state->packet > 0) bench_set(state->settings, CLSHEAR_PACKET, state->packet);
+    bench_must(clshear_context_create(state->settings, &state->context));
+    bench_must(clshear_scene_create(state->context, &state->scene));
+    bench_must(clshear_scene_add_mesh(state->scene, &mesh));
+    bench_must(clshear_scene_complete(state->scene));
+    bench_must(clshear_scene_add_light(state->scene, &light));
     for (int quality = 0; quality < 2; quality++)
         state->embree[quality] = embree_scene_create(&view->scene, quality, view->threads);
 }
@@ -173,14 +173,14 @@ static void reserve(bench *state)
     const size_t pixels = (size_t)state->view.size * (size_t)state->view.size;
     const cs_array *table = &state->view.optics.table;
     cs_device *device = state->context->device;
-    cs_error *error = &state->context->error;
-    must(state, cs_buffer_create(device, 3 * plane, NULL, &state->origins, error));
-    must(state, cs_buffer_create(device, 3 * plane, NULL, &state->directions, error));
-    must(state, cs_buffer_create(device, plane, NULL, &state->distances, error));
-    must(state, cs_buffer_create(device, plane, NULL, &state->hits, error));
-    must(state, cs_buffer_create(device, pixels * sizeof(float), NULL, &state->sums, error));
-    must(state, cs_buffer_create(device, table->count * sizeof(float), table->items, &state->table,
-                                 error));
+    cs_error *error = cs_thread_error();
+    bench_must(cs_buffer_create(device, 3 * plane, NULL, &state->origins, error));
+    bench_must(cs_buffer_create(device, 3 * plane, NULL, &state->directions, error));
+    bench_must(cs_buffer_create(device, plane, NULL, &state->distances, error));
+    bench_must(cs_buffer_create(device, plane, NULL, &state->hits, error));
+    bench_must(cs_buffer_create(device, pixels * sizeof(float), NULL, &state->sums, error));
+    bench_must(
+        cs_buffer_create(device, table->count * sizeof(float), table->items, &state->table, error));
     state->radiance[0] = bench_allocate(2 * pixels * sizeof(float));
     state->radiance[1] = bench_allocate(pixels * sizeof(float));
     state->reach = bench_allocate(plane);
@@ -289,6 +289,7 @@ static void close_all(bench *state)
     }
     free(state->reach);
     free(state->faces);
+    clshear_settings_free(state->settings);
     clshear_scene_free(state->scene);
     clshear_context_free(state->context);
     bench_view_close(&state->view);
@@ -317,7 +318,7 @@ int main(int argc, char **argv)
                                 {.name = "aperture", .text = &state.aperture},
                                 {.name = "json", .text = &state.json}};
     bench_read_flags(argc, argv, flags, sizeof flags / sizeof *flags);
-    if (state.rounds < 1 || state.rounds > BENCH_MOST_ROUNDS) state.rounds = 5;
+    state.rounds = bench_rounds(state.rounds);
     cs_error error;
     if (cs_sampler_find(state.sampler, &view->sampler, &error) != CLSHEAR_OK) {
         fprintf(stderr, "bench_frame: %s\n", error.message);

@@ -8,7 +8,7 @@
 #include "pattern/pattern.h"
 
 typedef struct bench_view {
-    const char *mesh; /* a name of bench_make_mesh */
+    const char *mesh; /* a name of test_make_mesh */
     size_t triangles; /* about */
     int size;         /* of the image, pixels along a side */
     int spp;
@@ -20,7 +20,7 @@ typedef struct bench_view {
     cs_accel *accel;
     cs_flat_bvh bvh;
     double build_s;
-    clshear_camera camera;
+    cs_view camera;
     cs_camera frame;
     cs_optics_tables optics;
     cs_pattern pattern;
@@ -31,6 +31,9 @@ typedef struct bench_view {
 /* Fills in what is below `square`. Prints a line and exits with 1 where that fails. */
 void bench_view_open(bench_view *view);
 void bench_view_close(bench_view *view);
+
+/* Settings with the view's camera, lens and image size. */
+clshear_settings *bench_view_settings(const bench_view *view);
 
 /* malloc that exits. */
 void *bench_allocate(size_t size);

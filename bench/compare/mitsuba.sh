@@ -3,9 +3,9 @@
 # the pictures agree, samples per second, and the time to the same noise. Installs Mitsuba into
 # build/mitsuba and LLVM 19 from Debian, which Mitsuba loads. Takes a quarter of an hour, in which
 # build/ must stay as it is.
-# bench/mitsuba.sh [FLAGS of bench/mitsuba.py]
+# bench/compare/mitsuba.sh [FLAGS of bench/compare/mitsuba.py]
 set -eu
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 environment=build/mitsuba
 [ -x build/clshear ] || scripts/build
 PATH=$PATH:/usr/sbin:/sbin # for ldconfig
@@ -23,4 +23,4 @@ if ! $environment/bin/python -c 'import mitsuba' 2>/dev/null; then
 fi
 DRJIT_LIBLLVM_PATH=$(ldconfig -p | awk '/libLLVM.*19/ { print $NF; exit }')
 export DRJIT_LIBLLVM_PATH
-exec $environment/bin/python bench/mitsuba.py "$@"
+exec $environment/bin/python bench/compare/mitsuba.py "$@"

@@ -2,7 +2,7 @@
 
 Renders an OBJ with the camera, lens and point light that clshear reads from the .flags file beside
 it, with clshear and with Mitsuba (llvm_ad_rgb, thin lens, direct light only), and prints Markdown
-tables. bench/mitsuba.sh installs what this needs and runs it.
+tables. bench/compare/mitsuba.sh installs what this needs and runs it.
 
 Terms: a pixel's value is its mean radiance; a render's variance is that of a pixel's value across
 seeds, averaged over pixels and colours (the MSE of the image, as both renderers are unbiased).
@@ -336,12 +336,12 @@ def main():
     parser.add_argument("--quick", action="store_true", help="only sees whether all works")
     parser.add_argument("--scene", choices=["cornell", "spheres"], help="only this one")
     parser.add_argument("--out", help="results as JSON")
-    parser.add_argument("--program", default=str(HERE.parent / "build" / "clshear"))
+    parser.add_argument("--program", default=str(HERE.parent.parent / "build" / "clshear"))
     options = parser.parse_args()
     if options.quick:
         options.size, options.seeds, options.rounds, options.spp = 32, 4, 1, 64
     with tempfile.TemporaryDirectory() as folder:
-        scenes = {"cornell": HERE.parent / "scenes" / "cornell.obj",
+        scenes = {"cornell": HERE.parent.parent / "scenes" / "cornell.obj",
                   "spheres": write_spheres(pathlib.Path(folder))}
         results = [study(World(path, options), name) for name, path in scenes.items()
                    if options.scene in (None, name)]

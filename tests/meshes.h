@@ -1,6 +1,6 @@
 /* Meshes that the benchmarks and tests make themselves. */
-#ifndef CS_BENCH_MESHES_H
-#define CS_BENCH_MESHES_H
+#ifndef CS_TESTS_MESHES_H
+#define CS_TESTS_MESHES_H
 
 #include "base/array.h"
 #include "scene/scene.h"
@@ -9,7 +9,6 @@
  *   "box"      two boxes, 30 triangles in all
  *   "spheres"  a cloud of 64 bumpy spheres, about `triangles` triangles
  *   "terrain"  a rough height field, about `triangles` triangles */
-clshear_status bench_make_mesh(const char *name, size_t triangles, cs_scene *scene,
-                               cs_error *error);
+clshear_status test_make_mesh(const char *name, size_t triangles, cs_scene *scene, cs_error *error);
 
 #endif

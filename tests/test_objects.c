@@ -1,0 +1,307 @@
+/* Objects of the interface: their lives, their messages, and what is refused. */
+#include "support.h"
+
+#include <pthread.h>
+
+#include "clshear/opencl.h"
+
+enum {
+    SIZE = 16,
+    PIXELS = SIZE * SIZE
+};
+
+static clshear_settings *small(test_fixture *made)
+{
+    return test_settings(made->settings, SIZE, SIZE, 16);
+}
+
+static void expect_same_picture(const clshear_film *a, const clshear_film *b)
+{
+    static const char *const names[] = {"R", "G", "B"};
+    for (int c = 0; c < 3; c++)
+        assert_memory_equal(clshear_film_channel(a, names[c]), clshear_film_channel(b, names[c]),
+                            PIXELS * sizeof(float));
+}
+
+/* A scene keeps its context alive, a film needs neither; NULL is freed like anything else. */
+static void any_order_of_freeing_is_fine(void **state)
+{
+    test_fixture *made = *state;
+    clshear_context *context = test_context();
+    clshear_scene *scene = test_cornell(context);
+    clshear_settings *settings = small(made);
+    clshear_context_free(context);
+    clshear_film *film = test_render(scene, settings);
+    clshear_settings_free(settings);
+    clshear_scene_free(scene);
+    assert_non_null(clshear_film_channel(film, "R"));
+    test_ok(clshear_film_write(film, test_path("orphan.exr")));
+    clshear_film_free(film);
+    clshear_context_free(NULL);
+    clshear_scene_free(NULL);
+    clshear_film_free(NULL);
+    clshear_settings_free(NULL);
+}
+
+#define expect_null(call, function) test_refused((call), CLSHEAR_BAD_ARGUMENT, function ": ")
+
+static void null_is_refused(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = small(made);
+    clshear_film *film = NULL;
+    clshear_scene *scene = NULL;
+    clshear_context *context = NULL;
+    clshear_setting setting;
+    int64_t whole;
+    float *buffer = NULL;
+    expect_null(clshear_settings_create(NULL), "clshear_settings_create");
+    expect_null(clshear_settings_copy(NULL, &settings), "clshear_settings_copy");
+    expect_null(clshear_settings_set_integer(NULL, CLSHEAR_SPP, 1), "clshear_settings_set_integer");
+    expect_null(clshear_settings_set_text(settings, CLSHEAR_SPP, NULL),
+                "clshear_settings_set_text");
+    expect_null(clshear_settings_get_integer(settings, CLSHEAR_SPP, NULL),
+                "clshear_settings_get_integer");
+    expect_null(clshear_settings_get_integer(NULL, CLSHEAR_SPP, &whole),
+                "clshear_settings_get_integer");
+    expect_null(clshear_settings_read(settings, NULL, NULL, NULL), "clshear_settings_read");
+    expect_null(clshear_setting_find(NULL, &setting), "clshear_setting_find");
+    expect_null(clshear_context_create(NULL, NULL), "clshear_context_create");
+    expect_null(clshear_context_create_from(NULL, NULL, NULL, NULL, &context),
+                "clshear_context_create_from");
+    expect_null(clshear_list_devices(NULL, NULL), "clshear_list_devices");
+    expect_null(clshear_scene_load(NULL, "a", &scene), "clshear_scene_load");
+    expect_null(clshear_scene_load(made->context, NULL, &scene), "clshear_scene_load");
+    expect_null(clshear_scene_load(made->context, "a", NULL), "clshear_scene_load");
+    expect_null(clshear_scene_create(NULL, &scene), "clshear_scene_create");
+    expect_null(clshear_scene_add_mesh(made->scene, NULL), "clshear_scene_add_mesh");
+    expect_null(clshear_scene_add_light(made->scene, NULL), "clshear_scene_add_light");
+    expect_null(clshear_scene_complete(NULL), "clshear_scene_complete");
+    expect_null(clshear_camera_complete(made->scene, NULL), "clshear_camera_complete");
+    expect_null(clshear_camera_focus(NULL, settings, 0, 0), "clshear_camera_focus");
+    expect_null(clshear_render(NULL, settings, &film), "clshear_render");
+    expect_null(clshear_render(made->scene, settings, NULL), "clshear_render");
+    expect_null(clshear_render_extend(made->scene, settings, NULL, &film), "clshear_render_extend");
+    expect_null(clshear_film_copy(NULL, NULL, 0, buffer, 0, 0), "clshear_film_copy");
+    expect_null(clshear_film_annotate(NULL, "a", "b"), "clshear_film_annotate");
+    expect_null(clshear_film_read(NULL, &film), "clshear_film_read");
+    expect_null(clshear_film_write(NULL, "a.exr"), "clshear_film_write");
+    expect_null(clshear_film_write_ratio(NULL, "R", "a.png"), "clshear_film_write_ratio");
+    assert_true(film == NULL && scene == NULL && context == NULL);
+    assert_string_equal(clshear_context_message(NULL), "");
+    assert_string_equal(clshear_scene_message(NULL), "");
+    assert_string_equal(clshear_film_message(NULL), "");
+    clshear_settings_free(settings);
+}
+
+static void *fail_elsewhere(void *argument)
+{
+    clshear_scene *scene = NULL;
+    assert_string_equal(clshear_message(), "");
+    clshear_scene_load(argument, "/no/such/elsewhere.obj", &scene);
+    return (void *)(uintptr_t)(strstr(clshear_message(), "elsewhere.obj") != NULL);
+}
+
+/* A thread sees its own last failure; an object that of any thread, but not those of others. */
+static void messages_have_owners(void **state)
+{
+    test_fixture *made = *state;
+    clshear_context *context = test_context();
+    clshear_scene *scene = NULL, *empty = NULL;
+    pthread_t thread;
+    void *seen;
+    assert_string_equal(clshear_context_message(context), "");
+    assert_int_equal(clshear_scene_load(context, "/no/such/here.obj", &scene), CLSHEAR_BAD_FILE);
+    assert_int_equal(pthread_create(&thread, NULL, fail_elsewhere, context), 0);
+    assert_int_equal(pthread_join(thread, &seen), 0);
+    assert_non_null(seen);
+    assert_non_null(strstr(clshear_message(), "here.obj"));
+    assert_non_null(strstr(clshear_context_message(context), "elsewhere.obj"));
+    assert_null(strstr(clshear_context_message(made->context), "elsewhere.obj"));
+    test_ok(clshear_scene_create(context, &empty));
+    assert_string_equal(clshear_scene_message(empty), "");
+    test_refused(clshear_scene_complete(empty), CLSHEAR_BAD_ARGUMENT, "no triangles");
+    assert_non_null(strstr(clshear_scene_message(empty), "no triangles"));
+    assert_non_null(strstr(clshear_context_message(context), "elsewhere.obj"));
+    clshear_scene_free(empty);
+    clshear_context_free(context);
+}
+
+static void scenes_must_be_complete(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = small(made);
+    clshear_scene *scene = NULL;
+    clshear_film *film = NULL;
+    clshear_mesh mesh = {.struct_size = sizeof mesh};
+    test_ok(clshear_scene_create(made->context, &scene));
+    test_refused(clshear_render(scene, settings, &film), CLSHEAR_BAD_ARGUMENT, "not complete");
+    test_refused(clshear_camera_complete(scene, settings), CLSHEAR_BAD_ARGUMENT, "not complete");
+    test_refused(clshear_camera_focus(scene, settings, 0, 0), CLSHEAR_BAD_ARGUMENT, "not complete");
+    test_refused(clshear_scene_complete(made->scene), CLSHEAR_BAD_ARGUMENT, "complete already");
+    test_refused(clshear_scene_add_mesh(made->scene, &mesh), CLSHEAR_BAD_ARGUMENT,
+                 "complete already");
+    assert_null(film);
+    clshear_scene_free(scene);
+    clshear_settings_free(settings);
+}
+
+/* A mesh by a program that was compiled with fewer or more members than the library knows. */
+static void meshes_of_other_versions_are_taken(void **state)
+{
+    test_fixture *made = *state;
+    const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const uint32_t indices[3] = {0, 1, 2};
+    struct {
+        clshear_mesh mesh;
+        unsigned char newer[64];
+    } given = {.mesh = {.positions = positions,
+                        .indices = indices,
+                        .vertex_count = 3,
+                        .triangle_count = 1,
+                        .diffuse = {0.5f, 0.5f, 0.5f},
+                        .emission = {1, 1, 1}}};
+    const size_t sizes[] = {offsetof(clshear_mesh, emission), sizeof given.mesh, sizeof given};
+    const size_t emitters[] = {0, 1, 1};
+    memset(given.newer, 0xff, sizeof given.newer);
+    for (int i = 0; i < 3; i++) {
+        clshear_scene *scene = NULL;
+        test_ok(clshear_scene_create(made->context, &scene));
+        given.mesh.struct_size = sizes[i];
+        test_ok(clshear_scene_add_mesh(scene, &given.mesh));
+        test_ok(clshear_scene_complete(scene));
+        assert_int_equal(test_scene_info(scene).emitters, emitters[i]);
+        clshear_scene_free(scene);
+    }
+    clshear_scene *scene = NULL;
+    clshear_light light = {.kind = CLSHEAR_LIGHT_POINT};
+    given.mesh.struct_size = 0;
+    test_ok(clshear_scene_create(made->context, &scene));
+    test_refused(clshear_scene_add_mesh(scene, &given.mesh), CLSHEAR_BAD_ARGUMENT, "struct_size");
+    test_refused(clshear_scene_add_light(scene, &light), CLSHEAR_BAD_ARGUMENT, "struct_size");
+    clshear_scene_free(scene);
+}
+
+static int stop_at_once(void *user, const clshear_progress *state)
+{
+    (void)state;
+    ++*(int *)user;
+    return 1;
+}
+
+/* A stopped render succeeds; what it has can be used. */
+static void stopped_renders_succeed(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = small(made);
+    int calls = 0;
+    test_set(settings, CLSHEAR_SPP, "100000");
+    test_set(settings, CLSHEAR_ORACLE, "centre");
+    clshear_settings_set_progress(settings, stop_at_once, &calls);
+    clshear_film *film = test_render(made->scene, settings);
+    assert_int_equal(calls, 1);
+    assert_int_equal(test_film_info(film).complete, 0);
+    for (int i = 0; i < PIXELS; i++)
+        assert_true(clshear_film_channel(film, "Samples")[i] >= 0.0f);
+    test_ok(clshear_film_write(film, test_path("stopped.exr")));
+    clshear_film_free(film);
+    clshear_settings_free(settings);
+}
+
+static void failures_leave_results_alone(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = small(made);
+    clshear_film *film = test_render(made->scene, settings), *before = film;
+    clshear_scene *scene = made->scene;
+    test_set(settings, CLSHEAR_REPLICATES, "17");
+    assert_int_equal(clshear_render(made->scene, settings, &film), CLSHEAR_BAD_ARGUMENT);
+    assert_int_equal(clshear_film_read(test_path("none.exr"), &film), CLSHEAR_BAD_FILE);
+    assert_int_equal(clshear_scene_load(made->context, "/none.obj", &scene), CLSHEAR_BAD_FILE);
+    assert_ptr_equal(film, before);
+    assert_ptr_equal(scene, made->scene);
+    clshear_film_free(film);
+    clshear_settings_free(settings);
+}
+
+/* Interleaved RGB with a gap in front of each pixel and behind each row. */
+static void channels_are_copied_with_strides(void **state)
+{
+    enum {
+        ROW = 5 * SIZE + 3
+    };
+    static const char *const names[] = {"R", "G", "B", "Z"}, *const wrong[] = {"R", "W"};
+    test_fixture *made = *state;
+    clshear_settings *settings = small(made);
+    clshear_film *film = test_render(made->scene, settings);
+    float target[ROW * SIZE];
+    for (int i = 0; i < ROW * SIZE; i++)
+        target[i] = -7.0f;
+    test_ok(clshear_film_copy(film, names, 4, target + 1, 5 * sizeof(float), ROW * sizeof(float)));
+    for (int y = 0; y < SIZE; y++) {
+        const float *row = target + ROW * y;
+        for (int x = 0; x < SIZE; x++) {
+            assert_true(row[5 * x] == -7.0f);
+            for (int c = 0; c < 4; c++)
+                assert_memory_equal(&row[5 * x + 1 + c],
+                                    &clshear_film_channel(film, names[c])[SIZE * y + x],
+                                    sizeof(float));
+        }
+        for (int i = 5 * SIZE + 1; i < ROW; i++)
+            assert_true(row[i] == -7.0f);
+    }
+    test_refused(clshear_film_copy(film, wrong, 2, target, 8, 8 * SIZE), CLSHEAR_BAD_ARGUMENT, "W");
+    clshear_film_free(film);
+    clshear_settings_free(settings);
+}
+
+/* A context on the caller's own OpenCL objects renders the same bits, and films can be put into the
+ * caller's buffers. */
+static void foreign_contexts_render_the_same(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = small(made);
+    cl_device_id device;
+    cl_int code;
+    clshear_context *context = NULL;
+    clshear_context_objects(made->context, NULL, &device, NULL);
+    cl_context cl = clCreateContext(NULL, 1, &device, NULL, NULL, &code);
+    cl_command_queue queue = clCreateCommandQueue(cl, device, 0, &code);
+    test_ok(clshear_context_create_from(cl, device, queue, NULL, &context));
+    clshear_scene *scene = test_cornell(context);
+    clshear_film *own = test_render(made->scene, settings), *foreign = test_render(scene, settings);
+    expect_same_picture(own, foreign);
+    float values[PIXELS + 2];
+    cl_mem buffer = clCreateBuffer(cl, CL_MEM_READ_WRITE, sizeof values, NULL, &code);
+    test_ok(clshear_film_copy_to_buffer(foreign, context, "G", buffer, 2 * sizeof(float)));
+    clEnqueueReadBuffer(queue, buffer, CL_TRUE, 0, sizeof values, values, 0, NULL, NULL);
+    assert_memory_equal(values + 2, clshear_film_channel(foreign, "G"), PIXELS * sizeof(float));
+    test_refused(clshear_film_copy_to_buffer(foreign, context, "W", buffer, 0),
+                 CLSHEAR_BAD_ARGUMENT, "no channel W");
+    test_refused(clshear_film_copy_to_buffer(foreign, context, "G", buffer, 16),
+                 CLSHEAR_DEVICE_FAILED, "channel G");
+    clReleaseMemObject(buffer);
+    clReleaseCommandQueue(queue);
+    clReleaseContext(cl);
+    clshear_film_free(own);
+    clshear_film_free(foreign);
+    clshear_context_free(context);
+    clshear_scene_free(scene);
+    clshear_settings_free(settings);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(any_order_of_freeing_is_fine),
+        cmocka_unit_test(null_is_refused),
+        cmocka_unit_test(messages_have_owners),
+        cmocka_unit_test(scenes_must_be_complete),
+        cmocka_unit_test(meshes_of_other_versions_are_taken),
+        cmocka_unit_test(stopped_renders_succeed),
+        cmocka_unit_test(failures_leave_results_alone),
+        cmocka_unit_test(channels_are_copied_with_strides),
+        cmocka_unit_test(foreign_contexts_render_the_same),
+    };
+    return cmocka_run_group_tests(tests, test_open_cornell, test_close);
+}

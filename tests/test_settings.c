@@ -1,0 +1,409 @@
+/* The table of settings: bounds, kinds, texts, files; and structs of older and newer callers. */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "clshear/analysis.h"
+#include "settings/table.h"
+
+static clshear_settings *fresh(void)
+{
+    clshear_settings *settings = NULL;
+    test_ok(clshear_settings_create(&settings));
+    return settings;
+}
+
+static int open_settings(void **state)
+{
+    *state = fresh();
+    return 0;
+}
+
+static int close_settings(void **state)
+{
+    clshear_settings_free(*state);
+    return 0;
+}
+
+/* One value of a setting, each number `value` but for what must be ordered. */
+static size_t numbers_of(const cs_setting *entry, double value, double *numbers)
+{
+    for (size_t i = 0; i < entry->values; i++)
+        numbers[i] = value;
+    return entry->values;
+}
+
+static clshear_status set_all(clshear_settings *settings, const cs_setting *entry, double value)
+{
+    double numbers[8];
+    return clshear_settings_set_numbers(settings, entry->setting, numbers,
+                                        numbers_of(entry, value, numbers));
+}
+
+/* Both bounds are allowed and what is just beyond is not, for every row; a refusal names the
+ * setting and changes nothing. The crop's numbers must rise and packets are powers of two: see
+ * below. */
+static void bounds_are_enforced(void **state)
+{
+    clshear_settings *settings = *state;
+    for (size_t i = 0; i < CS_SETTING_COUNT; i++) {
+        const cs_setting *entry = &cs_setting_table[i];
+        double low, high, before[8], after[8];
+        size_t count;
+        test_ok(clshear_setting_bounds(entry->setting, &low, &high));
+        if (entry->kind == CLSHEAR_TEXT || entry->setting == CLSHEAR_CROP) continue;
+        test_ok(set_all(settings, entry, low));
+        test_ok(set_all(settings, entry, high));
+        test_ok(clshear_settings_get_numbers(settings, entry->setting, before, 8, &count));
+        const int whole = entry->kind != CLSHEAR_NUMBER;
+        const double wrong[] = {whole ? low - 1.0 : nextafter(low, -INFINITY),
+                                whole ? high + 1.0 : nextafter(high, INFINITY), NAN,
+                                whole ? low + 0.5 : INFINITY};
+        for (int w = 0; w < 4; w++)
+            test_refused(set_all(settings, entry, wrong[w]), CLSHEAR_BAD_ARGUMENT, entry->name);
+        test_ok(clshear_settings_get_numbers(settings, entry->setting, after, 8, &count));
+        assert_int_equal(count, entry->values);
+        assert_memory_equal(before, after, count * sizeof *before);
+    }
+    test_refused(clshear_settings_set_integer(settings, CLSHEAR_PACKET, 5), CLSHEAR_BAD_ARGUMENT,
+                 "1, 4, 8 or 16");
+    test_refused(clshear_settings_set_text(settings, CLSHEAR_CROP, "0,65537,0,1"),
+                 CLSHEAR_BAD_ARGUMENT, "crop");
+    test_refused(clshear_settings_set_text(settings, CLSHEAR_CROP, "4,4,0,1"), CLSHEAR_BAD_ARGUMENT,
+                 "X0 < X1");
+}
+
+/* The number of numbers counts too. */
+static void counts_are_enforced(void **state)
+{
+    clshear_settings *settings = *state;
+    static const double numbers[6 * 65] = {0};
+    test_refused(clshear_settings_set_numbers(settings, CLSHEAR_EYE, numbers, 2),
+                 CLSHEAR_BAD_ARGUMENT, "eye: 2 numbers");
+    test_refused(clshear_settings_set_numbers(settings, CLSHEAR_EYE, numbers, 6),
+                 CLSHEAR_BAD_ARGUMENT, "eye: 6 numbers");
+    test_refused(clshear_settings_set_numbers(settings, CLSHEAR_EYE, numbers, 0),
+                 CLSHEAR_BAD_ARGUMENT, "eye: 0 numbers");
+    test_ok(clshear_settings_set_numbers(settings, CLSHEAR_LIGHT, numbers, 6 * (size_t)64));
+    test_refused(clshear_settings_set_numbers(settings, CLSHEAR_LIGHT, numbers, 6 * (size_t)65),
+                 CLSHEAR_BAD_ARGUMENT, "light");
+    test_refused(clshear_settings_set_text(settings, CLSHEAR_LIGHT, "0,0,0,0,0,0"),
+                 CLSHEAR_BAD_ARGUMENT, "more than 64 times");
+    test_refused(clshear_settings_set_text(settings, CLSHEAR_EYE, "1,2"), CLSHEAR_BAD_ARGUMENT,
+                 "X,Y,Z");
+    test_refused(clshear_settings_set_text(settings, CLSHEAR_EYE, "1,2,3,4"), CLSHEAR_BAD_ARGUMENT,
+                 "X,Y,Z");
+}
+
+/* Setters and getters of the wrong kind. */
+static void kinds_are_enforced(void **state)
+{
+    clshear_settings *settings = *state;
+    for (size_t i = 0; i < CS_SETTING_COUNT; i++) {
+        const cs_setting *entry = &cs_setting_table[i];
+        const clshear_setting setting = entry->setting;
+        const int one = entry->values == 1 && entry->most == 1;
+        const int integer = one && entry->kind != CLSHEAR_NUMBER && entry->kind != CLSHEAR_TEXT;
+        const int number = one && entry->kind == CLSHEAR_NUMBER;
+        int64_t whole = (int64_t)entry->low;
+        double real = entry->low;
+        if (entry->setting == CLSHEAR_FOV) real = 1.0;
+        assert_int_equal(clshear_settings_set_integer(settings, setting, whole),
+                         integer ? CLSHEAR_OK : CLSHEAR_BAD_ARGUMENT);
+        assert_int_equal(clshear_settings_get_integer(settings, setting, &whole),
+                         integer ? CLSHEAR_OK : CLSHEAR_BAD_ARGUMENT);
+        assert_int_equal(clshear_settings_set_number(settings, setting, real),
+                         number ? CLSHEAR_OK : CLSHEAR_BAD_ARGUMENT);
+        assert_int_equal(clshear_settings_get_number(settings, setting, &real),
+                         number ? CLSHEAR_OK : CLSHEAR_BAD_ARGUMENT);
+        assert_int_equal(clshear_settings_is_set(settings, setting), integer || number);
+    }
+    test_refused(set_all(settings, &cs_setting_table[CS_INDEX_DEVICE], 0.0), CLSHEAR_BAD_ARGUMENT,
+                 "device");
+}
+
+/* What is printed is taken back and prints the same; fallbacks too, and unset brings them back. */
+static void texts_come_back(void **state)
+{
+    clshear_settings *settings = *state, *other = fresh();
+    for (size_t i = 0; i < CS_SETTING_COUNT; i++) {
+        const cs_setting *entry = &cs_setting_table[i];
+        const clshear_setting setting = entry->setting;
+        char first[512], second[512];
+        if (*entry->fallback != '\0') {
+            test_ok(clshear_settings_get_text(settings, setting, first, sizeof first));
+            assert_string_equal(first, entry->fallback);
+            assert_false(clshear_settings_is_set(settings, setting));
+        } else
+            test_refused(clshear_settings_get_text(settings, setting, first, sizeof first),
+                         CLSHEAR_BAD_ARGUMENT, entry->name);
+        if (entry->kind == CLSHEAR_TEXT)
+            test_set(settings, setting, "a text, with = and #");
+        else if (setting == CLSHEAR_CROP)
+            test_set(settings, setting, "1,20,3,40");
+        else
+            test_ok(set_all(settings, entry,
+                            entry->kind == CLSHEAR_NUMBER
+                                ? fmin(entry->high, 0.1 + entry->low + 1.0)
+                                : entry->high));
+        test_ok(clshear_settings_get_text(settings, setting, first, sizeof first));
+        test_set(other, setting, "%s", first);
+        test_ok(clshear_settings_get_text(other, setting, second, sizeof second));
+        assert_string_equal(first, second);
+        clshear_settings_unset(other, setting);
+        assert_false(clshear_settings_is_set(other, setting));
+        if (*entry->fallback == '\0') continue;
+        test_ok(clshear_settings_get_text(other, setting, second, sizeof second));
+        assert_string_equal(second, entry->fallback);
+    }
+    clshear_settings_free(other);
+}
+
+/* Every float is printed with as many digits as it needs: a record of 0.1f reads back as 0.1f. */
+static void floats_survive_texts(void **state)
+{
+    clshear_settings *settings = *state;
+    static const float values[] = {0.1f, 1.0f / 3.0f, 16777216.0f, 1e-7f, 930.123474f};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+        char text[64];
+        double read;
+        test_set_number(settings, CLSHEAR_FOCAL_DISTANCE, (double)values[i]);
+        test_ok(clshear_settings_get_text(settings, CLSHEAR_FOCAL_DISTANCE, text, sizeof text));
+        test_set(settings, CLSHEAR_FOCAL_DISTANCE, "%s", text);
+        test_ok(clshear_settings_get_number(settings, CLSHEAR_FOCAL_DISTANCE, &read));
+        assert_true((float)read == values[i]);
+    }
+}
+
+static void the_last_answer_counts(void **state)
+{
+    clshear_settings *settings = *state;
+    static const clshear_setting pairs[][2] = {{CLSHEAR_LENS_RADIUS, CLSHEAR_F_STOP},
+                                               {CLSHEAR_F_STOP, CLSHEAR_LENS_RADIUS},
+                                               {CLSHEAR_FOCAL_DISTANCE, CLSHEAR_FOCUS_PIXEL},
+                                               {CLSHEAR_FOCUS_PIXEL, CLSHEAR_FOCAL_DISTANCE}};
+    int64_t aperture;
+    for (int i = 0; i < 4; i++) {
+        for (int k = 0; k < 2; k++)
+            test_set(settings, pairs[i][k], pairs[i][k] == CLSHEAR_FOCUS_PIXEL ? "1,2" : "2");
+        assert_false(clshear_settings_is_set(settings, pairs[i][0]));
+        assert_true(clshear_settings_is_set(settings, pairs[i][1]));
+    }
+    test_set(settings, CLSHEAR_BLADES, "5");
+    test_ok(clshear_settings_get_integer(settings, CLSHEAR_APERTURE, &aperture));
+    assert_int_equal(aperture, CLSHEAR_APERTURE_POLYGON);
+    test_set(settings, CLSHEAR_APERTURE, "square");
+    test_ok(clshear_settings_get_integer(settings, CLSHEAR_APERTURE, &aperture));
+    assert_int_equal(aperture, CLSHEAR_APERTURE_SQUARE);
+}
+
+static void unknown_settings_are_refused(void **state)
+{
+    clshear_settings *settings = *state;
+    const clshear_setting none = (clshear_setting)12345;
+    clshear_setting found;
+    const char *name;
+    char text[16];
+    double number = 1.0;
+    int64_t whole;
+    size_t count;
+    test_refused(clshear_settings_set_text(settings, none, "1"), CLSHEAR_BAD_ARGUMENT, "12345");
+    test_refused(clshear_settings_set_integer(settings, none, 1), CLSHEAR_BAD_ARGUMENT, "12345");
+    test_refused(clshear_settings_set_number(settings, none, 1), CLSHEAR_BAD_ARGUMENT, "12345");
+    test_refused(clshear_settings_set_numbers(settings, none, &number, 1), CLSHEAR_BAD_ARGUMENT,
+                 "12345");
+    test_refused(clshear_settings_get_text(settings, none, text, sizeof text), CLSHEAR_BAD_ARGUMENT,
+                 "12345");
+    test_refused(clshear_settings_get_integer(settings, none, &whole), CLSHEAR_BAD_ARGUMENT,
+                 "12345");
+    test_refused(clshear_settings_get_numbers(settings, none, &number, 1, &count),
+                 CLSHEAR_BAD_ARGUMENT, "12345");
+    test_refused(clshear_setting_bounds(none, &number, &number), CLSHEAR_BAD_ARGUMENT, "12345");
+    test_refused(clshear_setting_find("no-such", &found), CLSHEAR_BAD_ARGUMENT, "no-such");
+    assert_int_equal(clshear_settings_is_set(settings, none), 0);
+    assert_int_equal(clshear_setting_choice(none, 0, &name, NULL), 0);
+    assert_int_equal(clshear_setting_choice(CLSHEAR_SPP, 0, &name, NULL), 0);
+    clshear_settings_unset(settings, none);
+}
+
+/* The table can be walked, and every name and alias is found. */
+static void the_table_is_open(void **state)
+{
+    clshear_setting_info info = {.struct_size = sizeof info};
+    clshear_setting found;
+    size_t count = 0;
+    (void)state;
+    for (; clshear_setting_describe(count, &info); count++) {
+        char aliases[64];
+        test_ok(clshear_setting_find(info.name, &found));
+        assert_int_equal(found, info.setting);
+        snprintf(aliases, sizeof aliases, "%s", info.aliases);
+        for (char *word = strtok(aliases, " "); word != NULL; word = strtok(NULL, " ")) {
+            test_ok(clshear_setting_find(word, &found));
+            assert_int_equal(found, info.setting);
+        }
+        assert_true(strlen(info.help) > 0 && strlen(info.help) <= 53);
+        assert_int_equal(*info.argument == '\0', info.kind == CLSHEAR_SWITCH);
+        const char *name, *meaning;
+        assert_int_equal(clshear_setting_choice(info.setting, 0, &name, &meaning),
+                         info.kind == CLSHEAR_CHOICE);
+    }
+    assert_int_equal(count, CS_SETTING_COUNT);
+}
+
+static int take_other(void *user, const char *file, int line, const char *name, const char *value)
+{
+    char *seen = user;
+    const size_t used = strlen(seen);
+    snprintf(seen + used, 256 - used, "%s:%d %s=%s;", strrchr(file, '/') + 1, line, name,
+             value != NULL ? value : "NULL");
+    return strcmp(name, "bad") == 0;
+}
+
+static void files_are_read(void **state)
+{
+    clshear_settings *settings = *state;
+    const char *path = test_file("good.flags", "# a comment\n\n  --spp 64   # behind a value\n"
+                                               "width=32\nheight 16\r\n--adaptive\n"
+                                               "eye 1,2,3\nlight 0,0,0,1,1,1\nlight 1,0,0,1,1,1\n"
+                                               "aperture-radius\t2");
+    double eye[3], lights[12];
+    int64_t spp, width, height, adaptive;
+    size_t count;
+    test_ok(clshear_settings_read(settings, path, NULL, NULL));
+    test_ok(clshear_settings_get_integer(settings, CLSHEAR_SPP, &spp));
+    test_ok(clshear_settings_get_integer(settings, CLSHEAR_WIDTH, &width));
+    test_ok(clshear_settings_get_integer(settings, CLSHEAR_HEIGHT, &height));
+    test_ok(clshear_settings_get_integer(settings, CLSHEAR_ADAPTIVE, &adaptive));
+    assert_true(spp == 64 && width == 32 && height == 16 && adaptive == 1);
+    test_ok(clshear_settings_get_numbers(settings, CLSHEAR_EYE, eye, 3, &count));
+    assert_true(eye[0] == 1.0 && eye[1] == 2.0 && eye[2] == 3.0);
+    test_ok(clshear_settings_get_numbers(settings, CLSHEAR_LIGHT, lights, 12, &count));
+    assert_true(count == 12 && lights[6] == 1.0);
+    assert_true(clshear_settings_is_set(settings, CLSHEAR_LENS_RADIUS));
+}
+
+static void errors_in_files_have_a_place(void **state)
+{
+    static const struct {
+        const char *text, *words;
+    } cases[] = {{"spp 4\nspp none\n", "case.flags:2: spp none: must be a whole number"},
+                 {"\n\nfov\n", "case.flags:3: fov needs a value"},
+                 {"spq 4\n", "case.flags:1: unknown setting spq"}};
+    clshear_settings *settings = *state;
+    char seen[256] = "";
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        test_refused(
+            clshear_settings_read(settings, test_file("case.flags", cases[i].text), NULL, NULL),
+            CLSHEAR_BAD_ARGUMENT, cases[i].words);
+    test_refused(clshear_settings_read(settings, test_path("none.flags"), NULL, NULL),
+                 CLSHEAR_BAD_FILE, "none.flags");
+    test_refused(clshear_settings_read(settings, SCENES, NULL, NULL), CLSHEAR_BAD_FILE, "scenes");
+    const char *path = test_file("other.flags", "spp 8\n--out a b.exr\nquiet\nbad 1\n");
+    test_refused(clshear_settings_read(settings, path, take_other, seen), CLSHEAR_BAD_ARGUMENT,
+                 "other.flags:4");
+    assert_string_equal(seen, "other.flags:2 out=a b.exr;other.flags:3 quiet=NULL;"
+                              "other.flags:4 bad=1;");
+}
+
+static void apertures_are_checked(void **state)
+{
+    clshear_settings *settings = *state;
+    const float dark[4] = {0}, good[4] = {0, 1, 2, 0}, wrong[4] = {1, NAN, 0, 0};
+    int64_t aperture;
+    FILE *picture = fopen(test_path("aperture.pgm"), "wb");
+    assert_non_null(picture);
+    fputs("P5\n2 2\n255\n", picture);
+    fwrite("\0\377\200\0", 1, 4, picture);
+    fclose(picture);
+    test_refused(clshear_settings_set_aperture(settings, dark, 2, 2), CLSHEAR_BAD_ARGUMENT,
+                 "black");
+    test_refused(clshear_settings_set_aperture(settings, wrong, 2, 2), CLSHEAR_BAD_ARGUMENT,
+                 "luminance");
+    test_refused(clshear_settings_set_aperture(settings, good, 257, 1), CLSHEAR_BAD_ARGUMENT,
+                 "257 x 1");
+    test_refused(clshear_settings_set_aperture(settings, NULL, 2, 2), CLSHEAR_BAD_ARGUMENT, "NULL");
+    test_refused(clshear_settings_set_text(settings, CLSHEAR_APERTURE, test_path("none.png")),
+                 CLSHEAR_BAD_FILE, "none.png");
+    test_refused(clshear_settings_set_text(settings, CLSHEAR_APERTURE, "round"),
+                 CLSHEAR_BAD_ARGUMENT, "disk, square, polygon or an image file");
+    assert_false(clshear_settings_is_set(settings, CLSHEAR_APERTURE));
+    test_ok(clshear_settings_set_aperture(settings, good, 2, 2));
+    test_set(settings, CLSHEAR_APERTURE, "%s", test_path("aperture.pgm"));
+    test_ok(clshear_settings_get_integer(settings, CLSHEAR_APERTURE, &aperture));
+    assert_int_equal(aperture, CLSHEAR_APERTURE_IMAGE);
+    assert_true(clshear_lens_extent(settings) == 1.0f);
+}
+
+/* A copy keeps what it has, whatever happens to the first. */
+static void copies_are_independent(void **state)
+{
+    clshear_settings *settings = fresh(), *copy = NULL;
+    const float luminance[2] = {1, 2};
+    char text[64];
+    size_t count;
+    double number;
+    (void)state;
+    test_set(settings, CLSHEAR_DEVICE, "one");
+    test_set(settings, CLSHEAR_LIGHT, "1,2,3,4,5,6");
+    test_ok(clshear_settings_set_aperture(settings, luminance, 2, 1));
+    test_ok(clshear_settings_copy(settings, &copy));
+    test_set(settings, CLSHEAR_DEVICE, "two");
+    test_set(settings, CLSHEAR_LIGHT, "1,2,3,4,5,6");
+    test_set(settings, CLSHEAR_SPP, "4");
+    clshear_settings_free(settings);
+    test_ok(clshear_settings_get_text(copy, CLSHEAR_DEVICE, text, sizeof text));
+    assert_string_equal(text, "one");
+    test_ok(clshear_settings_get_numbers(copy, CLSHEAR_LIGHT, &number, 1, &count));
+    assert_int_equal(count, 6);
+    assert_false(clshear_settings_is_set(copy, CLSHEAR_SPP));
+    test_ok(clshear_settings_get_text(copy, CLSHEAR_APERTURE, text, sizeof text));
+    assert_string_equal(text, "image");
+    clshear_settings_free(copy);
+}
+
+/* An older program's struct ends earlier: what follows it in memory is left alone. A newer one's is
+ * longer: what the library does not know stays as it was. */
+static void infos_fit_their_callers(void **state)
+{
+    struct {
+        clshear_setting_info info;
+        unsigned char newer[16];
+    } given;
+    (void)state;
+    memset(&given, 0xa5, sizeof given);
+    given.info.struct_size = offsetof(clshear_setting_info, aliases);
+    assert_int_equal(clshear_setting_describe(0, &given.info), 1);
+    assert_string_equal(given.info.name, "spp");
+    const unsigned char *rest = (const unsigned char *)&given.info.aliases;
+    while (rest < given.newer + sizeof given.newer)
+        assert_int_equal(*rest++, 0xa5);
+    given.info.struct_size = sizeof given;
+    assert_int_equal(clshear_setting_describe(0, &given.info), 1);
+    assert_int_equal(given.info.most, 1);
+    assert_int_equal(given.info.struct_size, sizeof given);
+    for (size_t i = 0; i < sizeof given.newer; i++)
+        assert_int_equal(given.newer[i], 0xa5);
+}
+
+int main(void)
+{
+#define WITH_SETTINGS(test) cmocka_unit_test_setup_teardown(test, open_settings, close_settings)
+    const struct CMUnitTest tests[] = {
+        WITH_SETTINGS(bounds_are_enforced),
+        WITH_SETTINGS(counts_are_enforced),
+        WITH_SETTINGS(kinds_are_enforced),
+        WITH_SETTINGS(texts_come_back),
+        WITH_SETTINGS(floats_survive_texts),
+        WITH_SETTINGS(the_last_answer_counts),
+        WITH_SETTINGS(unknown_settings_are_refused),
+        cmocka_unit_test(the_table_is_open),
+        WITH_SETTINGS(files_are_read),
+        WITH_SETTINGS(errors_in_files_have_a_place),
+        WITH_SETTINGS(apertures_are_checked),
+        cmocka_unit_test(copies_are_independent),
+        cmocka_unit_test(infos_fit_their_callers),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
