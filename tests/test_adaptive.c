@@ -30,17 +30,18 @@ static void the_choice_is_visible(void **state)
     const float *rule = clshear_film_channel(pilot, "Oracle");
     const float *shear = clshear_film_channel(pilot, "Shear");
     const clshear_film_info info = test_film_info(pilot);
-    assert_true(info.pilot_samples > 0);
-    assert_true((double)info.pilot_samples <= 0.1 * (double)info.samples);
+    assert_above(info.pilot_samples, 0);
+    assert_at_most((double)info.pilot_samples, 0.1 * (double)info.samples);
     for (int r = 0; r < 4; r++)
         rules[r] = render(made, (clshear_oracle)r, 0, 1);
     for (int i = 0; i < PIXELS; i++) {
-        assert_true(rule[i] >= 0.0f && rule[i] <= 4.0f);
+        assert_at_least(rule[i], 0.0f);
+        assert_at_most(rule[i], 4.0f);
         const int r = (int)rule[i];
         if (r == 4)
-            assert_true(shear[i] == 0.0f);
+            assert_near(shear[i], 0.0f, 0);
         else
-            assert_true(shear[i] == clshear_film_channel(rules[r], "Shear")[i]);
+            assert_near(shear[i], clshear_film_channel(rules[r], "Shear")[i], 0);
     }
     clshear_film_free(pilot);
     for (int r = 0; r < 4; r++)
@@ -58,9 +59,12 @@ static void samples_are_counted(void **state)
         least = fmin(least, (double)samples[i]);
         most = fmax(most, (double)samples[i]);
     }
-    assert_true(total == (double)test_film_info(film).samples);
-    assert_true(total <= (double)SPP * PIXELS && total > 0.5 * SPP * PIXELS);
-    assert_true(least >= SPP / 16.0 && most <= 16.0 * SPP && most >= 4.0 * least);
+    assert_near(total, (double)test_film_info(film).samples, 0);
+    assert_at_most(total, (double)SPP * PIXELS);
+    assert_above(total, 0.5 * SPP * PIXELS);
+    assert_at_least(least, SPP / 16.0);
+    assert_at_most(most, 16.0 * SPP);
+    assert_at_least(most, 4.0 * least);
     clshear_film_free(film);
 }
 
@@ -82,7 +86,7 @@ static void interruption_leaves_no_holes(void **state)
     clshear_film *film = test_render(made->scene, settings);
     assert_int_equal(test_film_info(film).complete, 0);
     for (int i = 0; i < PIXELS; i++)
-        assert_true(clshear_film_channel(film, "Samples")[i] > 0.0f);
+        assert_above(clshear_film_channel(film, "Samples")[i], 0.0f);
     clshear_film_free(film);
     clshear_settings_free(settings);
 }
@@ -108,9 +112,9 @@ static void sharing_is_unbiased_and_pays(void **state)
             }
             clshear_film_free(film);
         }
-    assert_true(fabs(mean[0] - mean[1]) < 5.0 * sqrt(error[0] + error[1]));
+    assert_near(mean[0], mean[1], 5.0 * sqrt(error[0] + error[1]));
     printf("variance %g even, %g shared out\n", variance[0], variance[1]);
-    assert_true(variance[0] > 1.3 * variance[1]);
+    assert_above(variance[0], 1.3 * variance[1]);
 }
 
 /* Without shear there is nothing to gain; with it most pixels of this scene gain. */
@@ -126,11 +130,12 @@ static void gain_is_shown(void **state)
         const float *gain = clshear_film_channel(film, "Gain");
         assert_non_null(gain);
         for (int i = 0; i < PIXELS; i++) {
-            assert_true(isfinite(gain[i]) && gain[i] >= 0.0f);
-            if (shear == 0) assert_true(gain[i] == 1.0f);
+            assert_true(isfinite(gain[i]));
+            assert_at_least(gain[i], 0.0f);
+            if (shear == 0) assert_near(gain[i], 1.0f, 0);
             better += gain[i] > 1.0f;
         }
-        if (shear != 0) assert_true(better > PIXELS / 2);
+        if (shear != 0) assert_above(better, PIXELS / 2);
         clshear_film_free(film);
         clshear_settings_free(settings);
     }

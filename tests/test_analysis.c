@@ -51,12 +51,10 @@ static void spectra_are_direct_sums(void **state)
                     }
                     power += 0.5 * (re * re + im * im) / (double)counts[c];
                 }
-                assert_true(fabs((double)clshear_spectrum_power(spectrum)[i] - power) <
-                            2e-4 * (1.0 + power));
+                assert_near(clshear_spectrum_power(spectrum)[i], power, 2e-4 * (1.0 + power));
             }
             const size_t dc = sides[s][1] / 2 * sides[s][0] + sides[s][0] / 2;
-            assert_true(fabs((double)clshear_spectrum_power(spectrum)[dc] - (double)counts[c]) <
-                        1e-3);
+            assert_near(clshear_spectrum_power(spectrum)[dc], (double)counts[c], 1e-3);
             clshear_spectrum_free(spectrum);
             clshear_points_free(points);
         }
@@ -114,14 +112,14 @@ static void rings_and_directions_are_read_off(void **state)
     assert_int_equal(clshear_spectrum_radius(spectrum), 32);
     clshear_spectrum_radial(spectrum, mean, anisotropy);
     for (int r = 20; r < 32; r++) {
-        assert_true(fabsf(mean[r] - 1.0f) < 0.08f);
-        assert_true(fabsf(anisotropy[r] + 10.0f) < 4.0f);
+        assert_near(mean[r], 1.0f, 0.08f);
+        assert_near(anisotropy[r], -10.0f, 4.0f);
     }
     clshear_spectrum_along(spectrum, 0.0, 1.0, along);
     for (size_t r = 0; r < 32; r++)
-        assert_true(along[r] == clshear_spectrum_power(spectrum)[(40 + r + 1) * 65 + 32]);
+        assert_near(along[r], clshear_spectrum_power(spectrum)[(40 + r + 1) * 65 + 32], 0);
     clshear_spectrum_along(spectrum, 1.0, -3.0, along); /* radius 20: 6 times */
-    assert_true(along[19] == clshear_spectrum_power(spectrum)[(40 - 18) * 65 + 32 + 6]);
+    assert_near(along[19], clshear_spectrum_power(spectrum)[(40 - 18) * 65 + 32 + 6], 0);
     clshear_spectrum_free(spectrum);
     clshear_points_free(points);
 }
@@ -222,9 +220,11 @@ static void slopes_are_fitted(void **state)
         assert_int_equal(
             clshear_fit_slope(counts, 4, means, 200, with ? &reference : NULL, errors, &fit),
             CLSHEAR_OK);
-        assert_true(fabs(fit.slope + 1.5) < 0.16);
-        assert_true(fit.slope_low < -1.5 && -1.5 < fit.slope_high);
-        assert_true(fit.slope_high - fit.slope_low > 0.05 && fit.slope_high - fit.slope_low < 0.3);
+        assert_near(fit.slope, -1.5, 0.16);
+        assert_below(fit.slope_low, -1.5);
+        assert_below(-1.5, fit.slope_high);
+        assert_above(fit.slope_high - fit.slope_low, 0.05);
+        assert_below(fit.slope_high - fit.slope_low, 0.3);
     }
     assert_int_equal(clshear_fit_slope(counts, 1, means, 200, NULL, errors, &fit),
                      CLSHEAR_BAD_ARGUMENT);
@@ -234,8 +234,9 @@ static void slopes_are_fitted(void **state)
     for (int i = 0; i < 800; i++) /* parts whose means fall exactly as N^-1.5 */
         means[i] = pow(counts[i / 200], -1.5) * (1.0 + i % 200);
     assert_int_equal(clshear_fit_slope_of_parts(counts, 4, means, 200, errors, &fit), CLSHEAR_OK);
-    assert_true(fabs(fit.slope + 1.5) < 1e-9 && fabs(fit.slope_low + 1.5) < 1e-9);
-    assert_true(fabs(errors[1] - pow(64.0, -1.5) * 100.5) < 1e-9);
+    assert_near(fit.slope, -1.5, 1e-9);
+    assert_near(fit.slope_low, -1.5, 1e-9);
+    assert_near(errors[1], pow(64.0, -1.5) * 100.5, 1e-9);
 }
 
 /* Spectra of one wave a side, whose power is all in two frequencies. Returns NULL if they are. */

@@ -26,13 +26,14 @@ static void framing_shows_the_open_side(void **state)
         assert_false(clshear_settings_is_set(settings, CLSHEAR_FOCAL_DISTANCE));
         test_ok(clshear_camera_complete(made->scene, settings));
         const cs_view view = view_of(settings);
-        assert_true(view.eye[2] > 0.0f && view.target[2] < view.eye[2]);
+        assert_above(view.eye[2], 0.0f);
+        assert_below(view.target[2], view.eye[2]);
         /* In the middle is the tall box or the back wall, inside the scene. */
-        assert_true(view.focal_distance > view.eye[2]);
-        assert_true(view.focal_distance < view.eye[2] + 560.0f);
+        assert_above(view.focal_distance, view.eye[2]);
+        assert_below(view.focal_distance, view.eye[2] + 560.0f);
         /* 3 % of the shorter axis at infinity. */
         float extent = 2.0f * view.focal_distance * tanf(view.fov_deg * 3.14159265f / 360.0f);
-        assert_true(fabsf(2.0f * view.lens_radius / extent - 0.03f) < 1e-4f);
+        assert_near(2.0f * view.lens_radius / extent, 0.03f, 1e-4f);
         clshear_settings_free(settings);
     }
 }
@@ -45,7 +46,7 @@ static void focus_goes_to_what_a_pixel_sees(void **state)
     test_set(settings, CLSHEAR_TARGET, "274.8,273,0");
     test_set(settings, CLSHEAR_FOV, "39.3");
     test_ok(clshear_camera_focus(made->scene, settings, 256, 140));
-    assert_true(fabsf(view_of(settings).focal_distance - 1359.2f) < 0.1f); /* the back wall */
+    assert_near(view_of(settings).focal_distance, 1359.2f, 0.1f); /* the back wall */
     test_set(settings, CLSHEAR_TARGET, "5000,273,0");
     test_refused(clshear_camera_focus(made->scene, settings, 511, 0), CLSHEAR_BAD_ARGUMENT,
                  "pixel 511,0 sees nothing");
@@ -64,7 +65,7 @@ static void focus_pixels_become_distances(void **state)
     test_set(settings, CLSHEAR_FOV, "39.3");
     test_set(settings, CLSHEAR_FOCUS_PIXEL, "256,140");
     test_ok(clshear_camera_complete(made->scene, settings));
-    assert_true(fabsf(view_of(settings).focal_distance - 1359.2f) < 0.1f);
+    assert_near(view_of(settings).focal_distance, 1359.2f, 0.1f);
     assert_true(clshear_settings_is_set(settings, CLSHEAR_FOCAL_DISTANCE));
     assert_false(clshear_settings_is_set(settings, CLSHEAR_FOCUS_PIXEL));
     clshear_settings_free(settings);
@@ -82,7 +83,7 @@ static void f_numbers_become_radii(void **state)
         test_set(settings, CLSHEAR_F_STOP, "2");
         test_set(settings, CLSHEAR_UNIT, "%s", units[i]);
         test_ok(clshear_camera_complete(made->scene, settings));
-        assert_true(fabsf(view_of(settings).lens_radius / radii[i] - 1.0f) < 1.6e-4f);
+        assert_near(view_of(settings).lens_radius / radii[i], 1.0f, 1.6e-4f);
         clshear_settings_free(settings);
     }
 }

@@ -74,9 +74,9 @@ static void expect_gain(test_fixture *made, int x, int y, const char *aperture)
 {
     const measurement none = measure(made, x, y, aperture, "mj", CLSHEAR_SHEAR_NONE);
     const measurement sheared = measure(made, x, y, aperture, "mj", CLSHEAR_SHEAR_EQUAL_AREA);
-    assert_true(fabs(none.slope + 1.0) < 0.15);
-    assert_true(sheared.slope <= -1.35);
-    assert_true(none.error[2] >= 5.0 * sheared.error[2]);
+    assert_near(none.slope, -1.0, 0.15);
+    assert_at_most(sheared.slope, -1.35);
+    assert_at_least(none.error[2], 5.0 * sheared.error[2]);
 }
 
 /* The textured back wall, out of focus. */
@@ -103,8 +103,8 @@ static void nets_converge_faster(void **state)
         const measurement none = measure(made, 146, 330, "square", sampler, CLSHEAR_SHEAR_NONE);
         const measurement sheared =
             measure(made, 146, 330, "square", sampler, CLSHEAR_SHEAR_EQUAL_AREA);
-        assert_true(sheared.slope <= -1.35);
-        assert_true(none.error[2] >= 1.5 * sheared.error[2]);
+        assert_at_most(sheared.slope, -1.35);
+        assert_at_least(none.error[2], 1.5 * sheared.error[2]);
     }
 }
 

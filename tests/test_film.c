@@ -175,8 +175,9 @@ static void pipes_and_links_stay(void **state)
         assert_int_equal(pthread_create(&reader, NULL, count_bytes, path), 0);
         assert_int_equal(clshear_film_write(film, path), CLSHEAR_OK);
         pthread_join(reader, &count);
-        assert_true(*(size_t *)count > 100);
-        assert_true(stat(path, &about) == 0 && S_ISFIFO(about.st_mode));
+        assert_above(*(size_t *)count, 100);
+        assert_int_equal(stat(path, &about), 0);
+        assert_true(S_ISFIFO(about.st_mode));
         remove(path);
 
         snprintf(name, sizeof name, "real.%s", kinds[i]);
@@ -184,8 +185,10 @@ static void pipes_and_links_stay(void **state)
         fclose(fopen(file, "w"));
         assert_int_equal(symlink(file, path), 0);
         assert_int_equal(clshear_film_write(film, path), CLSHEAR_OK);
-        assert_true(lstat(path, &about) == 0 && S_ISLNK(about.st_mode));
-        assert_true(stat(file, &about) == 0 && about.st_size > 100);
+        assert_int_equal(lstat(path, &about), 0);
+        assert_true(S_ISLNK(about.st_mode));
+        assert_int_equal(stat(file, &about), 0);
+        assert_above(about.st_size, 100);
         remove(path);
         remove(file);
     }

@@ -28,8 +28,9 @@ static void grids_are_nearly_square(void **state)
     for (cs_u32 n = 1; n < 3000; n++) {
         cs_grid grid = cs_grid_of(n);
         assert_int_equal(grid.columns * grid.rows + grid.extra, n);
-        assert_true(grid.extra < grid.columns);
-        assert_true(grid.rows <= 4 * grid.columns && grid.columns <= 2 * grid.rows + 1);
+        assert_below(grid.extra, grid.columns);
+        assert_at_most(grid.rows, 4 * grid.columns);
+        assert_at_most(grid.columns, 2 * grid.rows + 1);
     }
 }
 
@@ -98,7 +99,7 @@ static void permutations_mix_pairs(void **state)
             for (cs_u32 a = 0; a < n; a++)
                 for (cs_u32 b = 0; b < n; b++)
                     if (a != b) chi += pow(hits[a * n + b] - expected, 2) / expected;
-            assert_true(chi / dof < 10.0);
+            assert_below(chi / dof, 10.0);
             free(hits);
         }
     }

@@ -117,8 +117,8 @@ static void wall_converges_faster(void **state)
         test_ok(clshear_fit_slope_of_parts(sizes, SIZES, variance[0], PIXELS, errors, &fit));
         const double gain = unsheared / errors[2];
         printf("%-26s %.2f   %.1f\n", lenses[l].name, fit.slope, gain);
-        assert_true(fit.slope <= -1.35);
-        assert_true(gain > 0.8); /* 0.09 * sqrt(2) for the standard error of its logarithm */
+        assert_at_most(fit.slope, -1.35);
+        assert_above(gain, 0.8); /* 0.09 * sqrt(2) for the standard error of its logarithm */
     }
 }
 
@@ -147,10 +147,11 @@ static void radiance_is_the_integrand(void **state)
         squares += (double)rgb[3 * i + 1] * (double)rgb[3 * i + 1] / COUNT;
     }
     const double error = sqrt((squares - sum * sum) / COUNT + rendered.variance[0]);
-    assert_true(fabs(sum - rendered.mean[0]) < 5.0 * error);
+    assert_near(sum, rendered.mean[0], 5.0 * error);
     const float ends[2][4] = {{0.5f, 0.5f, 0.02f, 0.5f}, {0.5f, 0.5f, 0.98f, 0.5f}};
     test_ok(clshear_radiance(made->scene, settings, 146, 330, ends[0], 2, rgb));
-    assert_true(rgb[1] > 0.1f && rgb[4] < 0.05f);
+    assert_above(rgb[1], 0.1f);
+    assert_below(rgb[4], 0.05f);
     test_refused(clshear_radiance(made->scene, settings, 512, 0, ends[0], 2, rgb),
                  CLSHEAR_BAD_ARGUMENT, "512,0");
     clshear_points_free(points);

@@ -63,7 +63,8 @@ static cs_u32 cell_of(const cs_optics_tables *lens, const cs_camera_sample *p)
                              cs_marginal_at(&chord.marginal, v).below};
     cs_u32 cell = 0;
     for (int d = 0; d < 4; d++) {
-        assert_true(ranks[d] > -1e-4f && ranks[d] < 1.0001f);
+        assert_above(ranks[d], -1e-4f);
+        assert_below(ranks[d], 1.0001f);
         cell = 4 * cell + (cs_u32)cs_clamp(4.0f * ranks[d], 0.0f, 3.0f);
     }
     return cell;
@@ -93,7 +94,7 @@ static void measure_is_kept(void **state)
     (void)state;
     for (cs_u32 which = 0; which < VARIANTS; which++) {
         cs_optics_tables made = lens(which);
-        assert_true(chi_square(&made, 0.0f, 1u + 40000u * which) < 420.0);
+        assert_below(chi_square(&made, 0.0f, 1u + 40000u * which), 420.0);
         for (cs_u32 k = 0; k < SHEARS; k++) {
             const double chi = chi_square(&made, shears[k], 7u + 40000u * which);
             if (!(chi < 420.0))
@@ -145,10 +146,10 @@ static void first_pair_fixes_the_fibre(void **state)
             cs_f32 t[3];
             for (int k = 0; k < 3; k++)
                 t[k] = p[k].x + s * o->squeeze * p[k].u;
-            assert_true(fabsf(t[0] - t[1]) < tolerance);
-            if (a < 0.98f) assert_true(t[2] > t[0] - tolerance);
+            assert_near(t[0], t[1], tolerance);
+            if (a < 0.98f) assert_above(t[2], t[0] - tolerance);
             if (o->marginal == CS_MARGINAL_UNIFORM)
-                assert_true(fabsf(p[0].y + s * p[0].v - p[1].y - s * p[1].v) < tolerance);
+                assert_near(p[0].y + s * p[0].v - p[1].y, s * p[1].v, tolerance);
         }
         cs_optics_free(&made);
     }
@@ -172,7 +173,7 @@ static void fibre_is_a_quantile(void **state)
                 const cs_f32 half = 0.5f * made.optics.filter_width;
                 sum += (double)filter_rank(&made, cs_clamp(t - s * u, 0.5f - half, 0.5f + half));
             }
-            assert_true(fabs(sum / 4000.0 - (double)a) < 1e-3);
+            assert_near(sum / 4000.0, (double)a, 1e-3);
         }
         cs_optics_free(&made);
     }
@@ -217,8 +218,7 @@ static void polygons_are_regular(void **state)
         const double second = radius2 * (2.0 + cos(2.0 * pi / blades)) / 12.0;
         const double truth[5] = {0, 0, second, second, 0};
         for (int f = 0; f < 5; f++)
-            assert_true(fabs(sums[f] - truth[f]) <
-                        5.5 * sqrt((squares[f] - sums[f] * sums[f]) / count));
+            assert_near(sums[f], truth[f], 5.5 * sqrt((squares[f] - sums[f] * sums[f]) / count));
         cs_optics_free(&made);
     }
 }
@@ -244,11 +244,11 @@ static void images_are_sampled_by_luminance(void **state)
     for (int i = 0; i < 20; i++) {
         const double expected = (double)image->luminance[i] / sum * count;
         if (expected == 0.0)
-            assert_true(hits[i] <= 2); /* rounding at the edges of texels */
+            assert_at_most(hits[i], 2); /* rounding at the edges of texels */
         else
             chi += pow(hits[i] - expected, 2) / expected;
     }
-    assert_true(chi < 45.0);
+    assert_below(chi, 45.0);
     cs_optics_free(&made);
 }
 
@@ -264,11 +264,11 @@ static void filters_are_filters(void **state)
         double sum = 0.0;
         for (cs_u32 k = 0; k < steps; k++) {
             sum += (double)heights[k] * 2.0 / steps;
-            assert_true(heights[k] > 0.0f);
-            assert_true(fabsf(heights[k] - heights[steps - 1 - k]) < 1e-6f);
-            if (k > 0 && 2 * k < steps) assert_true(heights[k] > heights[k - 1]);
+            assert_above(heights[k], 0.0f);
+            assert_near(heights[k], heights[steps - 1 - k], 1e-6f);
+            if (k > 0 && 2 * k < steps) assert_above(heights[k], heights[k - 1]);
         }
-        assert_true(fabs(sum - 1.0) < 1e-6);
+        assert_near(sum, 1.0, 1e-6);
         cs_optics_free(&made);
     }
 }

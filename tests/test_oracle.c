@@ -18,9 +18,8 @@ static void depth_becomes_shear(void **state)
     for (int i = 0; i < 5; i++) {
         const cs_depth depth = {z[i], z[i], z[i], z[i], isfinite(z[i]) ? 0.0f : 1.0f};
         for (int rule = CS_RULE_CENTRE; rule <= CS_RULE_FAR; rule++)
-            assert_true(fabsf(cs_oracle_shear(&camera, &depth, (cs_rule)rule) - expected[i]) <
-                        1e-4f);
-        assert_true(cs_oracle_shear(&camera, &depth, CS_RULE_NONE) == 0.0f);
+            assert_near(cs_oracle_shear(&camera, &depth, (cs_rule)rule), expected[i], 1e-4f);
+        assert_near(cs_oracle_shear(&camera, &depth, CS_RULE_NONE), 0.0f, 0);
     }
 }
 
@@ -32,12 +31,11 @@ static void rules_take_their_depths(void **state)
     cs_depth depth = {2.0f, 1.0f, 4.0f, 8.0f, 0.5f};
     const float expected[CS_RULE_COUNT] = {20.0f, 0.0f, 60.0f, -10.0f, 0.0f};
     for (int rule = 0; rule < CS_RULE_COUNT; rule++)
-        assert_true(fabsf(cs_oracle_shear(&camera, &depth, (cs_rule)rule) - expected[rule]) <
-                    1e-4f);
+        assert_near(cs_oracle_shear(&camera, &depth, (cs_rule)rule), expected[rule], 1e-4f);
     depth.centre = INFINITY;
-    assert_true(cs_oracle_shear(&camera, &depth, CS_RULE_CENTRE) == 0.0f);
+    assert_near(cs_oracle_shear(&camera, &depth, CS_RULE_CENTRE), 0.0f, 0);
     depth.median = 1.0f;
-    assert_true(fabsf(cs_oracle_shear(&camera, &depth, CS_RULE_CENTRE) - 60.0f) < 1e-4f);
+    assert_near(cs_oracle_shear(&camera, &depth, CS_RULE_CENTRE), 60.0f, 1e-4f);
 }
 
 enum {
@@ -115,11 +113,13 @@ static void samples_follow_variance(void **state)
     for (cs_u32 i = 0; i < PIXELS; i++) {
         total += samples[i];
         assert_int_equal(samples[i] & (samples[i] - 1), 0);
-        assert_true(samples[i] >= 64 && samples[i] <= 16000);
+        assert_at_least(samples[i], 64);
+        assert_at_most(samples[i], 16000);
     }
-    assert_true(total <= 1000.0 * PIXELS && total > 500.0 * PIXELS);
+    assert_at_most(total, 1000.0 * PIXELS);
+    assert_above(total, 500.0 * PIXELS);
     const cs_u32 inside = samples[26 * SIDE + 26], outside = samples[5 * SIDE + 5];
-    assert_true(inside == 16 * outside);
+    assert_int_equal(inside, 16 * outside);
 }
 
 /* One pixel that wants everything: the sampler's largest pattern is the limit, and the mean is not
@@ -144,9 +144,10 @@ static void sharing_keeps_to_limits(void **state)
             CLSHEAR_OK);
         for (cs_u32 i = 0; i < PIXELS; i++) {
             total += samples[i];
-            assert_true(samples[i] >= cases[c].least && samples[i] <= cases[c].most);
+            assert_at_least(samples[i], cases[c].least);
+            assert_at_most(samples[i], cases[c].most);
         }
-        assert_true(total <= (double)cases[c].mean * PIXELS);
+        assert_at_most(total, (double)cases[c].mean * PIXELS);
         assert_int_equal(samples[0], cases[c].least);
         assert_int_equal(samples[PIXELS / 2], cases[c].most);
     }
@@ -167,8 +168,8 @@ static void contrast_gets_samples(void **state)
     assert_int_equal(cs_allocate_samples(&pilot, 1000, 1 << 20, samples, &error), CLSHEAR_OK);
     for (cs_u32 y = 0; y < SIDE; y++) {
         const cs_u32 *row = samples + y * SIDE;
-        assert_true(row[SIDE / 2 - 1] >= 8 * row[SIDE / 2 - 2]);
-        assert_true(row[SIDE / 2] >= 8 * row[SIDE / 2 + 1]);
+        assert_at_least(row[SIDE / 2 - 1], 8 * row[SIDE / 2 - 2]);
+        assert_at_least(row[SIDE / 2], 8 * row[SIDE / 2 + 1]);
     }
 }
 

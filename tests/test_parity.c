@@ -62,7 +62,7 @@ static void compare(const cs_launch *frame, const test_pattern *drawn, const cs_
         if (memcmp(given, t, sizeof t) != 0)
             fail_msg("%s: sample %u differs", cs_sampler_name(frame->pattern.sampler), i);
         for (cs_u32 k = 0; k < 4; k++)
-            assert_true(ulps(given[CS_DIMENSIONS + k], place[k]) <= 16.0);
+            assert_at_most(ulps(given[CS_DIMENSIONS + k], place[k]), 16.0);
     }
 }
 

@@ -72,9 +72,9 @@ static void energies_are_where_they_are(void **state)
         sum += clshear_prediction_part_variance(p, part);
     }
     const double variance = clshear_prediction_variance(p);
-    assert_true(fabs(clshear_prediction_energy(p) - energy) < 1e-3);
-    assert_true(fabs(variance - sum) < 1e-12);
-    assert_true(fabs(64.0 * variance / energy - 1.0) < 4.0 / sqrt(2000.0));
+    assert_near(clshear_prediction_energy(p), energy, 1e-3);
+    assert_near(variance, sum, 1e-12);
+    assert_near(64.0 * variance / energy, 1.0, 4.0 / sqrt(2000.0));
     clshear_prediction_free(p);
     clshear_points_free(points);
     clshear_context_free(context);
@@ -124,7 +124,7 @@ enum {
 static clshear_status green(void *user, const float *points, size_t count, float *values)
 {
     const pixel *p = user;
-    assert_true(count <= MOST);
+    assert_at_most(count, MOST);
     const clshear_status status = clshear_radiance_of_samples(
         p->made->scene, p->settings, p->x, p->y, p->shear_px, points, count, p->rgb);
     for (size_t i = 0; i < count; i++)

@@ -129,7 +129,7 @@ static void point_light_over_a_plane(void **state)
             for (int p = 0; p < size * size; p += 5) {
                 double truth = expected_pixel(&view, size, p % size, p / size);
                 double error = sqrt((double)variance[p]);
-                assert_true(fabs(red[p] - truth) < 6.0 * error + 0.002 * truth);
+                assert_near(red[p], truth, 6.0 * error + 0.002 * truth);
             }
             clshear_film_free(film);
         }
@@ -152,7 +152,7 @@ static void light_stays_where_it_is(void **state)
     clshear_film *film = render(floor, &view, 2, CLSHEAR_SHEAR_EQUAL_AREA);
     const double truth = 0.5 / pi;
     for (int p = 0; p < 4; p++)
-        assert_true(fabs(clshear_film_channel(film, "R")[p] - truth) < 1e-4 * truth);
+        assert_near(clshear_film_channel(film, "R")[p], truth, 1e-4 * truth);
     clshear_film_free(film);
     clshear_scene_free(floor);
 }
@@ -171,8 +171,7 @@ static void directional_light(void **state)
     const char *const names[3] = {"R", "G", "B"};
     for (int c = 0; c < 3; c++)
         for (int p = 0; p < 16; p++)
-            assert_true(fabs(clshear_film_channel(film, names[c])[p] - 0.5 / pi * (c + 1) * 0.8) <
-                        1e-5);
+            assert_near(clshear_film_channel(film, names[c])[p], 0.5 / pi * (c + 1) * 0.8, 1e-5);
     clshear_film_free(film);
     clshear_scene_free(floor);
 }
@@ -209,14 +208,14 @@ static void area_light_over_a_plane(void **state)
     const double factor = 4.0 / (2.0 * pi) * 2.0 * x / root * atan(x / root);
     double error = sqrt((double)clshear_film_channel(film, "Variance.R")[4]);
     double value = clshear_film_channel(film, "R")[4];
-    assert_true(fabs(value - 0.5 * 3.0 * factor) < 6.0 * error + 1e-3);
-    assert_true(error < 0.01);
+    assert_near(value, 0.5 * 3.0 * factor, 6.0 * error + 1e-3);
+    assert_below(error, 0.01);
     clshear_film_free(film);
     /* Seen directly, the panel shows its own radiance and reflects nothing. */
     view.eye[0] = 0.3f, view.eye[1] = 1.0f, view.target[0] = 0.3f, view.target[1] = 2.0f;
     view.up[1] = 0.0f, view.up[2] = 1.0f;
     film = render(scene, &view, 3, CLSHEAR_SHEAR_EQUAL_AREA);
-    assert_true(fabs(clshear_film_channel(film, "G")[4] - 3.0f) < 1e-5f);
+    assert_near(clshear_film_channel(film, "G")[4], 3.0f, 1e-5f);
     clshear_film_free(film);
     clshear_scene_free(scene);
 }
@@ -249,7 +248,7 @@ static void shadows_fall(void **state)
         clshear_film *film = render(scene, &view, 2, CLSHEAR_SHEAR_EQUAL_AREA);
         double square = (double)(x * x) + 4.0;
         double lit = places[k][1] / pi * 2.0 / (square * sqrt(square));
-        assert_true(fabs(clshear_film_channel(film, "R")[0] - lit) < 0.01 * lit + 1e-6);
+        assert_near(clshear_film_channel(film, "R")[0], lit, 0.01 * lit + 1e-6);
         clshear_film_free(film);
     }
     clshear_scene_free(scene);
@@ -283,7 +282,7 @@ static void no_acne_far_from_the_origin(void **state)
     clshear_film *film = render(scene, &view, 8, CLSHEAR_SHEAR_EQUAL_AREA);
     const double truth = 0.05 / sqrt(1.0 + 0.05 * 0.05) / pi;
     for (int p = 0; p < 64; p++)
-        assert_true(fabs(clshear_film_channel(film, "R")[p] - truth) < 1e-3 * truth);
+        assert_near(clshear_film_channel(film, "R")[p], truth, 1e-3 * truth);
     clshear_film_free(film);
     clshear_scene_free(scene);
 }

@@ -121,10 +121,10 @@ static void packet_widths_agree(void **state)
         int different = 0;
         if (w == 0) memcpy(reference, red, sizeof reference);
         for (int p = 0; p < PIXELS; p++) {
-            assert_true(fabsf(red[p] - reference[p]) <= 0.02f * reference[p] + 1e-3f);
+            assert_near(red[p], reference[p], 0.02f * reference[p] + 1e-3f);
             different += fabsf(red[p] - reference[p]) > 1e-4f * reference[p];
         }
-        assert_true(different < PIXELS / 50);
+        assert_below(different, PIXELS / 50);
         clshear_film_free(film);
         close_scene(&made);
     }
@@ -239,7 +239,7 @@ static void variance_channel_is_honest(void **state)
         }
         for (int p = 0; p < PIXELS; p++)
             across += (squares[p] - sum[p] * sum[p] / SEEDS) / (SEEDS - 1);
-        assert_true(fabs(claimed / across - 1.0) < 0.15);
+        assert_near(claimed / across, 1.0, 0.15);
         free(sum);
         free(squares);
     }
@@ -268,20 +268,21 @@ static void interrupted_renders_are_usable(void **state)
     clshear_film *part = render_once(made, settings);
     assert_int_equal(test_film_info(whole).complete, 1);
     assert_int_equal(test_film_info(part).complete, 0);
-    assert_true(fraction > 0.3 && fraction <= 0.5);
+    assert_above(fraction, 0.3);
+    assert_at_most(fraction, 0.5);
     const float *counts = clshear_film_channel(part, "Samples");
     for (int p = 0; p < PIXELS; p++) {
         samples += (double)counts[p];
         double v = 16.0 * (double)clshear_film_channel(whole, "SampleVariance.R")[p] / counts[p];
         double d = (double)clshear_film_channel(part, "R")[p] -
                    (double)clshear_film_channel(whole, "R")[p];
-        assert_true(fabs(d) < 6.0 * sqrt(v) + 1e-4);
+        assert_below(fabs(d), 6.0 * sqrt(v) + 1e-4);
         bias += d;
         error += v;
     }
-    assert_true(fabs(bias) < 5.0 * sqrt(error));
-    assert_true(fabs(samples / (16384.0 * PIXELS) - fraction) < 1e-9);
-    assert_true(samples == (double)test_film_info(part).samples);
+    assert_below(fabs(bias), 5.0 * sqrt(error));
+    assert_near(samples / (16384.0 * PIXELS), fraction, 1e-9);
+    assert_near(samples, (double)test_film_info(part).samples, 0);
     clshear_film_free(whole);
     clshear_film_free(part);
 }
@@ -292,7 +293,7 @@ static void counts_and_channels(void **state)
     /* rounded up to two patterns of 4 */
     clshear_film *film = render_once(made, small(made, 7, 2));
     for (int p = 0; p < PIXELS; p++) {
-        assert_true(clshear_film_channel(film, "Samples")[p] == 8.0f);
+        assert_near(clshear_film_channel(film, "Samples")[p], 8.0f, 0);
         float depth = clshear_film_channel(film, "Z")[p];
         float shear = clshear_film_channel(film, "Shear")[p];
         assert_true(isinf(depth) ? shear == 0.0f : (shear > 0.0f) == (depth < 930.0f));

@@ -282,15 +282,17 @@ static void gltf_with_camera_and_light(void **state)
     test_ok(clshear_camera_complete(scene, settings));
     cs_view_of(settings, &view);
     clshear_settings_free(settings);
-    assert_true(fabsf(view.eye[0] - 0.25f) < 1e-5f && fabsf(view.eye[2] - 3.0f) < 1e-5f);
-    assert_true(fabsf(view.target[2] - 2.0f) < 1e-4f && view.up[1] > 0.99f);
-    assert_true(fabsf(view.fov_deg - 0.7f * 57.29578f) < 0.01f);
+    assert_near(view.eye[0], 0.25f, 1e-5f);
+    assert_near(view.eye[2], 3.0f, 1e-5f);
+    assert_near(view.target[2], 2.0f, 1e-4f);
+    assert_above(view.up[1], 0.99f);
+    assert_near(view.fov_deg, 0.7f * 57.29578f, 0.01f);
     /* Head-on below the light: albedo / pi * intensity / 2^2. */
     settings = looking_down_z(0.02, 0.02, 1.0);
     clshear_film *film = test_render(scene, settings);
     clshear_settings_free(settings);
-    assert_true(fabsf(*clshear_film_channel(film, "R") / (0.2f / 3.14159265f * 2.0f) - 1) < 0.01f);
-    assert_true(fabsf(*clshear_film_channel(film, "B") / (0.6f / 3.14159265f * 0.5f) - 1) < 0.01f);
+    assert_near(*clshear_film_channel(film, "R") / (0.2f / 3.14159265f * 2.0f), 1, 0.01f);
+    assert_near(*clshear_film_channel(film, "B") / (0.6f / 3.14159265f * 0.5f), 1, 0.01f);
     clshear_film_free(film);
     clshear_scene_free(scene);
 }

@@ -172,7 +172,7 @@ static void floats_survive_texts(void **state)
         test_ok(clshear_settings_get_text(settings, CLSHEAR_FOCAL_DISTANCE, text, sizeof text));
         test_set(settings, CLSHEAR_FOCAL_DISTANCE, "%s", text);
         test_ok(clshear_settings_get_number(settings, CLSHEAR_FOCAL_DISTANCE, &read));
-        assert_true((float)read == values[i]);
+        assert_near((float)read, values[i], 0);
     }
 }
 
@@ -243,7 +243,8 @@ static void the_table_is_open(void **state)
             test_ok(clshear_setting_find(word, &found));
             assert_int_equal(found, info.setting);
         }
-        assert_true(strlen(info.help) > 0 && strlen(info.help) <= 53);
+        assert_above(strlen(info.help), 0);
+        assert_at_most(strlen(info.help), 53);
         assert_int_equal(*info.argument == '\0', info.kind == CLSHEAR_SWITCH);
         const char *name, *meaning;
         assert_int_equal(clshear_setting_choice(info.setting, 0, &name, &meaning),
@@ -276,11 +277,17 @@ static void files_are_read(void **state)
     test_ok(clshear_settings_get_integer(settings, CLSHEAR_WIDTH, &width));
     test_ok(clshear_settings_get_integer(settings, CLSHEAR_HEIGHT, &height));
     test_ok(clshear_settings_get_integer(settings, CLSHEAR_ADAPTIVE, &adaptive));
-    assert_true(spp == 64 && width == 32 && height == 16 && adaptive == 1);
+    assert_int_equal(spp, 64);
+    assert_int_equal(width, 32);
+    assert_int_equal(height, 16);
+    assert_int_equal(adaptive, 1);
     test_ok(clshear_settings_get_numbers(settings, CLSHEAR_EYE, eye, 3, &count));
-    assert_true(eye[0] == 1.0 && eye[1] == 2.0 && eye[2] == 3.0);
+    assert_near(eye[0], 1.0, 0);
+    assert_near(eye[1], 2.0, 0);
+    assert_near(eye[2], 3.0, 0);
     test_ok(clshear_settings_get_numbers(settings, CLSHEAR_LIGHT, lights, 12, &count));
-    assert_true(count == 12 && lights[6] == 1.0);
+    assert_int_equal(count, 12);
+    assert_near(lights[6], 1.0, 0);
     assert_true(clshear_settings_is_set(settings, CLSHEAR_LENS_RADIUS));
 }
 
@@ -333,7 +340,7 @@ static void apertures_are_checked(void **state)
     test_set(settings, CLSHEAR_APERTURE, "%s", test_path("aperture.pgm"));
     test_ok(clshear_settings_get_integer(settings, CLSHEAR_APERTURE, &aperture));
     assert_int_equal(aperture, CLSHEAR_APERTURE_IMAGE);
-    assert_true(clshear_lens_extent(settings) == 1.0f);
+    assert_near(clshear_lens_extent(settings), 1.0f, 0);
 }
 
 /* A copy keeps what it has, whatever happens to the first. */

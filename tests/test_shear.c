@@ -52,10 +52,13 @@ static void points_are_inside(void **state)
                         i < 256 ? sheared(ends[i & 3], ends[i >> 2 & 3], ends[i >> 4 & 3],
                                           ends[i >> 6], mode, aperture, shears[k])
                                 : random_point(i, mode, aperture, shears[k]);
-                    assert_true(p.x >= 0.0f && p.x < 1.0f && p.y >= 0.0f && p.y < 1.0f);
+                    assert_at_least(p.x, 0.0f);
+                    assert_below(p.x, 1.0f);
+                    assert_at_least(p.y, 0.0f);
+                    assert_below(p.y, 1.0f);
                     cs_f32 radius = sqrtf(p.u * p.u + p.v * p.v);
                     if (aperture == CLSHEAR_APERTURE_DISK)
-                        assert_true(radius <= CS_DISK_RADIUS * 1.00001f);
+                        assert_at_most(radius, CS_DISK_RADIUS * 1.00001f);
                     else
                         assert_true(fabsf(p.u) <= 0.50001f && fabsf(p.v) <= 0.50001f);
                 }
@@ -109,7 +112,7 @@ static void measure_is_kept(void **state)
                 for (int f = 0; f < INTEGRANDS; f++) {
                     double mean = sum[f] / count;
                     double error = sqrt((squares[f] / count - mean * mean) / count);
-                    assert_true(fabs(mean - truth[f]) < 5.5 * error);
+                    assert_near(mean, truth[f], 5.5 * error);
                 }
             }
 }
@@ -134,7 +137,7 @@ static void film_and_lens_stay_independent(void **state)
                 }
                 for (int i = 0; i < 64; i++)
                     chi += pow(hits[i] - count / 64.0, 2) / (count / 64.0);
-                assert_true(chi < 140.0);
+                assert_below(chi, 140.0);
             }
 }
 
@@ -154,9 +157,9 @@ static void first_pair_fixes_the_fibre(void **state)
                     sheared(a, b, uniform(i, 4), uniform(i, 5), CS_SHEAR_EQUAL_AREA, aperture, s);
                 cs_camera_sample r = sheared(a, uniform(i, 6), uniform(i, 4), uniform(i, 5),
                                              CS_SHEAR_EQUAL_AREA, aperture, s);
-                assert_true(fabsf((p.x + s * p.u) - (q.x + s * q.u)) < tolerance);
-                assert_true(fabsf((p.y + s * p.v) - (q.y + s * q.v)) < tolerance);
-                assert_true(fabsf((p.x + s * p.u) - (r.x + s * r.u)) < tolerance);
+                assert_near(p.x + s * p.u, q.x + s * q.u, tolerance);
+                assert_near(p.y + s * p.v, q.y + s * q.v, tolerance);
+                assert_near(p.x + s * p.u, r.x + s * r.u, tolerance);
             }
     }
 }
@@ -197,7 +200,7 @@ static void disk_fibre_is_a_quantile(void **state)
             cs_disk_map(&p, &s, 1, 1.0f);
             double t_x = (double)p.x - 0.5 + (double)s * p.u;
             double t_y = (double)p.y - 0.5 + (double)s * p.v;
-            assert_true(fabs(fibre_share(t_x, t_y, s) - b) < 2e-5);
+            assert_near(fibre_share(t_x, t_y, s), b, 2e-5);
         }
 }
 
@@ -213,8 +216,8 @@ static void equal_area_has_no_seams(void **state)
                 cs_camera_sample p = sheared(((cs_f32)i + 0.5f) / 4096.0f, 0.5f, 0.3f, 0.7f,
                                              CS_SHEAR_EQUAL_AREA, aperture, s);
                 cs_f32 t = p.x + s * p.u;
-                assert_true(t > before - 1e-5f * span);
-                if (i > 0) assert_true(t - before < 0.05f * span);
+                assert_above(t, before - 1e-5f * span);
+                if (i > 0) assert_below(t - before, 0.05f * span);
                 before = t;
             }
         }
@@ -231,8 +234,8 @@ static void toroidal_slides_along_fibres(void **state)
             sheared(a, 0.5f, c, 0.5f, CS_SHEAR_TOROIDAL, CLSHEAR_APERTURE_SQUARE, s);
         cs_f32 t = p.x + s * p.u;
         cs_f32 wrapped = t - a - roundf(t - a);
-        assert_true(fabsf(wrapped) < 1e-5f);
-        assert_true(p.u == c - 0.5f);
+        assert_below(fabsf(wrapped), 1e-5f);
+        assert_near(p.u, c - 0.5f, 0);
     }
 }
 
@@ -253,7 +256,7 @@ static void disk_functions_invert(void **state)
     (void)state;
     for (cs_u32 i = 1; i < 4000; i++) {
         cs_f32 mass = (cs_f32)i / 4000.0f;
-        assert_true(fabsf(cs_disk_cdf(cs_disk_quantile(mass)) - mass) < 1e-6f);
+        assert_near(cs_disk_cdf(cs_disk_quantile(mass)), mass, 1e-6f);
     }
     const cs_f32 blurs[] = {1e-5f, 0.01f, 0.4f, 1.0f, 3.0f, 5.9f, 6.1f, 20.0f};
     for (size_t k = 0; k < sizeof blurs / sizeof *blurs; k++)
@@ -262,7 +265,7 @@ static void disk_functions_invert(void **state)
             double sum = 0.0;
             for (int j = 0; j < 4000; j++)
                 sum += cs_disk_cdf((cs_f32)((t - (j + 0.5) / 4000.0 + 0.5) / blurs[k]));
-            assert_true(fabs(sum / 4000.0 - mass) < 3e-4);
+            assert_near(sum / 4000.0, mass, 3e-4);
         }
 }
 
@@ -290,12 +293,12 @@ static void lens_agrees_with_shear(void **state)
             cs_f32 down = camera.eye[1] - ray.origin[1] - z * ray.direction[1];
             cs_f32 scale = camera.focal_distance / z / camera.pixel_width;
             cs_f32 shear = cs_shear_of_depth(camera, z);
-            assert_true(fabsf(256.0f + right * scale - (x + 0.5f * shear * u)) < 2e-3f);
-            assert_true(fabsf(256.0f + down * scale - (y + shear * v)) < 2e-3f);
-            assert_true(fabsf(ray.origin[2] + z * ray.direction[2] - (camera.eye[2] - z)) < 1e-4f);
+            assert_near(256.0f + right * scale, x + 0.5f * shear * u, 2e-3f);
+            assert_near(256.0f + down * scale, y + shear * v, 2e-3f);
+            assert_near(ray.origin[2] + z * ray.direction[2], camera.eye[2] - z, 1e-4f);
         }
-    assert_true(cs_shear_of_depth(camera, 2.0f) > 0.0f);
-    assert_true(cs_shear_of_depth(camera, 9.0f) < 0.0f);
+    assert_above(cs_shear_of_depth(camera, 2.0f), 0.0f);
+    assert_below(cs_shear_of_depth(camera, 9.0f), 0.0f);
 }
 
 int main(void)

@@ -84,7 +84,7 @@ static void expect_elementary(const test_pattern *drawn, cs_u32 base, cs_u32 tot
                     expect_kept(drawn, &p);
                     seen++;
                 }
-    assert_true(seen > 0);
+    assert_above(seen, 0);
 }
 
 /* Every coordinate has one point in each of N strata. */
@@ -215,8 +215,8 @@ static void blue_noise_keeps_its_distance(void **state)
             for (cs_u32 i = 0; i < n; i++)
                 for (cs_u32 j = 0; j < i; j++)
                     for (int pair = 0; pair < 2; pair++)
-                        assert_true(torus_distance(tuples[i] + 2 * pair, tuples[j] + 2 * pair) >
-                                    least);
+                        assert_above(torus_distance(tuples[i] + 2 * pair, tuples[j] + 2 * pair),
+                                     least);
             free(tuples);
             test_pattern_free(&drawn);
         }
@@ -251,8 +251,8 @@ static void equal_capacity_has_no_low_frequencies(void **state)
             }
         power[kind] /= terms;
     }
-    assert_true(power[0] < 0.02);
-    assert_true(power[1] > 0.02);
+    assert_below(power[0], 0.02);
+    assert_above(power[1], 0.02);
 }
 
 /* A sampler that is added to the table must be put down here, with the test of its strata or among

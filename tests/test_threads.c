@@ -160,6 +160,9 @@ static void *load_good(void *argument)
         else if (strcmp(clshear_message(), "") != 0 ||
                  strcmp(clshear_scene_message(scene), "") != 0)
             task->wrong = "another thread's message is seen";
+        const char *last = clshear_context_message(task->context);
+        if (*last != '\0' && strstr(last, "broken_thread.obj") == NULL)
+            task->wrong = "the context's message is torn";
         clshear_scene_free(scene);
     }
     return NULL;

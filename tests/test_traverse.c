@@ -134,8 +134,8 @@ static void hits_equal_brute_force(void **state)
         trace_device(&made, widths[w], 1, rays, found);
         for (cs_u32 i = 0; i < RAYS; i++)
             blocked_wrong += (found[i] < 0.0f) != (truth[i] < (double)0.4f);
-        assert_true(wrong <= RAYS / 10000);
-        assert_true(blocked_wrong <= RAYS / 10000);
+        assert_at_most(wrong, RAYS / 10000);
+        assert_at_most(blocked_wrong, RAYS / 10000);
     }
     destroy(&made);
     free(rays);
@@ -182,9 +182,9 @@ static void hits_equal_embree(void **state)
             wrong += found[i] != depth[i].centre &&
                      !(fabsf(found[i] - depth[i].centre) < 1e-4f * depth[i].centre);
         }
-        assert_true(seen > RAYS / 2);
-        assert_true(wrong <= RAYS / 10000);
-        assert_true(made.bvh.depth < CS_STACK);
+        assert_above(seen, RAYS / 2);
+        assert_at_most(wrong, RAYS / 10000);
+        assert_below(made.bvh.depth, CS_STACK);
         destroy(&made);
     }
     free(rays);
