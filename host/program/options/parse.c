@@ -127,7 +127,8 @@ static int take_line(void *user, const char *file, int line, const char *name, c
     named_flag flag;
     const char *nearest;
     const char *place = options_text(options, "%s:%d: ", file, line);
-    options->file_words = options_text(options, "%s--%s%s%s ", options->file_words, name,
+    options->file_words = options_text(options, "%s%s--%s%s%s", options->file_words,
+                                       *options->file_words != '\0' ? " " : "", name,
                                        value != NULL ? " " : "", value != NULL ? value : "");
     if (find(p, p->command, name, &flag, &nearest)) {
         const int is_left_out = p->command != p->renders && flag.row->adds;
@@ -152,9 +153,9 @@ static int read_file(parser *p, const char *path)
     for (size_t i = 0; status == CLSHEAR_OK && clshear_setting_describe(i, &info); i++)
         if (clshear_settings_is_set(p->settings, info.setting) &&
             clshear_settings_get_text(p->settings, info.setting, value, sizeof value) == CLSHEAR_OK)
-            options->file_words =
-                options_text(options, "%s--%s%s%s ", options->file_words, info.name,
-                             *info.argument != '\0' ? " " : "=", value);
+            options->file_words = options_text(options, "%s%s--%s%s%s", options->file_words,
+                                               *options->file_words != '\0' ? " " : "", info.name,
+                                               *info.argument != '\0' ? " " : "=", value);
     if (status == CLSHEAR_OK) status = clshear_settings_override(p->settings, options->settings);
     clshear_settings_free(options->settings);
     options->settings = p->settings;
