@@ -1,5 +1,5 @@
 # The floor plan of docs/architecture.md, enforced: every local #include must go to a lower floor, or to
-# the file's own folder. The command line sees nothing but include/clshear.h.
+# the file's own folder. The program sees nothing but include/clshear and itself.
 set(floor_include/clshear 0)
 set(floor_cl/clshear/device 1)
 set(floor_cl/clshear/device/sampler 1) # with its parent: one library
@@ -22,10 +22,10 @@ set(floor_host/oracle 4)
 set(floor_host/render 9)
 set(floor_host/study 10)
 set(floor_host/api 11)
-set(floor_host/program/options 12)
 set(floor_host/program/report 12)
-set(floor_host/program/commands 13)
-set(floor_host/program 14)
+set(floor_host/program/options 13)
+set(floor_host/program/commands 14)
+set(floor_host/program 15)
 
 # Folder of a file named relative to the root, without the file's name.
 function(folder_of name result)
@@ -36,7 +36,7 @@ endfunction()
 # Where an include of `spec` in `file` leads, relative to the root; empty for system headers.
 function(resolve file spec result)
     get_filename_component(beside ${file} DIRECTORY)
-    foreach(candidate ${beside}/${spec} include/${spec} cl/${spec} host/${spec})
+    foreach(candidate ${beside}/${spec} include/${spec} cl/${spec} host/${spec} host/program/${spec})
         if(EXISTS ${ROOT}/${candidate})
             cmake_path(NORMAL_PATH candidate)
             set(${result} ${candidate} PARENT_SCOPE)
@@ -56,9 +56,9 @@ foreach(file IN LISTS files)
         math(EXPR wrong "${wrong} + 1")
         continue()
     endif()
-    file(STRINGS ${ROOT}/${file} includes REGEX "^#include \"")
+    file(STRINGS ${ROOT}/${file} includes REGEX "^#include [\"<]")
     foreach(line IN LISTS includes)
-        string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" spec "${line}")
+        string(REGEX REPLACE "^#include [\"<]([^\">]+)[\">].*" "\\1" spec "${line}")
         resolve(${file} ${spec} target)
         if(target STREQUAL "")
             continue()

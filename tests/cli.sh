@@ -1,7 +1,7 @@
 #!/bin/bash
 # The program as a person drives it: flags, errors, exit codes, files, pipes and Ctrl-C.
 set -u
-program=$1 root=$2 scratch=$3
+program=$(realpath "$1") root=$2 scratch=$3
 rm -rf "$scratch"
 mkdir -p "$scratch"
 cd "$scratch" || exit 1
@@ -39,6 +39,10 @@ refuse() {
 expect 0 "usage: clshear SCENE" -- --help
 [ "$(echo "$output" | awk '{ if (length > 80) print }' | wc -l)" -eq 0 ] || wrong "help wider than 80"
 expect 0 "clshear 0." -- --version
+expect 0 "--spp N" -- --print-settings md
+cmp -s <(echo "$output") <("$program" --print-settings md) || wrong "the reference changes"
+expect 0 '.TH CLSHEAR 1' -- --print-settings man
+expect 2 "--print-settings html: must be one of md man" -- --print-settings html
 expect 0 "0: " -- --list-devices
 
 # Wrong usage: 2.
@@ -52,7 +56,7 @@ refuse 2 "--spp -4: must be" -- "$cornell" --spp -4
 refuse 2 "--eye 1,2: must be three numbers" -- "$cornell" --eye 1,2
 refuse 2 "--eye 1,2,nan: must be" -- "$cornell" --eye 1,2,nan
 refuse 2 "--fov 180: must be" -- "$cornell" --fov 180
-refuse 2 "--shear sideways: must be equal-area" -- "$cornell" --shear sideways
+refuse 2 "--shear sideways: must be none, toroidal or equal-area" -- "$cornell" --shear sideways
 refuse 2 "--packet 3: must be" -- "$cornell" --packet 3
 refuse 2 "--quiet takes no value" -- "$cornell" --quiet=yes
 refuse 2 "more than one scene" -- "$cornell" "$cornell"
@@ -62,12 +66,12 @@ refuse 2 "--anamorphic 0: must be" -- "$cornell" --anamorphic 0
 refuse 2 "--filter lanczos: must be box" -- "$cornell" --filter lanczos
 refuse 2 "--filter-width 0: must be" -- "$cornell" --filter-width 0
 expect 2 "--out needs a value" -- "$cornell" --out
-expect 2 "picture.bmp: must be a name that ends in" -- "$cornell" --out picture.bmp
+expect 2 "--out picture.bmp: must be a name that ends in" -- "$cornell" --out picture.bmp
 
 # Failures: 1.
 refuse 1 "nowhere.obj: cannot be opened: No such file" -- nowhere.obj
 refuse 1 "no OpenCL device \"toaster\"" -- "$cornell" --quiet --device toaster
-refuse 2 "--crop 0,0,0,0: must be x0,x1,y0,y1" -- "$cornell" --crop 0,0,0,0
+refuse 2 "--crop 0,0,0,0: must be four whole numbers, X0,X1,Y0,Y1, with X0 < X1" -- "$cornell" --crop 0,0,0,0
 refuse 1 "crop 0,99,0,9" -- "$cornell" --quiet --width 32 --height 32 --crop 0,99,0,9
 refuse 1 "pixel 40,2 is outside" -- "$cornell" --quiet --width 32 --height 32 --focus-pixel 40,2
 refuse 1 "replicates" -- "$cornell" --quiet --spp 2 --replicates 3
@@ -131,7 +135,7 @@ expect 2 "leave out --sampler" -- spectrum --in p.txt --n 16
 expect 2 "--projection xyz: must be two letters" -- spectrum --projection xyz
 expect 2 "--resolution 1: must be" -- spectrum --resolution 1
 expect 2 "--out a.gif: must be" -- spectrum --out a.gif
-expect 2 "--plot a.pdf: must be a name that ends in .png or .svg" -- spectrum --plot a.pdf
+expect 2 "--plot a.pdf: must be a name that ends in one of .png .svg" -- spectrum --plot a.pdf
 expect 1 "none.txt" -- spectrum --in none.txt
 expect 0 "predicted as isotropic," -- predict --integrand step --sampler nrooks --n 16 --sets 50 --measure 50
 case $output in *"measured,"*) ;; *) wrong "not measured: $output" ;; esac
@@ -141,7 +145,7 @@ expect 0 "measured unshifted," -- predict "$cornell" --pixel 302,130 --quiet --n
 expect 2 "--pixel is of a SCENE" -- predict --pixel 3,4
 expect 2 "--pixel 512,4: is outside the 512 x 512 image" -- predict "$cornell" --pixel 512,4 --n 16 --sets 4 --quiet
 expect 2 "--block 16: must be" -- predict "$cornell" --pixel 3,4 --block 16
-expect 2 "--integrand blob: must be step, box" -- predict --integrand blob
+expect 2 "--integrand blob: must be one of step box" -- predict --integrand blob
 expect 0 "target,sampler,shear,n,replicates,variance,slope" -- converge --integrand box --sampler mj --nreps 20
 [ "$(echo "$output" | grep -c '^box,mj,none,')" -eq 4 ] || wrong "converge: $output"
 expect 0 "" -- converge "$cornell" --quiet --pixels '302,130;3,4' --sampler mj --nreps 8 --nsamps 4,16 \
@@ -168,10 +172,10 @@ expect 0 "image,mj,none,4,8," -- converge "$cornell" --quiet --width 24 --height
 expect 0 "" -- "$cornell" --quiet --width 24 --height 20 --spp 64 --out ref.exr
 expect 0 "target,sampler,shear,n,replicates,mse,slope" -- converge "$cornell" --quiet --width 24 --height 20 \
     --sampler mj --nsamps 4,16 --reference ref.exr
-expect 1 "ref.exr is 24 x 20 pixels: --reference needs 24 x 16" -- converge "$cornell" --quiet --width 24 \
+expect 1 "the reference is 24 x 20 pixels: it needs 24 x 16" -- converge "$cornell" --quiet --width 24 \
     --height 16 --reference ref.exr
 oiiotool --create 24x20 1 --chnames Y -o grey.exr
-expect 1 "grey.exr has no channel R: --reference needs" -- converge "$cornell" --quiet --width 24 --height 20 \
+expect 1 "the reference has no channel R: it needs R, G and B" -- converge "$cornell" --quiet --width 24 --height 20 \
     --reference grey.exr
 expect 2 "a picture is of a whole image" -- converge "$cornell" --quiet --reference 0.5
 expect 2 "give either an --integrand or a SCENE" -- converge --sampler mj
@@ -186,7 +190,7 @@ expect 1 "--plot nowhere/p.png: folder nowhere/ cannot" -- spectrum --plot nowhe
 expect 1 "--out nowhere/x.png: folder nowhere/ cannot" -- slice "$cornell" --pixel 1,1 --out nowhere/x.png
 expect 1 "--out nowhere/p: folder nowhere/ cannot" -- points --out nowhere/p
 mkfifo pipe.csv
-cat pipe.csv >piped.csv &
+timeout 60 cat pipe.csv >piped.csv &
 expect 0 "" -- predict --integrand step --n 16 --sets 2 --out pipe.csv
 wait
 [ -p pipe.csv ] && [ -s piped.csv ] || wrong "a pipe is replaced"
@@ -202,9 +206,9 @@ expect 0 "" -- slice cornell.obj --quiet --pixel 1,1 --resolution 8 --out of-pix
 [ "$(cat rendered.exr)" = precious ] || wrong "slice wrote what its scene's render would"
 rm -f cornell.* rendered.exr
 
-expect 1 "lens radius 1e+19: must be 0 to 1e12" -- "$cornell" --quiet --lens-radius 1e19 --out far.exr
-expect 1 "focal distance 1e-18: must be above 0" -- slice "$cornell" --pixel 1,1 --focal-distance 1e-18
-expect 1 "eye, target and up must be -1e12" -- "$cornell" --quiet --eye 1e38,0,0 --out far.exr
+expect 2 "--lens-radius 1e19: must be a number, 0 to 1e+12" -- "$cornell" --quiet --lens-radius 1e19 --out far.exr
+expect 2 "--focal-distance 1e-18: must be a number, 1e-12 to" -- slice "$cornell" --pixel 1,1 --focal-distance 1e-18
+expect 2 "--eye 1e38,0,0: must be three numbers, X,Y,Z, each -1e+12 to 1e+12" -- "$cornell" --quiet --eye 1e38,0,0 --out far.exr
 expect 2 "--size 0: must be above 0" -- predict --integrand plane-wave --size 0
 expect 1 "too few frequencies" -- spectrum --resolution 2 --n 4 --sets 1 --plot p.png
 
@@ -222,7 +226,7 @@ output=$(ulimit -f 0 && trap '' XFSZ && "$program" converge --integrand disk --n
 case $?$output in 1*"kept.csv: cannot be written: File too large"*) ;; *) wrong "no room: $output" ;; esac
 [ "$(cat kept.csv)" = precious ] || wrong "kept.csv is lost"
 [ -z "$(ls | grep part)" ] || wrong "parts of files are left: $(ls | grep part)"
-expect 2 "--nsamps 64,16: must be 2 to 32 rising" -- converge --integrand box --nsamps 64,16
+expect 2 "--nsamps: must be 2 to 32 rising" -- converge --integrand box --nsamps 64,16
 expect 2 "--pixels 600,3: is outside the 512 x 512 image" -- converge "$cornell" --quiet --pixels 600,3
 expect 0 "sampler oa has no sets of 30 points: 49" -- converge --integrand disk --sampler oa --nsamps 9,30 --nreps 4
 output=$(PATH=/nonexistent "$program" converge --integrand disk --nreps 4 --plot no.png 2>&1)
@@ -275,7 +279,7 @@ case $info in *"float openexr"*) ;; *) wrong "not float32" ;; esac
 
 # Samplers: every name renders; a number that a sampler has not is raised, and said.
 expect 0 "sobol-pairs" -- --list-samplers
-refuse 2 "--sampler dice: must be a name from --list-samplers" -- "$cornell" --sampler dice
+refuse 2 "--sampler dice: must be random, jittered" -- "$cornell" --sampler dice
 "$program" --list-samplers | while read -r sampler rest; do
     # shellcheck disable=SC2086
     "$program" "$cornell" $small --quiet --sampler "$sampler" --out sampler.exr || exit 1
@@ -310,7 +314,7 @@ grep -q "/dev/full: cannot be written" full.txt || wrong "full device: $(cat ful
 # The oracle: rules, sharing out, and what the shear gains as a picture.
 # shellcheck disable=SC2086
 {
-    refuse 2 "--oracle delphi: must be pilot, centre" -- "$cornell" --oracle delphi
+    refuse 2 "--oracle delphi: must be centre, median, near, far or pilot" -- "$cornell" --oracle delphi
     expect 0 "" -- "$cornell" --width 32 --height 32 --spp 128 --quiet --adaptive --gain gain.png \
         --out gain.exr
     [ -s gain.png ] || wrong "no picture of the gain"

@@ -66,10 +66,11 @@ const program_command converge_command = {
              "Measure how variance falls with the number of samples, and fit its slope.\n\n"
              "  clshear converge --integrand disk --sampler random,mj --plot disk.png\n"
              "  clshear converge scenes/cornell.obj --pixels '302,130;146,330' --sampler mj\n",
-    .notes = "A pixel's value is the mean of R, G and B; without --pixels, errors are variances\n"
-             "averaged over the image, or squared differences from a --reference, a finer\n"
-             "render. Slopes are least squares in logarithms, with 95 % intervals by bootstrap\n"
-             "over the replicates, or the image's tiles. --oracle pilot counts as centre.\n",
+    .notes = "A pixel's value is the mean of R, G and B. Without --pixels, errors are means\n"
+             "over the image: of variances, or of squared differences from a --reference, a\n"
+             "finer render. Slopes are least squares in logarithms, with 95 % intervals by\n"
+             "bootstrap over the replicates, or the image's tiles. --oracle pilot counts as\n"
+             "centre.\n",
     .flags = flags,
     .flag_count = sizeof flags / sizeof *flags,
     .takes_scene = 1,

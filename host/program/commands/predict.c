@@ -40,10 +40,11 @@ const program_command predict_command = {
              "sum over frequencies is exact. Parts of an integrand are cones of an eighth of a\n"
              "half turn, named by where they begin, and the tail: what lies beyond the\n"
              "spectrum, at the level of random points.\n\n"
-             "Parts of a pixel are frequencies of one coordinate, of two, of three or four (the\n"
-             "block), and the tail. The shear, of the oracle or --shear-px, is part of its\n"
-             "integrand: x, y, u and v are what the sampler draws. Values are means of R, G\n"
-             "and B; an area light is one point. --measure has sets shifted and as they are.\n",
+             "Parts of a pixel are frequencies of one coordinate, of two, of three or four\n"
+             "(the block), and the tail. The shear, of the oracle or --shear-px, is part of\n"
+             "its integrand: x, y, u and v are what the sampler draws. Values are means of R,\n"
+             "G and B; an area light is one point. --measure has the variance of sets that\n"
+             "are shifted, and of sets as they are.\n",
     .flags = flags,
     .flag_count = sizeof flags / sizeof *flags,
     .takes_scene = 1,

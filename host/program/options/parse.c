@@ -38,12 +38,18 @@ static int complain_status(clshear_status status, const char *before)
 
 static int takes_setting(const program_command *command, const clshear_setting_info *setting)
 {
-    int is_taken = command->settings == NULL;
-    for (size_t i = 0; i < command->setting_count; i++)
-        is_taken |= command->settings[i] == setting->setting;
     for (size_t i = 0; i < command->flag_count; i++)
-        is_taken &= !has_word(command->flags[i].names, setting->name, strlen(setting->name));
-    return is_taken;
+        if (has_word(command->flags[i].names, setting->name, strlen(setting->name))) return 0;
+    if (command->settings == NULL) return 1;
+    for (size_t i = 0; i < command->setting_count; i++)
+        if (command->settings[i] == setting->setting) return 1;
+    return 0;
+}
+
+static const char *argument_of(const named_flag *flag)
+{
+    const char *argument = flag->row != NULL ? flag->row->argument : flag->setting.argument;
+    return argument != NULL ? argument : "";
 }
 
 int command_flag(const program_command *command, size_t index, named_flag *flag)
@@ -96,7 +102,7 @@ static int apply(const parser *p, const char *place, const named_flag *flag, con
                  const char *value)
 {
     const program_flag *row = flag->row;
-    const char *argument = row != NULL ? row->argument : flag->setting.argument;
+    const char *argument = argument_of(flag);
     if (*argument != '\0' && value == NULL)
         return complain(EXIT_USAGE, "%s--%s needs a value: %s", place, name, argument);
     if (row != NULL && *argument == '\0' && value != NULL)
@@ -127,7 +133,8 @@ static int take_line(void *user, const char *file, int line, const char *name, c
     named_flag flag;
     const char *nearest;
     const char *place = options_text(options, "%s:%d: ", file, line);
-    options->file_words = options_text(options, "%s--%s%s%s ", options->file_words, name,
+    options->file_words = options_text(options, "%s%s--%s%s%s", options->file_words,
+                                       *options->file_words != '\0' ? " " : "", name,
                                        value != NULL ? " " : "", value != NULL ? value : "");
     if (find(p, p->command, name, &flag, &nearest)) {
         const int is_left_out = p->command != p->renders && flag.row->adds;
@@ -152,9 +159,9 @@ static int read_file(parser *p, const char *path)
     for (size_t i = 0; status == CLSHEAR_OK && clshear_setting_describe(i, &info); i++)
         if (clshear_settings_is_set(p->settings, info.setting) &&
             clshear_settings_get_text(p->settings, info.setting, value, sizeof value) == CLSHEAR_OK)
-            options->file_words =
-                options_text(options, "%s--%s%s%s ", options->file_words, info.name,
-                             *info.argument != '\0' ? " " : "=", value);
+            options->file_words = options_text(options, "%s%s--%s%s%s", options->file_words,
+                                               *options->file_words != '\0' ? " " : "", info.name,
+                                               *info.argument != '\0' ? " " : "=", value);
     if (status == CLSHEAR_OK) status = clshear_settings_override(p->settings, options->settings);
     clshear_settings_free(options->settings);
     options->settings = p->settings;
@@ -180,8 +187,7 @@ static int read_line(parser *p, int argc, char **argv)
         const char *name = options_text(options, "%.*s", (int)length, word);
         const char *value = word[length] == '=' ? word + length + 1 : NULL;
         if (!find(p, p->command, name, &flag, &nearest)) return complain_unknown("", name, nearest);
-        const char *argument = flag.row != NULL ? flag.row->argument : flag.setting.argument;
-        if (value == NULL && *argument != '\0' && i + 1 < argc) value = argv[++i];
+        if (value == NULL && *argument_of(&flag) != '\0' && i + 1 < argc) value = argv[++i];
         const int code = apply(p, "", &flag, name, value);
         if (code != EXIT_DONE) return code;
         if (flag.row != NULL) p->on_line |= bit_of(p, flag.row);
