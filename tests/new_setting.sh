@@ -42,7 +42,7 @@ small="--width 16 --height 16 --spp 4 --quiet"
     expect 0 "--made-up X" $program --help
     expect 0 "(2.5)" $program --help
     expect 0 "made-up" $program --print-settings md
-    expect 0 "made-up" $program --print-settings man
+    expect 0 'made\-up' $program --print-settings man
     expect 2 "--made-up 11: must be a number, 0 to 10" $program "$cornell" $small --made-up 11
     expect 0 "" $program "$cornell" $small --invented 3 --extendable --out flag.exr
     expect 0 'clshear.madeUp: 3' oiiotool --info -v flag.exr
@@ -61,7 +61,7 @@ int main(int argc, char **argv)
     clshear_settings *settings = NULL;
     clshear_setting found = (clshear_setting)0;
     double value = 0.0;
-    clshear_setting_info info = {sizeof info};
+    clshear_setting_info info = {.struct_size = sizeof info};
     size_t count = 0;
     if (clshear_settings_create(&settings) != CLSHEAR_OK) return 1;
     if (clshear_settings_set_integer(settings, CLSHEAR_PACKET, 8) != CLSHEAR_OK) return 2;

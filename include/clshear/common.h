@@ -11,7 +11,7 @@
  *   a scene keeps its context alive.
  * - Arrays and texts passed in are copied.
  * - Structs that cross the interface begin with `struct_size`, which the caller sets to the size of
- *   the struct as compiled: `clshear_film_info info = {sizeof info};`. A newer library leaves alone
+ *   the struct as compiled: `clshear_film_info info = {.struct_size = sizeof info};`. A newer library leaves alone
  *   what an older program does not know, and takes what it does not have as zero.
  * - Nothing here prints, aborts or exits.
  *
