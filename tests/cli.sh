@@ -100,6 +100,12 @@ case $?$output in 1*"no OpenCL device found; install"*) ;; *) wrong "no driver: 
     echo "--lens-raduis 1" >mine.flags
     refuse 2 "mine.flags:1: unknown flag --lens-raduis; did you mean --lens-radius?" -- \
         "$cornell" --settings mine.flags
+    printf -- '--width 32 # px\n--spp 0\n' >mine.flags
+    refuse 2 "mine.flags:2: spp 0: must be a whole number" -- "$cornell" --settings mine.flags
+    printf 'light 1,2,3,4,5,6\nblades 5\nout file.exr\n' >mine.flags
+    expect 0 "" -- "$cornell" $small --quiet --settings mine.flags --aperture disk --adaptive=0 --out line.exr
+    [ -s line.exr ] && [ ! -e file.exr ] || wrong "outputs of the line do not replace the file's"
+    case $(oiiotool --info -v line.exr) in *'clshear.aperture: "disk"'*) ;; *) wrong "aperture of the file won" ;; esac
     refuse 1 "gone.flags: cannot be read" -- "$cornell" --settings gone.flags
 }
 
@@ -134,6 +140,8 @@ case $(oiiotool --info -v p.exr) in *"32 x   20, 1 channel"*Power*) ;; *) wrong 
 expect 2 "leave out --sampler" -- spectrum --in p.txt --n 16
 expect 2 "--projection xyz: must be two letters" -- spectrum --projection xyz
 expect 2 "--resolution 1: must be" -- spectrum --resolution 1
+expect 2 "unknown flag --fov" -- spectrum --fov 30
+expect 2 "--direction 0,0: must be two numbers" -- spectrum --direction 0,0
 expect 2 "--out a.gif: must be" -- spectrum --out a.gif
 expect 2 "--plot a.pdf: must be a name that ends in one of .png .svg" -- spectrum --plot a.pdf
 expect 1 "none.txt" -- spectrum --in none.txt

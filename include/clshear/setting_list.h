@@ -41,8 +41,9 @@
  * Settings: X(identifier, number, name, aliases, kind, values, most, fallback, low, high, choices,
  *             use, argument, help)
  *
- * number    of the enumerator; never reused, so that a program built before stays right. It also says
- *           the group in lists: from 1 samples, 20 image, 40 camera, 50 lens, 60 light, 80 device
+ * number    of the enumerator; never reused, so that a program built before stays right. It also
+ *           says the group in lists: 1 samples, 20 image, 40 camera, 50 lens, 60 light, 80 device,
+ *           and all numbers up to the next group
  * name      of the flag, without dashes
  * aliases   other names of the flag, separated by spaces
  * kind      SWITCH (0 or 1), INTEGER, NUMBER, CHOICE (a name out of `choices`), TEXT

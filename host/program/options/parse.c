@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "options/value.h"
+#include "options/options.h"
 #include "report/failure.h"
 #include "report/words.h"
 

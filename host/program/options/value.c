@@ -1,4 +1,4 @@
-#include "options/value.h"
+#include "options/options.h"
 
 #include <ctype.h>
 #include <math.h>
