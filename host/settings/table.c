@@ -4,7 +4,8 @@
 
 #include "clshear/device/sampler/list.h"
 
-#define CS_CHOICE_ENTRY(identifier, number, name, meaning) {name, meaning},
+/* A choice stands at its number, so that numbers are places in the lists. */
+#define CS_CHOICE_ENTRY(identifier, number, name, meaning) [number] = {name, meaning},
 #define CS_SAMPLER_CHOICE(identifier, name, draw, extra, shape, words, progressive, about) \
     {name, about},
 
@@ -13,16 +14,6 @@ static const cs_choice choices_oracle[] = {CLSHEAR_ORACLE_LIST(CS_CHOICE_ENTRY){
 static const cs_choice choices_filter[] = {CLSHEAR_FILTER_LIST(CS_CHOICE_ENTRY){NULL, NULL}};
 static const cs_choice choices_aperture[] = {CLSHEAR_APERTURE_LIST(CS_CHOICE_ENTRY){NULL, NULL}};
 static const cs_choice choices_sampler[] = {CS_SAMPLER_LIST(CS_SAMPLER_CHOICE){NULL, NULL}};
-
-/* Numbers of choices count from 0, so that they are places in the lists above. */
-#define CS_CHOICE_COUNT(identifier, number, name, meaning) +1
-#define CS_CHOICE_SUM(identifier, number, name, meaning) +number
-#define CS_HAS_NO_GAPS(list) \
-    (2 * (0 list(CS_CHOICE_SUM)) == (0 list(CS_CHOICE_COUNT)) * ((0 list(CS_CHOICE_COUNT)) - 1))
-_Static_assert(CS_HAS_NO_GAPS(CLSHEAR_SHEAR_LIST), "numbers of shears count from 0");
-_Static_assert(CS_HAS_NO_GAPS(CLSHEAR_ORACLE_LIST), "numbers of oracles count from 0");
-_Static_assert(CS_HAS_NO_GAPS(CLSHEAR_FILTER_LIST), "numbers of filters count from 0");
-_Static_assert(CS_HAS_NO_GAPS(CLSHEAR_APERTURE_LIST), "numbers of apertures count from 0");
 
 #define CS_SETTING_ENTRY(identifier, number, name, aliases, kind, values, most, fallback, low, \
                          high, choices, use, argument, help)                                   \

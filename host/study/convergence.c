@@ -65,7 +65,7 @@ clshear_status cs_converge_integrand(const clshear_integrand *integrand, const c
 {
     clshear_status status = CLSHEAR_OK;
     clshear_points points = {0};
-    double *means = malloc((study->sizes + 1) * study->replicates * sizeof *means);
+    double *means = calloc((study->sizes + 1) * study->replicates, sizeof *means);
     CS_REQUIRE(means != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     CS_TRY(cs_convergence_reserve(study->sizes, result, error));
     for (size_t k = 0; k < study->sizes; k++) {
@@ -121,7 +121,7 @@ clshear_status cs_converge_pixel(clshear_scene *scene, const clshear_settings *s
                                  clshear_convergence *result, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    double *means = malloc((study->sizes + 1) * study->replicates * sizeof *means);
+    double *means = calloc((study->sizes + 1) * study->replicates, sizeof *means);
     CS_REQUIRE(means != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     CS_TRY(cs_convergence_reserve(study->sizes, result, error));
     for (size_t k = 0; k < study->sizes; k++)
