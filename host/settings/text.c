@@ -26,14 +26,14 @@ static void append(char *text, size_t size, const char *format, ...)
 static void list_choices(const cs_setting *setting, char *text, size_t size)
 {
     const cs_choice *choices = setting->choices;
-    const int with_file = setting->setting == CLSHEAR_APERTURE;
-    for (int i = 0; choices[i].name != NULL; i++) {
-        const int last = choices[i + 1].name == NULL;
-        if (last && with_file)
-            append(text, size, " or an image file");
-        else
-            append(text, size, "%s%s", i == 0 ? "" : last ? " or " : ", ", choices[i].name);
+    const int with_file = setting->setting == CLSHEAR_APERTURE; /* instead of the choice "image" */
+    const int count = cs_choice_count(choices);
+    for (int i = 0; i < count; i++) {
+        const int last = i + 1 == count && !with_file;
+        if (with_file && i == CLSHEAR_APERTURE_IMAGE) continue;
+        append(text, size, "%s%s", i == 0 ? "" : last ? " or " : ", ", choices[i].name);
     }
+    if (with_file) append(text, size, " or an image file");
 }
 
 void cs_setting_expectation(const cs_setting *setting, char *text, size_t size)
