@@ -85,13 +85,23 @@ export PKG_CONFIG_PATH
 cc readme.c -o packaged $(pkg-config --cflags --libs clshear)
 LD_LIBRARY_PATH=$(pkg-config --variable=libdir clshear) ./packaged
 
-# The patch that shows how to add a sampler still fits.
-mkdir -p patched/cl/clshear
-cp -r "$root/cl/clshear/device" patched/cl/clshear
-awk '/^```diff$/ { inside = 1; next } /^```/ { inside = 0 } inside' \
-    "$root/docs/guide/adding-a-sampler.md" | patch --directory patched --strip 1 --fuzz 0
+# The patches that show how to add something still fit, each to a tree of its own. The sampler's is
+# compiled too.
+for guide in "$root"/docs/guide/adding-*.md; do
+    name=$(basename "$guide" .md)
+    mkdir -p "patched/$name"
+    cp -r "$root/cl" "$root/host" "$root/include" "patched/$name"
+    awk '/^```diff$/ { inside = 1; next } /^```/ { inside = 0 } inside' "$guide" >"$name.diff"
+    grep -q '^+++' "$name.diff" || { echo "$guide: no patch in it"; exit 1; }
+    patch --quiet --directory "patched/$name" --strip 1 --fuzz 0 <"$name.diff" ||
+        { echo "$guide: its patch does not fit any more"; exit 1; }
+    # Kinds of lights and BSDFs take four files at most, the others two.
+    files=$(grep -c '^+++' "$name.diff")
+    case $name in *light | *bsdf) most=4 ;; *) most=2 ;; esac
+    [ "$files" -le "$most" ] || { echo "$guide: touches $files files"; exit 1; }
+done
 printf '#include "clshear/device/sampler/sampler.h"\n' >sampler.c
-cc -std=c17 -Wall -Wextra -Werror -fsyntax-only -I patched/cl sampler.c
+cc -std=c17 -Wall -Wextra -Werror -fsyntax-only -I patched/adding-a-sampler/cl sampler.c
 
 for document in "${documents[@]}"; do
     folder=$(dirname "$document")
