@@ -132,18 +132,18 @@ static clshear_status make_sets(const cs_camera *camera, const cs_f32 *optics, c
                                 cs_camera_sample **sets, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_array rows = {0};
+    cs_array table = {0};
     const cs_pattern pattern = cs_pattern_of(CS_SAMPLER_SZ, 0, lens_rays);
-    CS_TRY(cs_sample_table_make(&pattern, CS_ORDER_SEQUENCE, &rows, error));
+    CS_TRY(cs_sample_table_make(&pattern, CS_ORDER_SEQUENCE, &table, error));
     *sets = malloc(SETS * lens_rays * sizeof **sets);
     CS_REQUIRE(*sets != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     for (cs_u32 i = 0; i < SETS * lens_rays; i++) {
         cs_f32 t[CS_DIMENSIONS] = {0};
-        cs_draw(&pattern, rows.items, cs_pattern_key(0, i / lens_rays, 0), i % lens_rays, t);
+        cs_draw(&pattern, table.items, cs_pattern_key(0, i / lens_rays, 0), i % lens_rays, t);
         (*sets)[i] = cs_unsheared(t[0], t[1], t[2], t[3], &camera->optics, optics);
     }
 done:
-    cs_array_free(&rows);
+    cs_array_free(&table);
     return status;
 }
 
