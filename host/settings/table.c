@@ -14,7 +14,7 @@ static const cs_choice choices_filter[] = {CLSHEAR_FILTER_LIST(CS_CHOICE_ENTRY){
 static const cs_choice choices_aperture[] = {CLSHEAR_APERTURE_LIST(CS_CHOICE_ENTRY){NULL, NULL}};
 static const cs_choice choices_sampler[] = {CS_SAMPLER_LIST(CS_SAMPLER_CHOICE){NULL, NULL}};
 
-/* Numbers of choices count from 0, so that they are places in the lists above. */
+/* The numbers of choices count from 0, so they are indices into the lists above. */
 #define CS_CHOICE_COUNT(identifier, number, name, meaning) +1
 #define CS_CHOICE_SUM(identifier, number, name, meaning) +number
 #define CS_HAS_NO_GAPS(list) \
@@ -55,7 +55,7 @@ size_t cs_setting_index(clshear_setting setting)
     return index;
 }
 
-/* Whether `name`, of `length` characters, is one of the words of a list. */
+/* Returns 1 if `name`, of `length` characters, is a word of the list, else 0. */
 static int is_listed(const char *list, const char *name, size_t length)
 {
     while (*list != '\0') {
