@@ -1,13 +1,14 @@
 /* Noise of rendered pictures, as a Markdown table.
  *
- * bench_noise GROUP [GROUP ...] where GROUP is: LABEL BASE FILE [FILE ...] +
+ *   bench_noise GROUP [GROUP ...]    with GROUP: LABEL BASE FILE [FILE ...] +
  *
- * Several files are renders with different seeds: their variance across seeds counts. A single file
- * has R > 2 replicates: it stands for renders with two of them, whose variance is that of its
- * Variance channels times R / 2. Columns: mean over pixels and colours of the variance (MSE), of
- * the variance over the squared mean plus a ten-thousandth of the picture's mean squared (relative
- * MSE), and the 10th, 50th and 90th percentile of the ratio of variances to group BASE over tiles
- * of 8 x 8 pixels whose standard error exceeds 0.1 % of their mean; "-" for BASE: no ratio. */
+ * Several files are renders with different seeds: their variance across seeds is measured. A single
+ * file has R > 2 replicates and represents renders with two: its variance is that of the Variance
+ * channels times R / 2. Columns: mean over pixels and colours of the variance (MSE); of the
+ * variance over the squared mean plus a ten-thousandth of the picture's squared mean (relative
+ * MSE); and the 10th, 50th and 90th percentile of the ratio of variances to group BASE. The ratio
+ * is taken over tiles of 8 x 8 pixels with a standard error above 0.1 % of their mean. "-" for
+ * BASE: no ratio. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,7 +25,7 @@ enum {
 typedef struct group {
     const char *label, *base;
     int width, height;
-    double *mean, *variance; /* of each pixel, averaged over colours */
+    double *mean, *variance; /* mean and variance of each pixel, averaged over colours */
 } group;
 
 static const char *const colours[3] = {"R", "G", "B"};
@@ -79,7 +80,10 @@ static void read_seeds(group *g, char **paths, int count)
         clshear_film *film = must_read(paths[k]);
         reserve(g, film);
         const size_t values = 3 * (size_t)g->width * (size_t)g->height;
-        if (mean == NULL) mean = calloc(values, sizeof *mean), m2 = calloc(values, sizeof *m2);
+        if (mean == NULL) {
+            mean = calloc(values, sizeof *mean);
+            m2 = calloc(values, sizeof *m2);
+        }
         if (mean == NULL || m2 == NULL) stop("out of memory");
         for (size_t i = 0; i < values; i++) {
             const double value = (double)clshear_film_channel(film, colours[i % 3])[i / 3];

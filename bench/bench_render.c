@@ -1,12 +1,13 @@
-/* A whole job, and where its time goes.
+/* The time of a whole job, by phases.
  *
  *   bench_render [--scene FILE | --mesh box|spheres|terrain --triangles N] [--size PX] [--spp N]
  *                [--replicates R] [--lens R] [--oracle centre|pilot] [--sampler NAME] [--threads N]
  *                [--out FILE] [--rounds N] [--json FILE]
  *
- * Start: from main() to the first samples' end, kernels compiled or found in the driver's cache
- * (POCL_CACHE_DIR at an empty folder makes it cold). The render is repeated; the medians of its
- * phases are printed, and the process's largest memory. */
+ * The start lasts from main() to the end of the first samples. It includes the compilation of the
+ * kernels, or their lookup in the driver's cache (an empty POCL_CACHE_DIR gives a cold start). The
+ * render is repeated. The benchmark prints the medians of its phases, and the process's peak
+ * memory. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -33,7 +34,7 @@ typedef struct bench {
     size_t triangles, spp, replicates;
     int size, threads, rounds;
     double lens_radius;
-    double start_s, open_s, load_s, first_s; /* moments and times since the start of main */
+    double start_s, open_s, load_s, first_s; /* times in seconds, measured from the start of main */
     clshear_context *context;
     clshear_scene *scene;
     clshear_settings *settings;
@@ -61,15 +62,15 @@ static void make_mesh(bench *state)
                                .vertex_count = made.positions.count,
                                .triangle_count = made.indices.count,
                                .diffuse = {0.7f, 0.7f, 0.7f}};
-    state->start_s = cs_now_s(); /* making the mesh is not the product's work */
+    state->start_s = cs_now_s(); /* the product does not make meshes */
     bench_must(clshear_scene_create(state->context, &state->scene));
     bench_must(clshear_scene_add_mesh(state->scene, &mesh));
     bench_must(clshear_scene_complete(state->scene));
     cs_scene_free(&made);
 }
 
-/* Camera, lens and light: for a scene file those of the settings file beside it, for a mesh those
- * of the other benchmarks. */
+/* Sets camera, lens and light: from the settings file beside a scene file, or as in the other
+ * benchmarks for a mesh. */
 static void choose_settings(bench *state)
 {
     char path[1024];

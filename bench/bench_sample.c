@@ -1,7 +1,7 @@
-/* What drawing and shearing costs: tuples per second of every sampler, alone and as a share of the
- * Cornell box's frame. Both are measured in turn, several rounds; medians are printed.
+/* Cost of drawing and shearing: tuples per second of every sampler, alone and as a share of the
+ * Cornell box's frame. Both are measured in turn over several rounds; medians are printed.
  *
- * bench_sample [--scene FILE] [--spp N] [--rounds N] [--sampler NAME] */
+ *   bench_sample [--scene FILE] [--spp N] [--rounds N] [--sampler NAME] */
 #include <stdio.h>
 #include <string.h>
 
@@ -25,7 +25,7 @@ typedef struct bench {
     const char *scene_file, *sampler;
 } bench;
 
-/* Seconds that drawing takes without anything else. */
+/* Measures the seconds of drawing alone. */
 static double draw_s(const bench *state, const cs_pattern *pattern, const cs_buffer *rows,
                      const cs_buffer *sums)
 {
@@ -66,7 +66,7 @@ static double frame_s(const bench *state)
     return info.kernel_s;
 }
 
-static void measure(bench *state, cs_u32 sampler)
+static void measure_sampler(bench *state, cs_u32 sampler)
 {
     const int rounds = state->rounds;
     cs_error *error = cs_thread_error();
@@ -78,7 +78,7 @@ static void measure(bench *state, cs_u32 sampler)
     bench_set(state->settings, CLSHEAR_SAMPLER, sampler);
     bench_must(cs_table_cache_find(&state->context->tables, device, &pattern, &rows, error));
     bench_must(cs_buffer_create(device, SIDE * SIDE * sizeof(float), NULL, &sums, error));
-    for (int round = -1; round < rounds; round++) { /* the first one warms up */
+    for (int round = -1; round < rounds; round++) { /* the first round warms up */
         const double alone = draw_s(state, &pattern, rows, sums), all = frame_s(state);
         if (round < 0) continue;
         draw[round] = alone;
@@ -124,7 +124,7 @@ int main(int argc, char **argv)
                    a == 0 ? "square" : "disk", s == 0 ? "none" : "equal-area");
             for (cs_u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
                 if (state.sampler == NULL || strcmp(state.sampler, cs_sampler_name(sampler)) == 0)
-                    measure(&state, sampler);
+                    measure_sampler(&state, sampler);
         }
     clshear_settings_free(state.settings);
     clshear_scene_free(state.scene);

@@ -1,9 +1,10 @@
-/* What the slope of a surface costs the shear, and what following it would bring: a checkered plane
- * whose shear changes by `slope` pixels a row, as the floor's does below the horizon, so that a
- * point projected to (p, q), relative to the pixel's centre, is seen along x + s u = p, y + s v = q
- * with s = shear + slope * q. Variance of one pattern, mean over offsets of the texture.
+/* Effect of a surface's slope on the shear, and the gain of following it. A checkered plane has a
+ * shear that changes by `slope` pixels per row, as the floor's does below the horizon. A point
+ * projected to (p, q), relative to the pixel's centre, is seen along x + s u = p, y + s v = q with
+ * s = shear + slope * q. The result is the variance of one pattern, averaged over offsets of the
+ * texture.
  *
- * bench_slant [--offsets N] [--replicates N] */
+ *   bench_slant [--offsets N] [--replicates N] */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,8 +19,8 @@
 enum {
     NONE,
     CENTRE,  /* the shear of the pixel's centre for all samples */
-    BY_ROW,  /* in x that of the sample's row: what can be followed in closed form */
-    FRONTAL, /* the shear of the centre on a plane without slope: what could be gained at most */
+    BY_ROW,  /* the shear of the sample's row in x: the closed-form limit */
+    FRONTAL, /* a plane without slope: the upper limit of the gain */
     WAYS
 };
 
@@ -40,7 +41,7 @@ static double is_white(const plane *p, cs_camera_sample point)
     return fmod(fabs(cell), 2.0);
 }
 
-/* Both axes with shears of their own: the second first. */
+/* Shears each axis by its own amount, the second axis first. */
 static cs_camera_sample by_row(const cs_f32 *t, const plane *p)
 {
     cs_camera_sample point;
@@ -52,7 +53,7 @@ static cs_camera_sample by_row(const cs_f32 *t, const plane *p)
     return point;
 }
 
-/* Mean of one pattern for every way. */
+/* Computes the mean of one pattern for every way. */
 static void pattern_means(const cs_pattern *pattern, const cs_u32 *rows, cs_u32 key, const plane *p,
                           const cs_optics_tables *lens, double *mean)
 {
@@ -77,8 +78,8 @@ static void pattern_means(const cs_pattern *pattern, const cs_u32 *rows, cs_u32 
         mean[way] /= pattern->grid.count;
 }
 
-static void measure(plane p, cs_u32 count, cs_u32 offsets, cs_u32 replicates,
-                    const cs_optics_tables *lens)
+static void measure_plane(plane p, cs_u32 count, cs_u32 offsets, cs_u32 replicates,
+                          const cs_optics_tables *lens)
 {
     cs_error error;
     cs_array rows = {0};
@@ -91,8 +92,10 @@ static void measure(plane p, cs_u32 count, cs_u32 offsets, cs_u32 replicates,
             p.offset[axis] = 2.0 * p.cell_px * 0x1p-32 * cs_key(o + 1u, axis);
         for (cs_u32 r = 0; r < replicates; r++) {
             pattern_means(&pattern, rows.items, cs_pattern_key(o, 7, r), &p, lens, mean);
-            for (int way = 0; way < WAYS; way++)
-                sum[way] += mean[way], square[way] += mean[way] * mean[way];
+            for (int way = 0; way < WAYS; way++) {
+                sum[way] += mean[way];
+                square[way] += mean[way] * mean[way];
+            }
         }
         for (int way = 0; way < WAYS; way++)
             variance[way] += (square[way] - sum[way] * sum[way] / replicates) / (replicates - 1);
@@ -122,8 +125,8 @@ int main(int argc, char **argv)
         for (int s = 0; s < 3; s++)
             for (int g = 0; g < 3; g++)
                 for (int c = 0; c < 2; c++)
-                    measure((plane){shears[s], slopes[g], cells[c], {0, 0}}, count, (cs_u32)offsets,
-                            (cs_u32)replicates, &lens);
+                    measure_plane((plane){shears[s], slopes[g], cells[c], {0, 0}}, count,
+                                  (cs_u32)offsets, (cs_u32)replicates, &lens);
     cs_optics_free(&lens);
     return 0;
 }

@@ -1,7 +1,8 @@
 /* Power spectra: the device against one thread of C that calls sincosf for every point and
- * frequency, in turn, medians of the ratio. The latter takes a part of the rows and is scaled up.
+ * frequency. They run in turn, and medians of the ratio are printed. The C code computes a part of
+ * the rows, and its time is scaled up.
  *
- * bench_spectrum [--points N] [--sets N] [--resolution N] [--rounds N] */
+ *   bench_spectrum [--points N] [--sets N] [--resolution N] [--rounds N] */
 #define _GNU_SOURCE /* sincosf */
 #include <math.h>
 #include <stdio.h>
@@ -12,10 +13,10 @@
 #include "measure.h"
 
 enum {
-    ROWS = 2 /* of one set, that the plain loop takes */
+    ROWS = 2 /* rows of one set in the plain loop */
 };
 
-/* Seconds for ROWS rows of one set. */
+/* Measures the seconds for ROWS rows of one set. */
 static double plain_s(const clshear_points *points, size_t resolution, float *power)
 {
     const double start_s = cs_now_s();
@@ -30,7 +31,8 @@ static double plain_s(const clshear_points *points, size_t resolution, float *po
             for (size_t i = 0; i < count; i++) {
                 float sine, cosine;
                 sincosf(x * values[2 * i] + y * values[2 * i + 1], &sine, &cosine);
-                re += cosine, im += sine;
+                re += cosine;
+                im += sine;
             }
             power[(size_t)row * resolution + column] = (re * re + im * im) / (float)count;
         }
@@ -55,7 +57,7 @@ int main(int argc, char **argv)
     bench_must(clshear_context_create(NULL, &context));
     bench_must(clshear_points_draw("mj", count, sets, 0, &points));
     bench_must(clshear_points_select(points, "xu"));
-    for (int round = -1; round < rounds; round++) { /* the first one compiles */
+    for (int round = -1; round < rounds; round++) { /* the first round compiles */
         clshear_spectrum *spectrum = NULL;
         const double start_s = cs_now_s();
         bench_must(clshear_spectrum_measure(context, points, resolution, resolution, &spectrum));

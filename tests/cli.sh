@@ -311,7 +311,7 @@ expect 1 "nowhere.txt: cannot be opened" -- points --in nowhere.txt
 printf '0.1 0.2\n0.3 1.2\n' >bad.txt
 expect 1 "bad.txt:2: a coordinate is not between 0 and 1" -- points --in bad.txt
 printf '0.1 0.2\n#\n0.1 0.2\n0.3 0.2\n' >bad.txt
-expect 1 "bad.txt:4: this set has not as many points" -- points --in bad.txt
+expect 1 "bad.txt:4: this set and the first one have different numbers of points" -- points --in bad.txt
 expect 2 "--dims xz: must be letters out of xyuvpq" -- points --dims xz
 expect 2 "scene.obj: not a flag" -- points scene.obj
 expect 1 "must be 1 to 65536" -- points --sampler ccvt --n 70000

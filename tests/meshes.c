@@ -7,8 +7,8 @@
 #include "clshear/device/hash.h"
 
 typedef struct builder {
-    cs_array positions; /* float[3] */
-    cs_array indices;   /* uint32_t[3] */
+    cs_array positions; /* float[3] each */
+    cs_array indices;   /* uint32_t[3] each */
 } builder;
 
 static uint32_t add_vertex(builder *mesh, double x, double y, double z)
@@ -30,7 +30,7 @@ static void add_triangle(builder *mesh, uint32_t a, uint32_t b, uint32_t c)
     triangle[2] = c;
 }
 
-/* A grid of rows x columns quads whose corners `place` computes. */
+/* Adds a grid of rows x columns quads. `place` computes the corners. */
 static void add_grid(builder *mesh, int rows, int columns, const double *shape,
                      void (*place)(const double *shape, double s, double t, double *point))
 {
@@ -50,14 +50,14 @@ static void add_grid(builder *mesh, int rows, int columns, const double *shape,
         }
 }
 
-/* shape: corner, edge, edge. */
+/* `shape` is a corner and two edges. */
 static void on_quad(const double *shape, double s, double t, double *point)
 {
     for (int i = 0; i < 3; i++)
         point[i] = shape[i] + s * shape[3 + i] + t * shape[6 + i];
 }
 
-/* shape: centre, radius. */
+/* `shape` is the centre and the radius. */
 static void on_sphere(const double *shape, double s, double t, double *point)
 {
     const double pi = 3.14159265358979;
@@ -68,7 +68,7 @@ static void on_sphere(const double *shape, double s, double t, double *point)
         point[i] = shape[i] + shape[3] * (1.0 + 0.25 * bump) * across[i];
 }
 
-/* A sum of waves, finer ones lower. */
+/* A sum of waves; shorter waves have smaller amplitudes. */
 static void on_terrain(const double *shape, double s, double t, double *point)
 {
     double height = shape[0];
@@ -98,7 +98,7 @@ static void add_box(builder *mesh, double x, double y, double z, double w, doubl
     add_quad(mesh, x, y + h, z, w, 0, 0, 0, 0, d);
 }
 
-/* A unit cube without its front. */
+/* Adds a unit cube without its front. */
 static void add_room(builder *mesh)
 {
     add_quad(mesh, 0, 0, 0, 1, 0, 0, 0, 0, 1);

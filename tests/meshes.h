@@ -1,4 +1,4 @@
-/* Meshes that the benchmarks and tests make themselves. */
+/* Generated meshes for the benchmarks and tests. */
 #ifndef CS_TESTS_MESHES_H
 #define CS_TESTS_MESHES_H
 

@@ -1,4 +1,4 @@
-/* What the test programs share. Includes cmocka with what it needs. */
+/* Shared code of the test programs. Includes cmocka and the headers it needs. */
 #ifndef CS_TESTS_SUPPORT_H
 #define CS_TESTS_SUPPORT_H
 
@@ -15,7 +15,7 @@
 #include "optics/optics.h"
 #include "pattern/pattern.h"
 
-/* Comparisons of numbers that print them. A NaN fails all of them. */
+/* Comparisons that print both numbers. They fail for NaN. */
 #define assert_near(a, b, tolerance) \
     test_near((double)(a), (double)(b), (double)(tolerance), #a, __FILE__, __LINE__)
 #define assert_below(a, b) test_compare((double)(a), "<", (double)(b), #a, __FILE__, __LINE__)
@@ -27,54 +27,55 @@ void test_near(double a, double b, double tolerance, const char *what, const cha
 void test_compare(double a, const char *relation, double b, const char *what, const char *file,
                   int line);
 
-/* A context on the first device; fails the test if there is none. */
+/* Creates a context on the first device. Fails the test if there is none. */
 clshear_context *test_context(void);
 
 /* Fails the test, with the thread's message, unless `status` is CLSHEAR_OK. */
 void test_ok(clshear_status status);
 
-/* Fails the test unless `status` is `expected`, a failure whose one-line message has `words`. */
+/* Fails the test unless `status` is `expected`, a failure, and its one-line message has `words`. */
 #define test_refused(status, expected, words) \
     test_expect_refusal((status), (expected), (words), #status, __FILE__, __LINE__)
 void test_expect_refusal(clshear_status status, clshear_status expected, const char *words,
                          const char *call, const char *file, int line);
 
-/* Path of a file in the scratch folder; valid for the next few calls. */
+/* Path of a file in the scratch folder. Valid for the next few calls. */
 const char *test_path(const char *name);
 
 /* Writes a text file into the scratch folder and returns its path. */
 const char *test_file(const char *name, const char *text);
 
-/* Warnings of contexts made by test_context since the last call, joined; owned by the support. */
+/* Joined warnings since the last call, of contexts made by test_context. Owned by this file. */
 const char *test_warnings(void);
 
-/* A copy of `base` (NULL: fallbacks) with another size and number of samples. */
+/* Copies `base` (NULL: fallbacks) with another size and number of samples. */
 clshear_settings *test_settings(const clshear_settings *base, int width, int height, uint32_t spp);
 
-/* Set a value from formatted text, or a number of any kind but text; fail the test on errors. */
+/* Set a value from formatted text, or a number of any kind except text. Errors fail the test. */
 void test_set(clshear_settings *settings, clshear_setting setting, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void test_set_number(clshear_settings *settings, clshear_setting setting, double value);
 
-/* Renders; fails the test if that fails. */
+/* Renders. Errors fail the test. */
 clshear_film *test_render(clshear_scene *scene, const clshear_settings *settings);
 clshear_film_info test_film_info(const clshear_film *film);
 clshear_scene_info test_scene_info(const clshear_scene *scene);
 
-/* A complete scene of some meshes, whose struct_size need not be set. */
+/* Makes a complete scene of some meshes. Their struct_size need not be set. */
 clshear_scene *test_meshes(clshear_context *context, const clshear_mesh *meshes, size_t count);
 
-/* Adds a light, whose struct_size need not be set. */
+/* Adds a light. Its struct_size need not be set. */
 void test_add_light(clshear_scene *scene, const clshear_light *light);
 
-/* A horizontal square of half width `half` at height 0, one triangle pair. */
+/* A horizontal square of half-width `half` at height 0, as two triangles. */
 clshear_scene *test_floor(clshear_context *context, float half, float albedo);
 
-/* scenes/cornell.obj, and the settings of scenes/cornell.flags but for the aperture, a disk. */
+/* The scene scenes/cornell.obj, and the settings of scenes/cornell.flags with a disk as
+ * aperture. */
 clshear_scene *test_cornell(clshear_context *context);
 clshear_settings *test_cornell_settings(void);
 
-/* The Cornell box, opened and closed by cmocka. */
+/* The Cornell box as a fixture: cmocka opens and closes it. */
 typedef struct test_fixture {
     clshear_context *context;
     clshear_scene *scene;
@@ -84,23 +85,23 @@ typedef struct test_fixture {
 int test_open_cornell(void **state);
 int test_close(void **state);
 
-/* Aperture and filter; freed by cs_optics_free. */
+/* Makes the tables of an aperture and a filter. The caller frees them with cs_optics_free. */
 cs_optics_tables test_optics(const cs_view *view, clshear_filter filter, float width_px);
 
-/* A small image without any symmetry, with a dark column and dark texels. */
+/* A small asymmetric image with a dark column and dark texels. */
 const cs_aperture_image *test_aperture_image(void);
 
-/* A pattern with its table, to draw from on the host. */
+/* A pattern with its table, for drawing on the host. */
 typedef struct test_pattern {
     cs_pattern pattern;
     cs_array rows;
 } test_pattern;
 
-/* `count` is raised to the next one that the sampler has. */
+/* Makes a pattern. `count` is rounded up to the next sample count of the sampler. */
 test_pattern test_pattern_of(cs_u32 sampler, cs_u32 count, cs_sample_order order);
 void test_pattern_free(test_pattern *pattern);
 
-/* Sample `index` of the pattern named by `key`: CS_DIMENSIONS coordinates. */
+/* Draws sample `index` of the pattern with this key: CS_DIMENSIONS coordinates. */
 void test_draw(const test_pattern *pattern, cs_u32 key, cs_u32 index, cs_f32 *tuple);
 
 #endif

@@ -1,4 +1,5 @@
-/* Spectra against closed forms and direct sums, predicted against measured variance, fits. */
+/* Spectra against closed forms and direct sums, predicted against measured variance, and slope
+ * fits. */
 #include "support.h"
 
 #include <math.h>
@@ -27,8 +28,8 @@ static clshear_spectrum *measured(const clshear_points *points, size_t width, si
     return spectrum;
 }
 
-/* Any number of points, any sides, sets of their own: the sums of double precision, to the 1e-6
- * sqrt(N) that single precision loses. */
+/* Spectra with any number of points, sides and sets equal direct sums in double precision, up to
+ * 1e-6 sqrt(N) for single precision. */
 static void spectra_are_direct_sums(void **state)
 {
     (void)state;
@@ -47,7 +48,8 @@ static void spectra_are_direct_sums(void **state)
                     for (size_t j = 0; j < counts[c]; j++) {
                         const float *p = clshear_points_values(points) + 2 * (set * counts[c] + j);
                         const double phase = 2.0 * pi * (x * (double)p[0] + y * (double)p[1]);
-                        re += cos(phase), im += sin(phase);
+                        re += cos(phase);
+                        im += sin(phase);
                     }
                     power += 0.5 * (re * re + im * im) / (double)counts[c];
                 }
@@ -65,8 +67,8 @@ static double sinc2(double x)
     return fabs(x) < 1e-9 ? 1.0 : pow(sin(pi * x) / (pi * x), 2);
 }
 
-/* Expected power of random points, of one jittered point in each of 8 x 8 strata, and of 64 rooks:
- * pairs of them are in different columns and rows, which correlates them by -1/63 each way. */
+/* Expected power of random points, of one jittered point in each of 8 x 8 strata, and of 64 rooks.
+ * Two rooks are in different columns and rows, so their correlation is -1/63 in each direction. */
 static double closed_form(int which, int x, int y)
 {
     const double column = sinc2(x / 64.0), row = sinc2(y / 64.0);
@@ -76,9 +78,10 @@ static double closed_form(int which, int x, int y)
     return y == 0 ? 1.0 - column : 1.0 + column * row / 63.0;
 }
 
-/* A mean of M = 400 periodograms has the relative variance 1/M at each frequency, so the mean over
- * K = 1860 frequencies of M (P / E - 1)^2 is 1 with standard deviation sqrt(2 / K) = 0.033; 0.23
- * are seven of them. A form that is wrong by 5 % everywhere would give 2. */
+/* A mean of M = 400 periodograms has the relative variance 1/M at each frequency. The mean over K
+ * = 1860 frequencies of M (P / E - 1)^2 is therefore 1 with standard deviation sqrt(2 / K) =
+ * 0.033; the tolerance of 0.23 is seven of these. A formula with an error of 5 % everywhere would
+ * give 2. */
 static void spectra_match_closed_forms(void **state)
 {
     (void)state;
@@ -101,8 +104,9 @@ static void spectra_match_closed_forms(void **state)
     }
 }
 
-/* Random points: rings at 1 and -10 dB; 100 sets of 256 points. A ring of k frequencies has a mean
- * of error 0.1 / sqrt(k), and its relative variance one of sqrt(2 / k): 0.63 dB at k = 100. */
+/* Rings of random points are at 1 and -10 dB; 100 sets of 256 points. The mean of a ring with k
+ * frequencies has a standard error of 0.1 / sqrt(k), and its relative variance one of sqrt(2 / k):
+ * 0.63 dB at k = 100. */
 static void rings_and_directions_are_read_off(void **state)
 {
     (void)state;
@@ -118,7 +122,7 @@ static void rings_and_directions_are_read_off(void **state)
     clshear_spectrum_along(spectrum, 0.0, 1.0, along);
     for (size_t r = 0; r < 32; r++)
         assert_near(along[r], clshear_spectrum_power(spectrum)[(40 + r + 1) * 65 + 32], 0);
-    clshear_spectrum_along(spectrum, 1.0, -3.0, along); /* radius 20: 6 times */
+    clshear_spectrum_along(spectrum, 1.0, -3.0, along); /* 6 steps within radius 20 */
     assert_near(along[19], clshear_spectrum_power(spectrum)[(40 - 18) * 65 + 32 + 6], 0);
     clshear_spectrum_free(spectrum);
     clshear_points_free(points);
@@ -140,7 +144,8 @@ enum {
     SETS = 8000
 };
 
-/* The step along x, where the hairlines of nrooks and mj are; the others at an angle. */
+/* The step points along x, the direction of the hairlines of nrooks and mj; the others are at an
+ * angle. */
 static clshear_integrand integrand_called(int which)
 {
     static const char *const names[] = {"step", "box", "disk", "gaussian", "tent", "plane-wave"};
@@ -150,7 +155,7 @@ static clshear_integrand integrand_called(int which)
     return integrand;
 }
 
-/* What lies beyond the spectrum: the last part. */
+/* The tail, which is the last part. */
 static double tail_of(const clshear_prediction *prediction)
 {
     const size_t last = clshear_prediction_parts(prediction) - 1;
@@ -158,10 +163,10 @@ static double tail_of(const clshear_prediction *prediction)
     return clshear_prediction_part_variance(prediction, last);
 }
 
-/* Six integrands, five samplers: 8000 shifted sets of 64 points against the spectrum of 2000
- * others. The relative standard error of a variance is sqrt((kurtosis - 1) / 8000): 0.016 for
- * normal means, up to 0.025 where few frequencies count; that of the prediction is 0.02 at most
- * where one frequency counts. 10 % are three standard errors or more; seeds are fixed. */
+/* Six integrands, five samplers: 8000 shifted sets of 64 points against the spectrum of 2000 other
+ * sets. The relative standard error of a variance is sqrt((kurtosis - 1) / 8000): 0.016 for normal
+ * means, up to 0.025 if few frequencies dominate. The prediction's error is at most 0.02, if one
+ * frequency dominates. The tolerance of 10 % is at least three standard errors; seeds are fixed. */
 static void prediction_equals_measurement(void **state)
 {
     (void)state;
@@ -203,7 +208,7 @@ static void prediction_equals_measurement(void **state)
     free(means);
 }
 
-/* Normal means of variance N^-1.5: the slope is found, and its interval holds the truth. 200
+/* Normal means of variance N^-1.5: the fit finds the slope, and its interval contains it. 200
  * replicates at four sizes: standard error 0.032. */
 static void slopes_are_fitted(void **state)
 {
@@ -231,7 +236,7 @@ static void slopes_are_fitted(void **state)
     const uint32_t same[] = {16, 16};
     assert_int_equal(clshear_fit_slope(same, 2, means, 200, NULL, errors, &fit),
                      CLSHEAR_BAD_ARGUMENT);
-    for (int i = 0; i < 800; i++) /* parts whose means fall exactly as N^-1.5 */
+    for (int i = 0; i < 800; i++) /* parts with means of exactly N^-1.5 */
         means[i] = pow(counts[i / 200], -1.5) * (1.0 + i % 200);
     assert_int_equal(clshear_fit_slope_of_parts(counts, 4, means, 200, errors, &fit), CLSHEAR_OK);
     assert_near(fit.slope, -1.5, 1e-9);
@@ -239,7 +244,7 @@ static void slopes_are_fitted(void **state)
     assert_near(errors[1], pow(64.0, -1.5) * 100.5, 1e-9);
 }
 
-/* Spectra of one wave a side, whose power is all in two frequencies. Returns NULL if they are. */
+/* Computes spectra of one wave per side. Returns NULL if their power is in two frequencies. */
 static void *transform_waves(void *argument)
 {
     const size_t first = *(const size_t *)argument;
@@ -260,7 +265,7 @@ static void *transform_waves(void *argument)
     return NULL;
 }
 
-/* FFTW's planner is one for all threads of a process. */
+/* All threads of a process share FFTW's planner. */
 static void threads_share_the_planner(void **state)
 {
     enum {

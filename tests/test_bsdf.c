@@ -1,4 +1,4 @@
-/* The BSDFs on their own, for one lane on the host. */
+/* The BSDFs alone, for one lane on the host. */
 #include "kernels/bsdf/bsdf.h"
 #include "support.h"
 
@@ -25,8 +25,8 @@ static double dot(const float *a, const float *b)
     return (double)a[0] * (double)b[0] + (double)a[1] * (double)b[1] + (double)a[2] * (double)b[2];
 }
 
-/* Sums over drawn directions: what is reflected of channel 0, and what a drawn direction's density
- * says of the solid angle of the hemisphere. */
+/* Integrates over drawn directions: the reflectance of channel 0, and 1 / density, which is the
+ * solid angle of the hemisphere. */
 static void check_draws(int kind, const float *normal)
 {
     const cs_surface surface = surface_of(kind, normal);

@@ -1,4 +1,4 @@
-/* Cameras that are chosen for the user. */
+/* Automatic choice of the camera. */
 #include "support.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ static cs_view view_of(const clshear_settings *settings)
     return view;
 }
 
-/* The box fills the picture's shorter side but for a margin, seen through its open side. */
+/* The bounding box fills the picture's shorter side up to a margin, with its open side in front. */
 static void framing_shows_the_open_side(void **state)
 {
     test_fixture *made = *state;
@@ -28,17 +28,17 @@ static void framing_shows_the_open_side(void **state)
         const cs_view view = view_of(settings);
         assert_above(view.eye[2], 0.0f);
         assert_below(view.target[2], view.eye[2]);
-        /* In the middle is the tall box or the back wall, inside the scene. */
+        /* The middle ray hits the tall box or the back wall, inside the scene. */
         assert_above(view.focal_distance, view.eye[2]);
         assert_below(view.focal_distance, view.eye[2] + 560.0f);
-        /* 3 % of the shorter axis at infinity. */
+        /* A point at infinity blurs over 3 % of the shorter axis. */
         float extent = 2.0f * view.focal_distance * tanf(view.fov_deg * 3.14159265f / 360.0f);
         assert_near(2.0f * view.lens_radius / extent, 0.03f, 1e-4f);
         clshear_settings_free(settings);
     }
 }
 
-static void focus_goes_to_what_a_pixel_sees(void **state)
+static void focus_is_the_depth_of_a_pixel(void **state)
 {
     test_fixture *made = *state;
     clshear_settings *settings = test_settings(NULL, 512, 512, 16);
@@ -55,7 +55,7 @@ static void focus_goes_to_what_a_pixel_sees(void **state)
     clshear_settings_free(settings);
 }
 
-/* The same by the setting, which a completed camera replaces by the distance. */
+/* A completed camera replaces the focus pixel by a focal distance. */
 static void focus_pixels_become_distances(void **state)
 {
     test_fixture *made = *state;
@@ -71,7 +71,8 @@ static void focus_pixels_become_distances(void **state)
     clshear_settings_free(settings);
 }
 
-/* f/2 at 24 mm over 53.13 degrees (tan of the half is 1/2): focal length 24 mm, radius 6 mm. */
+/* f/2 with a field of view of 53.13 degrees, half of which has the tangent 1/2: focal length 24 mm,
+ * radius 6 mm. */
 static void f_numbers_become_radii(void **state)
 {
     test_fixture *made = *state;
@@ -92,7 +93,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(framing_shows_the_open_side),
-        cmocka_unit_test(focus_goes_to_what_a_pixel_sees),
+        cmocka_unit_test(focus_is_the_depth_of_a_pixel),
         cmocka_unit_test(focus_pixels_become_distances),
         cmocka_unit_test(f_numbers_become_radii),
     };

@@ -1,14 +1,13 @@
-/* The convergence regression: the reason this program exists.
+/* The convergence regression: the reason for this program.
  *
- * Two pixels of scenes/cornell.obj, as its settings file has camera, lens and light; one of them
- * through a round aperture too. Variance of
- * one pattern of N samples is measured with REPLICATES independent patterns, for N = 64 ... 4096,
- * and a line is fitted to its logarithm.
+ * Two pixels of scenes/cornell.obj, with camera, lens and light from its settings file; one of them
+ * through a round aperture too. The variance of one pattern of N samples is measured with
+ * REPLICATES independent patterns, for N = 64 ... 4096, and a line is fitted to its logarithm.
  *
  * Errors: the relative standard error of a variance from R = 512 replicates of near-normal means is
- * sqrt(2 / 511) = 0.063; heavier tails, which edges have, double it at most. The slope over four
- * points spaced by log 4 then has the standard error 0.063 / (log 4 * sqrt(5)) = 0.020, or 0.040
- * with heavy tails. Seeds are fixed, so a false alarm means a change of code, not of luck. */
+ * sqrt(2 / 511) = 0.063. The heavier tails of edges double it at most. The slope over four points
+ * spaced by log 4 then has the standard error 0.063 / (log 4 * sqrt(5)) = 0.020, or 0.040 with
+ * heavy tails. Seeds are fixed, so a false alarm means a change of code, not of luck. */
 #include "support.h"
 
 #include <math.h>
@@ -25,10 +24,10 @@ static const uint32_t sizes[SIZES] = {64, 256, 1024, 4096};
 
 typedef struct measurement {
     double slope;
-    double error[SIZES]; /* variance of one pattern, of green */
+    double error[SIZES]; /* variance of one pattern, in green */
 } measurement;
 
-/* Means of the patterns of one size. */
+/* Computes the means of the patterns of one size. */
 static void measure_size(test_fixture *made, clshear_settings *settings, uint32_t size,
                          double *means)
 {
@@ -42,8 +41,8 @@ static void measure_size(test_fixture *made, clshear_settings *settings, uint32_
     clshear_film_free(film);
 }
 
-static measurement measure(test_fixture *made, int x, int y, const char *aperture,
-                           const char *sampler, clshear_shear shear)
+static measurement measure_pixel(test_fixture *made, int x, int y, const char *aperture,
+                                 const char *sampler, clshear_shear shear)
 {
     static double means[SIZES][REPLICATES];
     measurement result;
@@ -66,14 +65,14 @@ static measurement measure(test_fixture *made, int x, int y, const char *apertur
     return result;
 }
 
-/* Unsheared pairs fall as 1/N: -1 +- 0.15 is 3.7 standard errors even with heavy tails, two-sided
- * false-alarm rate 2e-4 (1e-13 with light ones). Sheared, edges give -1.5: -1.35 is 3.7 and 7.5
- * standard errors away, one-sided 1e-4 and 3e-14. The ratio at N = 1024 is 10 and more; that it
- * comes out below 5 by chance takes 5 standard errors of its logarithm, 6e-7. */
+/* The variance of unsheared pairs falls as 1/N: -1 +- 0.15 is 3.7 standard errors even with heavy
+ * tails, a two-sided false-alarm rate of 2e-4 (1e-13 with light tails). With shear, edges give
+ * -1.5: -1.35 is 3.7 and 7.5 standard errors away, one-sided 1e-4 and 3e-14. The ratio at N = 1024
+ * is 10 or more; a ratio below 5 by chance is 5 standard errors of its logarithm, 6e-7. */
 static void expect_gain(test_fixture *made, int x, int y, const char *aperture)
 {
-    const measurement none = measure(made, x, y, aperture, "mj", CLSHEAR_SHEAR_NONE);
-    const measurement sheared = measure(made, x, y, aperture, "mj", CLSHEAR_SHEAR_EQUAL_AREA);
+    const measurement none = measure_pixel(made, x, y, aperture, "mj", CLSHEAR_SHEAR_NONE);
+    const measurement sheared = measure_pixel(made, x, y, aperture, "mj", CLSHEAR_SHEAR_EQUAL_AREA);
     assert_near(none.slope, -1.0, 0.15);
     assert_at_most(sheared.slope, -1.35);
     assert_at_least(none.error[2], 5.0 * sheared.error[2]);
@@ -92,17 +91,18 @@ static void box_edge_converges_faster(void **state)
     expect_gain(*state, 146, 330, "disk");
 }
 
-/* A 4D net gains from shear too: less than pairs, since it does not start at -1. A ratio of 3 that
- * comes out below 1.5 by chance takes 5.5 standard errors, 4e-8. */
+/* A 4D net gains from shear too, but less than pairs, because its slope without shear is already
+ * below -1. A ratio of 3 falls below 1.5 by chance at 5.5 standard errors, 4e-8. */
 static void nets_converge_faster(void **state)
 {
     static const char *const samplers[] = {"sobol", "halton", "sz"};
     test_fixture *made = *state;
     for (int i = 0; i < 3; i++) {
         const char *sampler = samplers[i];
-        const measurement none = measure(made, 146, 330, "square", sampler, CLSHEAR_SHEAR_NONE);
+        const measurement none =
+            measure_pixel(made, 146, 330, "square", sampler, CLSHEAR_SHEAR_NONE);
         const measurement sheared =
-            measure(made, 146, 330, "square", sampler, CLSHEAR_SHEAR_EQUAL_AREA);
+            measure_pixel(made, 146, 330, "square", sampler, CLSHEAR_SHEAR_EQUAL_AREA);
         assert_at_most(sheared.slope, -1.35);
         assert_at_least(none.error[2], 1.5 * sheared.error[2]);
     }

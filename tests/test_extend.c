@@ -1,4 +1,4 @@
-/* Renders that go on: the same picture as one that was rendered at once. */
+/* Continued renders: they equal a render in one go. */
 #include "support.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@ static clshear_settings *settings_of(test_fixture *made, const char *sampler, ui
     clshear_settings *settings = test_settings(made->settings, 24, 24, spp);
     test_set(settings, CLSHEAR_SAMPLER, "%s", sampler);
     test_set(settings, CLSHEAR_EXTENDABLE, "1");
-    test_set(settings, CLSHEAR_ORACLE, "centre"); /* a pilot chooses by what it may spend */
+    test_set(settings, CLSHEAR_ORACLE, "centre"); /* a pilot's choice depends on its budget */
     return settings;
 }
 
@@ -21,8 +21,8 @@ static clshear_film *extend(test_fixture *made, clshear_settings *settings, uint
     return film;
 }
 
-/* Same up to the order in which float sums are rounded: 1e-4 of the plane's largest value, since
- * variances are differences of means. */
+/* Compares films up to the rounding of float sums in another order: 1e-4 of the plane's largest
+ * value, because variances are differences of means. */
 static void expect_same(const clshear_film *a, const clshear_film *b)
 {
     const char *name;
@@ -39,8 +39,8 @@ static void expect_same(const clshear_film *a, const clshear_film *b)
     }
 }
 
-/* From 100 to 300 samples through a file, then to 1024 in memory, for every progressive sampler;
- * counts that are no powers of two, and blocks that are cut in the middle. */
+/* From 100 to 300 samples through a file, then to 1024 in memory, for every progressive sampler.
+ * The counts are not powers of two, and blocks are cut in the middle. */
 static void extended_equals_whole(void **state)
 {
     test_fixture *made = *state;
@@ -69,7 +69,7 @@ static void extended_equals_whole(void **state)
     assert_at_least(seen, 5);
 }
 
-/* What the pilot chose for the first part stays. */
+/* A continued render keeps the pilot's choice. */
 static void the_choice_of_the_pilot_stays(void **state)
 {
     test_fixture *made = *state;
@@ -87,17 +87,17 @@ static void the_choice_of_the_pilot_stays(void **state)
     clshear_settings_free(settings);
 }
 
-/* Stops after a few launches. */
+/* Stops the render after a few launches. */
 static int stop(void *user, const clshear_progress *progress)
 {
     (void)progress;
     return ++*(int *)user >= 3;
 }
 
-/* An extension that is interrupted has lost nothing of the picture it began with: its counts are
- * true, and its mean is that picture's within what the new samples add. Those are blocks of
- * CS_BLOCK = 16 neighbours, of at most the deviation of n / 16 independent samples. Absolute
- * differences of normal variables have 0.8 of their deviation for a mean, over 576 pixels with a
+/* An interrupted continuation loses nothing of its base: its sample counts are correct, and its
+ * mean equals the base's within the noise of the new samples. New samples come in blocks of
+ * CS_BLOCK = 16 neighbours, with at most the deviation of n / 16 independent samples. The mean
+ * absolute difference of normal variables is 0.8 of their deviation, over 576 pixels with a
  * deviation of 0.025: the limit is eight of these away. */
 static void an_interrupted_extension_is_whole(void **state)
 {
@@ -130,8 +130,8 @@ static int stop_at_once(void *user, const clshear_progress *progress)
     return 1;
 }
 
-/* Stopped in the pilot that measures the gain, before a pass has begun: the picture is the old one,
- * but for the rounding of means to float, and says so; the gain is not known. */
+/* A continuation that stops in the gain's pilot, before any pass, returns the old picture up to the
+ * rounding of means to float. The film is marked incomplete and its gain is unknown. */
 static void an_extension_that_never_began_is_whole(void **state)
 {
     test_fixture *made = *state;
@@ -152,9 +152,10 @@ static void an_extension_that_never_began_is_whole(void **state)
     clshear_settings_free(settings);
 }
 
-/* Continues `base` with one setting changed. */
-static void refuse(test_fixture *made, const clshear_film *base, const clshear_settings *settings,
-                   clshear_setting changed, const char *value, const char *words)
+/* Expects a refusal to continue `base` with one setting changed. */
+static void refuse_continuation(test_fixture *made, const clshear_film *base,
+                                const clshear_settings *settings, clshear_setting changed,
+                                const char *value, const char *words)
 {
     clshear_settings *other = NULL;
     clshear_film *film = NULL;
@@ -166,7 +167,7 @@ static void refuse(test_fixture *made, const clshear_film *base, const clshear_s
     clshear_settings_free(other);
 }
 
-static void what_does_not_continue_is_refused(void **state)
+static void mismatched_bases_are_refused(void **state)
 {
     test_fixture *made = *state;
     clshear_settings *settings = settings_of(made, "sobol", 64);
@@ -177,15 +178,16 @@ static void what_does_not_continue_is_refused(void **state)
     test_set(settings, CLSHEAR_EXTENDABLE, "0");
     clshear_film *plain = test_render(made->scene, settings);
     test_set(settings, CLSHEAR_SPP, "128");
-    refuse(made, plain, settings, CLSHEAR_SPP, "128", "extendable");
-    refuse(made, base, settings, CLSHEAR_SAMPLER, "mj", "mj cannot extend");
+    refuse_continuation(made, plain, settings, CLSHEAR_SPP, "128", "extendable");
+    refuse_continuation(made, base, settings, CLSHEAR_SAMPLER, "mj", "mj cannot extend");
     test_set(settings, CLSHEAR_EXTENDABLE, "1");
-    refuse(made, base, settings, CLSHEAR_SAMPLER, "halton", "another sampler");
-    refuse(made, base, settings, CLSHEAR_SEED, "1", "another seed");
-    refuse(made, base, settings, CLSHEAR_SHEAR, "none", "another shear");
-    refuse(made, base, settings, CLSHEAR_SPP, "64", "64 samples per pixel already");
-    refuse(made, base, settings, CLSHEAR_CROP, "0,8,0,8", "crop");
-    refuse(made, base, settings, CLSHEAR_FOCAL_DISTANCE, "931", "another focal-distance");
+    refuse_continuation(made, base, settings, CLSHEAR_SAMPLER, "halton", "another sampler");
+    refuse_continuation(made, base, settings, CLSHEAR_SEED, "1", "another seed");
+    refuse_continuation(made, base, settings, CLSHEAR_SHEAR, "none", "another shear");
+    refuse_continuation(made, base, settings, CLSHEAR_SPP, "64", "64 samples per pixel already");
+    refuse_continuation(made, base, settings, CLSHEAR_CROP, "0,8,0,8", "crop");
+    refuse_continuation(made, base, settings, CLSHEAR_FOCAL_DISTANCE, "931",
+                        "another focal-distance");
     clshear_film_free(base);
     clshear_film_free(plain);
     clshear_settings_free(settings);
@@ -198,7 +200,7 @@ int main(void)
         cmocka_unit_test(an_interrupted_extension_is_whole),
         cmocka_unit_test(an_extension_that_never_began_is_whole),
         cmocka_unit_test(the_choice_of_the_pilot_stays),
-        cmocka_unit_test(what_does_not_continue_is_refused),
+        cmocka_unit_test(mismatched_bases_are_refused),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);
 }

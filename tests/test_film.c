@@ -1,4 +1,4 @@
-/* Pictures and their metadata, as other programs read them: looked at with oiiotool. */
+/* Written pictures and their metadata, as read by oiiotool. */
 #include "support.h"
 
 #include <pthread.h>
@@ -27,7 +27,7 @@ static clshear_film *make_film(void)
     return film;
 }
 
-/* What a command prints. */
+/* The output of a command. */
 static const char *output_of(const char *format, const char *path)
 {
     static char text[16384];
@@ -79,7 +79,7 @@ static void pictures_are_srgb(void **state)
     for (int c = 0; c < 3; c++) {
         float *pixels = cs_film_add_channel(film, names[c]);
         pixels[0] = 0.2159f; /* sRGB 0.5020, 128 of 255 */
-        pixels[1] = 7.0f;    /* white and beyond */
+        pixels[1] = 7.0f;    /* above white */
     }
     const char *const files[] = {"film.png", "film.tif", "film.jpg"};
     for (int i = 0; i < 3; i++)
@@ -102,7 +102,7 @@ static void failures_leave_files_alone(void **state)
     assert_int_equal(clshear_film_write(film, nowhere), CLSHEAR_BAD_FILE);
     assert_non_null(strstr(clshear_film_message(film), "a.exr"));
     assert_false(exists(nowhere));
-    /* A folder in the way of the final name: written, but it cannot be moved there. */
+    /* A folder has the final name: the file is written, but cannot be renamed. */
     const char *folder = test_path("folder.exr");
     mkdir(folder, 0777);
     assert_int_equal(clshear_film_write(film, folder), CLSHEAR_BAD_FILE);
@@ -113,7 +113,7 @@ static void failures_leave_files_alone(void **state)
 
 static const char *const kinds[] = {"exr", "png", "jpg", "tif"};
 
-/* A file system without room, by a limit on the size of files; libjpeg would end the process. */
+/* A limit on the size of files stands for a full disk. libjpeg would end the process. */
 static void full_disks_are_noticed(void **state)
 {
     const int window[4] = {0, 300, 0, 200};
@@ -158,7 +158,7 @@ static void *count_bytes(void *argument)
     return &count;
 }
 
-/* Pipes are written to, not replaced, and a link goes on leading to its file. */
+/* Pipes are written in place, and a link still leads to its file. */
 static void pipes_and_links_stay(void **state)
 {
     clshear_film *film = make_film();
@@ -195,7 +195,7 @@ static void pipes_and_links_stay(void **state)
     clshear_film_free(film);
 }
 
-/* Sixteen patterns kept for an extension and the gain are more than 64 channels. */
+/* Sixteen stored patterns and the gain have more than 64 channels. */
 static void no_channel_is_lost(void **state)
 {
     clshear_film *film = make_film(), *read = NULL;

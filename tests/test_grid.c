@@ -1,24 +1,26 @@
-/* The grid under the stratified samplers, and the permutations under everything. */
+/* The grid of the stratified samplers, and the permutations of all samplers. */
 #include "support.h"
 
 #include <math.h>
 
 #include "clshear/device/sampler/grid.h"
 
-/* Whether `marks` has each of [0, count) exactly once. */
+/* Returns 1 if `marks` has each of [0, count) exactly once, else 0. */
 static int each_once(const cs_u32 *marks, cs_u32 count)
 {
     unsigned char *seen = calloc(count, 1);
     int good = 1;
     for (cs_u32 i = 0; i < count; i++) {
-        good &= marks[i] < count && !seen[marks[i]];
-        if (marks[i] < count) seen[marks[i]] = 1;
+        if (marks[i] < count && !seen[marks[i]])
+            seen[marks[i]] = 1;
+        else
+            good = 0;
     }
     free(seen);
     return good;
 }
 
-/* Grids are as square as the count allows: counts that users type have real 2D strata. */
+/* Grids are as square as the count allows, so that counts typed by users have real 2D strata. */
 static void grids_are_nearly_square(void **state)
 {
     (void)state;
@@ -34,7 +36,7 @@ static void grids_are_nearly_square(void **state)
     }
 }
 
-/* The orders in which cells are walked leave nothing out. */
+/* The orders of cells are permutations. */
 static void orders_are_bijections(void **state)
 {
     (void)state;
@@ -43,7 +45,7 @@ static void orders_are_bijections(void **state)
         cs_u32 *cells = malloc(n * sizeof *cells), *blocks = malloc(n * sizeof *blocks);
         for (cs_u32 i = 0; i < n; i++) {
             cs_cell a = cs_cell_of(&grid, i), b = cs_cell_in_block_order(&grid, i);
-            /* The partial row's columns are spread: number them by their order. */
+            /* The columns of the partial row are spread; number them by their order. */
             cs_u32 a_column = a.row == grid.rows ? cs_extra_before(&grid, a.column) : a.column;
             cs_u32 b_column = b.row == grid.rows ? cs_extra_before(&grid, b.column) : b.column;
             cells[i] = a.row * grid.columns + a_column;
@@ -78,10 +80,11 @@ static void permutations_are_bijections(void **state)
         }
 }
 
-/* Images of two indices are nearly uniform over the n(n-1) possible pairs. The permutation is cheap
- * rather than perfect: the root mean square of the relative deviations may be 15 %, which with 400
- * keys a cell adds 400 * 0.15^2 = 9 to chi-square per degree of freedom. Chance alone stays below
- * 1.5, so a false alarm is out of the question; with a round less the sum is above 20. */
+/* Images of two indices are nearly uniform over the n(n-1) possible pairs. The permutation is
+ * cheap rather than perfect: the root mean square of the relative deviations may be 15 %. With 400
+ * keys per cell, this adds 400 * 0.15^2 = 9 to chi-square per degree of freedom. Chance alone
+ * stays below 1.5, so a false alarm is practically impossible. With one round less, the sum is
+ * above 20. */
 static void permutations_mix_pairs(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The words made for other programs are those that the renderer uses, and bad requests are refused
- * without harm. */
+/* Data for other programs' kernels equal the renderer's own, and bad requests are refused without
+ * harm. */
 #include "support.h"
 
 #include "clshear/device/lens.h"
@@ -61,7 +61,7 @@ static void bad_patterns_are_refused(void **state)
     clshear_pattern_free(NULL);
 }
 
-/* The lens of these settings is that of a view. */
+/* Expects the lens of these settings to be that of a view. */
 static void expect_optics(const clshear_settings *settings, const cs_view *view,
                           clshear_filter filter, float width_px)
 {
@@ -108,7 +108,7 @@ static void lenses_are_the_renderers(void **state)
     clshear_settings_free(settings);
 }
 
-/* The ray through the middles of image and lens is the line of sight; rays through one place of the
+/* The ray through the middles of image and lens is the line of sight. Rays through one point of the
  * film meet on the focal plane, 4 units away. */
 static void cameras_look_and_focus(void **state)
 {

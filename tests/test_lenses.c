@@ -1,5 +1,5 @@
-/* Every aperture and filter in whole renders: sheared and unsheared agree, and the out-of-focus
- * wall of the Cornell box converges as it should. */
+/* Every aperture and filter in whole renders: sheared and unsheared renders agree, and the
+ * out-of-focus wall of the Cornell box converges at the expected rate. */
 #include "support.h"
 
 #include <math.h>
@@ -40,7 +40,7 @@ enum {
     LENSES = sizeof lenses / sizeof *lenses
 };
 
-/* Means and their variances, green, of 4 x 4 pixels from (x, y) on. */
+/* Means and their variances, in green, of 4 x 4 pixels from (x, y). */
 typedef struct patch {
     double mean[PIXELS];
     double variance[PIXELS];
@@ -58,7 +58,7 @@ static patch render(test_fixture *made, const lens *lens, int x, int y, uint32_t
     test_set(settings, CLSHEAR_BLADE_ROTATION, "20");
     test_set_number(settings, CLSHEAR_SHEAR, shear);
     test_set_number(settings, CLSHEAR_FILTER, lens->filter);
-    test_set_number(settings, CLSHEAR_SEED, shear); /* independent of each other */
+    test_set_number(settings, CLSHEAR_SEED, shear); /* independent seeds */
     test_set_number(settings, CLSHEAR_ANAMORPHIC, (double)lens->anamorphic);
     if (lens->blades > 0) test_set_number(settings, CLSHEAR_BLADES, lens->blades);
     test_ok(clshear_settings_set_aperture(settings, image->luminance, image->width, image->height));
@@ -73,12 +73,12 @@ static patch render(test_fixture *made, const lens *lens, int x, int y, uint32_t
     return result;
 }
 
-/* Places where something happens: the wall, the edge of the tall box, its foot. */
+/* Upper left pixels of the patches: the wall, the edge of the tall box, its foot. */
 static const int places[][2] = {{302, 130}, {146, 330}, {230, 440}};
 
-/* The same integral with 64 replicates of 256 samples each: the sum over 16 pixels of z^2 has mean
- * 16 (16.3, as variances are estimated) and standard deviation 5.8; 60 is far out in its tail,
- * 2e-7 for each of the 39 comparisons. */
+/* Sheared and unsheared means agree, with 64 replicates of 256 samples each. The sum over 16 pixels
+ * of z^2 has mean 16 (16.3, because variances are estimated) and standard deviation 5.8. The limit
+ * of 60 is far in its tail, 2e-7 for each of the 39 comparisons. */
 static void sheared_equals_unsheared(void **state)
 {
     test_fixture *made = *state;
@@ -95,9 +95,9 @@ static void sheared_equals_unsheared(void **state)
         }
 }
 
-/* Slope of the mean variance of 16 pixels of the wall over patterns of 64 to 4096 samples. Its
- * relative standard error is sqrt(2 / 63 / 16) = 0.045 at each size, 0.09 with heavy tails, that of
- * the slope 0.029; -1.35 is 3.5 of them or more above all that is measured. */
+/* Slope of the mean variance of 16 pixels of the wall, over patterns of 64 to 4096 samples. Its
+ * relative standard error is sqrt(2 / 63 / 16) = 0.045 at each size, 0.09 with heavy tails; the
+ * slope's error is 0.029. All measured slopes are at least 3.5 of these below -1.35. */
 static void wall_converges_faster(void **state)
 {
     static const uint32_t sizes[SIZES] = {64, 256, 1024, 4096};
@@ -118,13 +118,13 @@ static void wall_converges_faster(void **state)
         const double gain = unsheared / errors[2];
         printf("%-26s %.2f   %.1f\n", lenses[l].name, fit.slope, gain);
         assert_at_most(fit.slope, -1.35);
-        assert_above(gain, 0.8); /* 0.09 * sqrt(2) for the standard error of its logarithm */
+        assert_above(gain, 0.8); /* the standard error of its logarithm is 0.09 * sqrt(2) */
     }
 }
 
-/* The mean of the integrand over random points of film and lens is the pixel: 20 000 points against
- * a render, |z| < 5, false alarms 6e-7; and points are in the order given: the ends of the lens see
- * the tall box's edge from either side. */
+/* The mean of the integrand over random points of film and lens is the pixel's value: 20 000 points
+ * against a render, |z| < 5, false alarms 6e-7. The points' order is film, then lens: the ends of
+ * the lens see the tall box's edge from either side. */
 static void radiance_is_the_integrand(void **state)
 {
     enum {

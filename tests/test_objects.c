@@ -1,4 +1,4 @@
-/* Objects of the interface: their lives, their messages, and what is refused. */
+/* Public objects: lifetimes, messages and refusals. */
 #include "support.h"
 
 #include <pthread.h>
@@ -23,7 +23,7 @@ static void expect_same_picture(const clshear_film *a, const clshear_film *b)
                             PIXELS * sizeof(float));
 }
 
-/* A scene keeps its context alive, a film needs neither; NULL is freed like anything else. */
+/* A scene keeps its context alive, and a film needs neither. NULL can be freed too. */
 static void any_order_of_freeing_is_fine(void **state)
 {
     test_fixture *made = *state;
@@ -102,7 +102,8 @@ static void *fail_elsewhere(void *argument)
     return (void *)(uintptr_t)(strstr(clshear_message(), "elsewhere.obj") != NULL);
 }
 
-/* A thread sees its own last failure; an object that of any thread, but not those of others. */
+/* A thread sees its own last failure. An object has the last failure of any thread on it, but not
+ * of other objects. */
 static void messages_have_owners(void **state)
 {
     test_fixture *made = *state;
@@ -146,7 +147,7 @@ static void scenes_must_be_complete(void **state)
     clshear_settings_free(settings);
 }
 
-/* A mesh by a program that was compiled with fewer or more members than the library knows. */
+/* Accepts a mesh from a program compiled with fewer or more members than the library has. */
 static void meshes_of_other_versions_are_taken(void **state)
 {
     test_fixture *made = *state;
@@ -189,7 +190,7 @@ static int stop_at_once(void *user, const clshear_progress *state)
     return 1;
 }
 
-/* A stopped render succeeds; what it has can be used. */
+/* A stopped render succeeds, and its film can be used. */
 static void stopped_renders_succeed(void **state)
 {
     test_fixture *made = *state;
@@ -224,7 +225,7 @@ static void failures_leave_results_alone(void **state)
     clshear_settings_free(settings);
 }
 
-/* Interleaved RGB with a gap in front of each pixel and behind each row. */
+/* Interleaved RGB with a gap in front of each pixel and after each row. */
 static void channels_are_copied_with_strides(void **state)
 {
     enum {
@@ -255,7 +256,7 @@ static void channels_are_copied_with_strides(void **state)
     clshear_settings_free(settings);
 }
 
-/* A context on the caller's own OpenCL objects renders the same bits, and films can be put into the
+/* A context on the caller's OpenCL objects renders the same bits, and films can be copied to the
  * caller's buffers. */
 static void foreign_contexts_render_the_same(void **state)
 {

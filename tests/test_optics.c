@@ -1,5 +1,5 @@
-/* Apertures and pixel filters: the tables say what they should, and the shears that go through them
- * keep measure. */
+/* Apertures and pixel filters: their tables are correct, and the shears preserve their
+ * distributions. */
 #include "support.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ enum {
     LENSES = 6
 };
 
-/* A variety of apertures; filters in turn. */
+/* A variety of apertures, with alternating filters. */
 static cs_optics_tables lens(cs_u32 which)
 {
     const cs_view views[LENSES] = {
@@ -39,7 +39,7 @@ enum {
     VARIANTS = 5 * LENSES
 };
 
-/* Where x lies in the filter's distribution. */
+/* The filter's cumulative distribution at x. */
 static cs_f32 filter_rank(const cs_optics_tables *lens, cs_f32 x)
 {
     const cs_f32 *heights = lens->table.items;
@@ -51,7 +51,7 @@ static cs_f32 filter_rank(const cs_optics_tables *lens, cs_f32 x)
     return sum;
 }
 
-/* Cells of equal measure of the four coordinates: v by its distribution given u. */
+/* Index of a cell of equal probability in the four coordinates: v by its distribution given u. */
 static cs_u32 cell_of(const cs_optics_tables *lens, const cs_camera_sample *p)
 {
     const cs_f32 *table = lens->table.items;
@@ -87,8 +87,9 @@ static double chi_square(const cs_optics_tables *lens, cs_f32 shear, cs_u32 salt
     return chi;
 }
 
-/* Film and lens have their own distributions and are independent, sheared or not: chi-square of 256
- * cells, 255 degrees of freedom; 420 is 7.3 standard deviations up, false alarms below 1e-9. */
+/* Film and lens have the right distributions and are independent, sheared or not: chi-square of 256
+ * cells, 255 degrees of freedom. The limit of 420 is 7.3 standard deviations up, false alarms below
+ * 1e-9. */
 static void measure_is_kept(void **state)
 {
     (void)state;
@@ -104,7 +105,7 @@ static void measure_is_kept(void **state)
     }
 }
 
-/* Whatever the tuple, also at its very ends: inside filter and aperture. */
+/* Any tuple, even an extreme one, ends inside filter and aperture. */
 static void extreme_tuples_are_inside(void **state)
 {
     (void)state;
@@ -127,8 +128,8 @@ static void extreme_tuples_are_inside(void **state)
     }
 }
 
-/* The fibre coordinate in x depends on the first coordinate alone and grows with it; through a
- * square so does that in y. */
+/* The fibre coordinate in x depends on the first coordinate alone and increases with it. With a
+ * square aperture, so does the one in y. */
 static void first_pair_fixes_the_fibre(void **state)
 {
     (void)state;
@@ -155,7 +156,7 @@ static void first_pair_fixes_the_fibre(void **state)
     }
 }
 
-/* P(X + s U < t) = a, the left side by numerical integration over the profile. */
+/* P(X + s U < t) = a; the left side is integrated numerically over the marginal. */
 static void fibre_is_a_quantile(void **state)
 {
     (void)state;
@@ -179,7 +180,7 @@ static void fibre_is_a_quantile(void **state)
     }
 }
 
-/* Corners of a regular polygon of area 1 as optics/polygon.c has them, for point-in-polygon. */
+/* Point-in-polygon test for a regular polygon of area 1, with corners as in optics/polygon.c. */
 static int is_in_polygon(int blades, double rotation_deg, double u, double v)
 {
     const double pi = 3.14159265358979, radius = sqrt(2.0 / (blades * sin(2.0 * pi / blades)));
@@ -191,8 +192,8 @@ static int is_in_polygon(int blades, double rotation_deg, double u, double v)
     return 1;
 }
 
-/* Unsheared points lie in the polygon, and have the second moments of one: radius^2 (2 + cos 2
- * pi/n) / 12 in every direction. 100 000 points, |z| < 5.5: false alarms of all below 1e-6. */
+/* Unsheared points lie in the polygon and have its second moments: radius^2 (2 + cos 2 pi/n) / 12
+ * in every direction. 100 000 points, |z| < 5.5: false alarms of all tests below 1e-6. */
 static void polygons_are_regular(void **state)
 {
     (void)state;
@@ -224,7 +225,7 @@ static void polygons_are_regular(void **state)
 }
 
 /* Texels are hit in proportion to their luminance: chi-square, 9 degrees of freedom (10 texels are
- * not dark), false alarms below 1e-6 at 45; dark ones not. */
+ * not dark), false alarms below 1e-6 at 45. Dark texels are not hit. */
 static void images_are_sampled_by_luminance(void **state)
 {
     (void)state;
@@ -252,7 +253,7 @@ static void images_are_sampled_by_luminance(void **state)
     cs_optics_free(&made);
 }
 
-/* Filters integrate to 1, are even, positive and fall from the centre. */
+/* Filters integrate to 1, are even and positive, and decrease from the centre. */
 static void filters_are_filters(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* The oracle: depth to shear, evidence to choice, variance to samples; without tracing. */
+/* The oracle without tracing: shear from depth, rules from evidence, sample counts from
+ * variance. */
 #include "support.h"
 
 #include <math.h>
@@ -7,8 +8,8 @@
 #include "clshear/device/lens.h"
 #include "oracle/choose_rule.h"
 
-/* s = A / w * (F / z - 1): positive in front of the focal plane, zero on it, negative behind; what
- * sees nothing is not sheared. */
+/* s = A / w * (F / z - 1): positive in front of the focal plane, 0 on it, negative behind it, and 0
+ * without a hit. */
 static void depth_becomes_shear(void **state)
 {
     (void)state;
@@ -23,7 +24,7 @@ static void depth_becomes_shear(void **state)
     }
 }
 
-/* Every rule takes its own depth; a centre that sees nothing takes the median. */
+/* Every rule takes its own depth. The centre takes the median if its ray hits nothing. */
 static void rules_take_their_depths(void **state)
 {
     (void)state;
@@ -49,9 +50,9 @@ static cs_f32 uniform(cs_u32 index)
 }
 
 /* The nearest depth has a third of the prior's variance on the left and three times it on the
- * right, under exponential noise; the pilot looked at a quarter of the pixels. Far is hardly
- * better, which is not clear enough. Windows hold 110 values: their mean of exponentials is off by
- * 10 %, so that a wrong choice well inside either half is out of the question. */
+ * right, under exponential noise, and the pilot sampled a quarter of the pixels. The farthest depth
+ * is only slightly better, which is not clear enough. Windows hold 110 values: their mean has an
+ * error of 10 %, so a wrong choice well inside either half is practically impossible. */
 static void clear_evidence_decides(void **state)
 {
     static cs_f32 prior[PIXELS], near[PIXELS], far[PIXELS];
@@ -72,7 +73,7 @@ static void clear_evidence_decides(void **state)
     for (cs_u32 i = 0; i < PIXELS; i++) {
         const cs_u32 x = i % SIDE, y = i / SIDE;
         if (x < 10 || x >= SIDE - 10 || y < 10 || y >= SIDE - 10)
-            continue; /* windows are cut off */
+            continue; /* windows are cut off at the border */
         if (x < SIDE / 2 - 10) assert_int_equal(rules[i], CS_RULE_NEAR);
         if (x >= SIDE / 2 + 10) assert_int_equal(rules[i], CS_RULE_CENTRE);
     }
@@ -94,8 +95,8 @@ static void without_evidence_the_prior_stays(void **state)
         assert_int_equal(rules[i], CS_RULE_MEDIAN);
 }
 
-/* The total is kept, limits hold, and what varies more gets more: a block of pixels with 1000 times
- * the variance gets about 1000^0.4 = 16 times the samples. */
+/* Allocation keeps the total and the limits, and more variance gets more samples: a block of pixels
+ * with 1000 times the variance gets about 1000^0.4 = 16 times the samples. */
 static void samples_follow_variance(void **state)
 {
     static cs_f32 variance[PIXELS], intensity[PIXELS];
@@ -122,9 +123,9 @@ static void samples_follow_variance(void **state)
     assert_int_equal(inside, 16 * outside);
 }
 
-/* One pixel that wants everything: the sampler's largest pattern is the limit, and the mean is not
- * exceeded however small it is. */
-static void sharing_keeps_to_limits(void **state)
+/* With one dominant pixel, the sampler's largest pattern is the limit, and the mean is not
+ * exceeded, however small it is. */
+static void allocation_keeps_limits(void **state)
 {
     static const struct {
         cs_u32 mean, limit, least, most;
@@ -153,7 +154,8 @@ static void sharing_keeps_to_limits(void **state)
     }
 }
 
-/* A pilot that saw an edge between two columns, but no variance in either, does not trust that. */
+/* A pilot with an edge between two columns, but no variance in either, still allocates samples to
+ * the edge. */
 static void contrast_gets_samples(void **state)
 {
     static cs_f32 variance[PIXELS], intensity[PIXELS];
@@ -179,7 +181,7 @@ int main(void)
                                        cmocka_unit_test(rules_take_their_depths),
                                        cmocka_unit_test(clear_evidence_decides),
                                        cmocka_unit_test(without_evidence_the_prior_stays),
-                                       cmocka_unit_test(sharing_keeps_to_limits),
+                                       cmocka_unit_test(allocation_keeps_limits),
                                        cmocka_unit_test(samples_follow_variance),
                                        cmocka_unit_test(contrast_gets_samples)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,6 @@
-/* The device computes what the host computes: the same tuples to the bit, sheared points to a few
- * ulps (division and square root need not be correctly rounded in OpenCL; on CPUs they are). */
+/* The device computes the same as the host: tuples equal bit for bit, and sheared points up to a
+ * few ulps. (Division and square root need not be correctly rounded in OpenCL; on CPUs they
+ * are.) */
 #include "support.h"
 
 #include <math.h>
@@ -42,7 +43,7 @@ static void run_points(cs_device *device, const cs_launch *frame, const cs_array
     cs_buffer_free(profiles);
 }
 
-/* Distance in the last place relative to 1: coordinates are sums and differences of such size. */
+/* Distance in ulps of 1, because coordinates are sums and differences of this size. */
 static double ulps(float a, float b)
 {
     return fabs((double)a - (double)b) * 16777216.0;
@@ -66,8 +67,8 @@ static void compare(const cs_launch *frame, const test_pattern *drawn, const cs_
     }
 }
 
-/* Every sampler meets every lens: shear, aperture, filter, and shear in pixels. The toroidal shear
- * knows disks, squares and boxes only. */
+/* A lens of the test: shear, aperture, filter, and shear in pixels. Every sampler is combined with
+ * every lens. The toroidal shear supports disks, squares and boxes only. */
 typedef struct lens {
     cs_u32 shear_mode;
     clshear_aperture aperture;

@@ -1,4 +1,4 @@
-/* Predicted variance over four coordinates: of waves whose energy is known, and of pixels. */
+/* Predicted variance over four coordinates: of waves with known energy, and of pixels. */
 #include "support.h"
 
 #include <math.h>
@@ -20,8 +20,8 @@ enum {
     WAVES = 5
 };
 
-/* One in each kind of part, with its energy, half the amplitude squared; the last is beyond all
- * frequencies that are added up. */
+/* A wave in each kind of part, with its energy, half the squared amplitude. The last one is beyond
+ * all summed frequencies. */
 static const struct {
     const char *part;
     double amplitude;
@@ -48,10 +48,10 @@ static clshear_status sum_of_waves(void *user, const float *points, size_t count
     return CLSHEAR_OK;
 }
 
-/* Energies are found where they are, whatever the sampler: the function is sampled 4 million times
- * for each part, and what is left of other waves is noise of at most 1e-3. Random points: N times
- * the variance is the energy, 1.08, but for the spectrum's error, at most 4 / sqrt(sets). */
-static void energies_are_where_they_are(void **state)
+/* The energy of each wave appears in its own part, for any sampler. The function is sampled 4
+ * million times for each part, and the noise of other waves is at most 1e-3. For random points, N
+ * times the variance is the energy, 1.08, up to the spectrum's error of at most 4 / sqrt(sets). */
+static void energies_are_in_their_parts(void **state)
 {
     (void)state;
     const clshear_reach reach = {sizeof reach, 128, 15, 4};
@@ -146,10 +146,10 @@ static double measured(pixel *p, const char *sampler, size_t count, size_t sets)
     return variance;
 }
 
-/* In focus, out of focus, and two depths in one pixel; sheared and not. The measured variance of
- * 4000 sets has a relative error of sqrt(2 / 4000) = 2.2 %, the predicted one, where all energy is
- * at one frequency, 1 / sqrt(200) = 7 %: 25 % are 3.4 deviations, false alarms 6 * 7e-4 at worst.
- */
+/* Pixels in focus, out of focus, and with two depths; sheared and not. The measured variance of
+ * 4000 sets has a relative error of sqrt(2 / 4000) = 2.2 %. The prediction, if all energy is at one
+ * frequency, has 1 / sqrt(200) = 7 %. The tolerance of 25 % is 3.4 deviations, false alarms 6 *
+ * 7e-4 at worst. */
 static void pixels_are_predicted(void **state)
 {
     static const int places[3][2] = {{242, 488}, {302, 130}, {154, 213}};
@@ -163,7 +163,7 @@ static void pixels_are_predicted(void **state)
         clshear_points *points = drawn("mj", 256, 200, 3);
         p.x = places[i / 2][0];
         p.y = places[i / 2][1];
-        test_set(p.settings, CLSHEAR_SHEAR, "equal-area"); /* without it there is none */
+        test_set(p.settings, CLSHEAR_SHEAR, "equal-area"); /* without shear the oracle gives 0 */
         test_ok(clshear_pixel_shear(p.made->scene, p.settings, p.x, p.y, &p.shear_px));
         if (i % 2 == 0) test_set(p.settings, CLSHEAR_SHEAR, "none");
         test_ok(
@@ -183,7 +183,7 @@ static void pixels_are_predicted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(energies_are_where_they_are),
+        cmocka_unit_test(energies_are_in_their_parts),
         cmocka_unit_test(wrong_arguments_are_refused),
         cmocka_unit_test_setup_teardown(pixels_are_predicted, test_open_cornell, test_close),
     };

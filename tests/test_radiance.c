@@ -30,7 +30,7 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* Straight down on the plane from height 3. */
+/* Looks straight down at the plane from height 3. */
 static cs_view looking_down(float lens_radius, float focal_distance, clshear_aperture aperture)
 {
     return (cs_view){.eye = {0.2f, 3.0f, -0.1f},
@@ -53,8 +53,9 @@ static double plane_radiance(double x, double z)
     return 0.6 / pi * intensity * dy / (square * sqrt(square));
 }
 
-/* Mean over pixel (px, py) and the lens, by midpoint quadrature of the thin lens: a lens point l
- * and a point f of the focal plane see the plane point l + (f - l) * depth / focal distance. */
+/* Mean over pixel (px, py) and the lens, by midpoint quadrature of the thin lens. A ray from lens
+ * point l through point f of the focal plane hits the plane at l + (f - l) * depth / focal
+ * distance. */
 static double expected_pixel(const cs_view *view, int size, int px, int py)
 {
     enum {
@@ -108,9 +109,10 @@ static clshear_film *render(clshear_scene *scene, const cs_view *view, int size,
     return film;
 }
 
-/* In focus, out of focus in front and behind, pinhole; both apertures, all shears. 12 x 12 pixels;
- * 6 standard errors plus 0.2 % for the quadrature; the standard error from 16 replicates has 15
- * degrees of freedom, so the false-alarm rate is 2e-5 a pixel, far less with the allowance. */
+/* In focus, out of focus in front and behind, pinhole; both apertures, all shears. 12 x 12
+ * pixels; 6 standard errors plus 0.2 % for the quadrature. The standard error from 16 replicates
+ * has 15 degrees of freedom, so the false-alarm rate is 2e-5 per pixel, and far less with the
+ * allowance. */
 static void point_light_over_a_plane(void **state)
 {
     fixture *made = *state;
@@ -135,8 +137,9 @@ static void point_light_over_a_plane(void **state)
         }
 }
 
-/* Seen from far, a light close to the surface: the shadow ray begins 0.03 above it, an offset that
- * must not bring the light nearer. 1e-4 is far below the 6e-4 that it would, and above rounding. */
+/* A distant camera and a light close to the surface: the shadow ray starts 0.03 above the surface,
+ * and this offset must not bring the light nearer. The tolerance of 1e-4 is far below the resulting
+ * error of 6e-4 and above rounding. */
 static void light_stays_where_it_is(void **state)
 {
     fixture *made = *state;
@@ -157,7 +160,7 @@ static void light_stays_where_it_is(void **state)
     clshear_scene_free(floor);
 }
 
-/* Directional light: the same everywhere, albedo / pi * E * cos. */
+/* Directional light is the same everywhere: albedo / pi * E * cos. */
 static void directional_light(void **state)
 {
     fixture *made = *state;
@@ -176,8 +179,8 @@ static void directional_light(void **state)
     clshear_scene_free(floor);
 }
 
-/* A square emitter above the floor: seen from below its centre, the form factor of a parallel
- * rectangle (Howell, catalogue C-11) gives the reflected radiance albedo * L * F. */
+/* A square emitter above the floor. Below its centre, the form factor of a parallel rectangle
+ * (Howell, catalogue C-11) gives the reflected radiance albedo * L * F. */
 static void area_light_over_a_plane(void **state)
 {
     fixture *made = *state;
@@ -204,7 +207,7 @@ static void area_light_over_a_plane(void **state)
                     .lens_radius = 0.0f,
                     .focal_distance = 4.0f};
     clshear_film *film = render(scene, &view, 3, CLSHEAR_SHEAR_EQUAL_AREA);
-    const double x = 0.5, root = sqrt(1.0 + x * x); /* half side / height, both ways */
+    const double x = 0.5, root = sqrt(1.0 + x * x); /* half side over height, both ways */
     const double factor = 4.0 / (2.0 * pi) * 2.0 * x / root * atan(x / root);
     double error = sqrt((double)clshear_film_channel(film, "Variance.R")[4]);
     double value = clshear_film_channel(film, "R")[4];
@@ -212,15 +215,19 @@ static void area_light_over_a_plane(void **state)
     assert_below(error, 0.01);
     clshear_film_free(film);
     /* Seen directly, the panel shows its own radiance and reflects nothing. */
-    view.eye[0] = 0.3f, view.eye[1] = 1.0f, view.target[0] = 0.3f, view.target[1] = 2.0f;
-    view.up[1] = 0.0f, view.up[2] = 1.0f;
+    view.eye[0] = 0.3f;
+    view.eye[1] = 1.0f;
+    view.target[0] = 0.3f;
+    view.target[1] = 2.0f;
+    view.up[1] = 0.0f;
+    view.up[2] = 1.0f;
     film = render(scene, &view, 3, CLSHEAR_SHEAR_EQUAL_AREA);
     assert_near(clshear_film_channel(film, "G")[4], 3.0f, 1e-5f);
     clshear_film_free(film);
     clshear_scene_free(scene);
 }
 
-/* A panel under the light keeps it from the floor below, and only from there. */
+/* A panel under the light shadows the floor below it, and nothing else. */
 static void shadows_fall(void **state)
 {
     fixture *made = *state;
@@ -254,8 +261,8 @@ static void shadows_fall(void **state)
     clshear_scene_free(scene);
 }
 
-/* Nothing hides behind a thin wall, and surfaces do not shadow themselves: a plane lit at grazing
- * incidence far from the origin has neither black nor bright pixels. */
+/* Surfaces do not shadow themselves: a plane in grazing light far from the origin has neither black
+ * nor bright pixels. */
 static void no_acne_far_from_the_origin(void **state)
 {
     fixture *made = *state;
@@ -287,8 +294,8 @@ static void no_acne_far_from_the_origin(void **state)
     clshear_scene_free(scene);
 }
 
-/* What a render would refuse. */
-static void integrands_check_what_they_are_given(void **state)
+/* Integrands refuse the same arguments as a render. */
+static void integrands_check_their_arguments(void **state)
 {
     fixture *made = *state;
     const cs_view view = looking_down(0.1f, 3.0f, CLSHEAR_APERTURE_DISK);
@@ -321,7 +328,7 @@ int main(void)
         cmocka_unit_test(area_light_over_a_plane),
         cmocka_unit_test(shadows_fall),
         cmocka_unit_test(no_acne_far_from_the_origin),
-        cmocka_unit_test(integrands_check_what_they_are_given),
+        cmocka_unit_test(integrands_check_their_arguments),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

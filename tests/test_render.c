@@ -1,4 +1,4 @@
-/* What a render promises, on the Cornell box. */
+/* Guarantees of a render, on the Cornell box. */
 #include "support.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@ enum {
     PIXELS = SIZE * SIZE
 };
 
-/* The Cornell box on a context of its own. */
+/* Opens the Cornell box on a context of its own. */
 static void open_scene(test_fixture *made, int threads, int packet)
 {
     clshear_settings *settings = test_cornell_settings();
@@ -36,7 +36,7 @@ static clshear_settings *small(test_fixture *made, uint32_t spp, uint32_t replic
     return settings;
 }
 
-/* Renders, and frees the settings. */
+/* Renders and frees the settings. */
 static clshear_film *render_once(test_fixture *made, clshear_settings *settings)
 {
     clshear_film *film = test_render(made->scene, settings);
@@ -75,7 +75,7 @@ static void one_seed_gives_one_image(void **state)
     close_scene(&alone);
 }
 
-/* Large images keep their pixels in several buffers: here of 8 rows each, six of them. */
+/* Large images store their pixels in several buffers: here six buffers of 8 rows each. */
 static void pages_do_not_change_a_bit(void **state)
 {
     test_fixture *made = *state;
@@ -105,8 +105,8 @@ static void pages_do_not_change_a_bit(void **state)
     clshear_film_free(parts[1]);
 }
 
-/* Widths differ by rounding only: a sample may fall on the other side of an edge, and the rest
- * agree to a part in 10^4. */
+/* Packet widths differ only by rounding: a sample may fall on the other side of an edge, and the
+ * others agree to a part in 10^4. */
 static void packet_widths_agree(void **state)
 {
     (void)state;
@@ -115,7 +115,7 @@ static void packet_widths_agree(void **state)
     for (int w = 0; w < 4; w++) {
         test_fixture made;
         open_scene(&made, 0, widths[w]);
-        /* 11 blocks, the last one not full */
+        /* 11 blocks, the last one partial */
         clshear_film *film = render_once(&made, small(&made, 2 * 85, 2));
         const float *red = clshear_film_channel(film, "R");
         int different = 0;
@@ -134,7 +134,7 @@ static void a_crop_is_part_of_the_whole(void **state)
 {
     test_fixture *made = *state;
     clshear_settings *settings = small(made, 64, 2);
-    test_set(settings, CLSHEAR_ORACLE, "median"); /* a pilot sees less in a crop */
+    test_set(settings, CLSHEAR_ORACLE, "median"); /* a pilot has less evidence in a crop */
     clshear_film *whole = test_render(made->scene, settings);
     test_set(settings, CLSHEAR_CROP, "5,30,11,22");
     clshear_film *part = render_once(made, settings);
@@ -156,8 +156,8 @@ typedef struct estimates {
     float mean[PIXELS], variance[PIXELS];
 } estimates;
 
-static void measure(test_fixture *made, const char *sampler, clshear_shear shear, uint32_t seed,
-                    estimates *result)
+static void measure_estimates(test_fixture *made, const char *sampler, clshear_shear shear,
+                              uint32_t seed, estimates *result)
 {
     clshear_settings *settings = small(made, 32 * 64, 32);
     test_set(settings, CLSHEAR_SEED, "%u", seed);
@@ -169,10 +169,10 @@ static void measure(test_fixture *made, const char *sampler, clshear_shear shear
     clshear_film_free(film);
 }
 
-/* The image means differ by less than 5 standard errors (false alarms 6e-7), and chi-square of the
- * pixels' z-scores, whose t distribution with about 60 degrees of freedom has variance 1.03, stays
- * below 1.25 a pixel: with 2304 pixels chance alone gives 1.03 +- 0.03. Pixels that hardly vary are
- * left out: their variance is rounding. */
+/* Expects image means to differ by less than 5 standard errors (false alarms 6e-7), and chi-square
+ * of the pixels' z-scores to be below 1.25 per pixel. Their t distribution with about 60 degrees of
+ * freedom has variance 1.03; with 2304 pixels chance alone gives 1.03 +- 0.03. Nearly constant
+ * pixels are left out, because their variance is rounding. */
 static void expect_agreement(const estimates *a, const estimates *b, const char *what)
 {
     double difference = 0.0, error = 0.0, chi = 0.0, used = 0.0;
@@ -194,7 +194,7 @@ static void shears_agree(void **state)
 {
     static estimates of[3];
     for (int shear = 0; shear < 3; shear++)
-        measure(*state, "mj", (clshear_shear)shear, 40u + (uint32_t)shear, &of[shear]);
+        measure_estimates(*state, "mj", (clshear_shear)shear, 40u + (uint32_t)shear, &of[shear]);
     expect_agreement(&of[0], &of[1], "none and toroidal");
     expect_agreement(&of[0], &of[2], "none and equal-area");
     expect_agreement(&of[1], &of[2], "toroidal and equal-area");
@@ -204,17 +204,17 @@ static void samplers_agree(void **state)
 {
     static estimates reference, of;
     clshear_sampler_info info = {.struct_size = sizeof info};
-    measure(*state, "random", CLSHEAR_SHEAR_NONE, 99, &reference);
+    measure_estimates(*state, "random", CLSHEAR_SHEAR_NONE, 99, &reference);
     for (uint32_t i = 0; clshear_sampler_describe(i, &info); i++) {
-        measure(*state, info.name, CLSHEAR_SHEAR_EQUAL_AREA, 50u + i, &of);
+        measure_estimates(*state, info.name, CLSHEAR_SHEAR_EQUAL_AREA, 50u + i, &of);
         expect_agreement(&reference, &of, info.name);
     }
 }
 
 /* The Variance channel is the variance of the pixel's mean. Over 64 seeds of 2 replicates of 32
- * samples, its image mean and that of the variance across seeds agree within 15 %; the relative
- * standard error of either, from batches of seeds, is 2 to 3 %, so this is 4 or more of them. */
-static void variance_channel_is_honest(void **state)
+ * samples, its image mean agrees with the variance across seeds within 15 %. The relative standard
+ * error of either, from batches of seeds, is 2 to 3 %, so the tolerance is at least 4 of these. */
+static void variance_channel_is_correct(void **state)
 {
     test_fixture *made = *state;
     enum {
@@ -251,12 +251,12 @@ static int stop_at_a_third(void *user, const clshear_progress *progress)
     return progress->fraction > 0.3;
 }
 
-/* An interrupted render keeps what it has, says how much that is, and is unbiased: compared pixel
- * by pixel with a finished one, whose sample variance is the better known. It drew whole blocks of
- * CS_BLOCK = 16 neighbouring strata, so its variance is at most 16 times that of as many
- * independent samples; 6 such standard errors, false alarms 2e-9 a pixel. A launch ends with each
- * replicate at the latest, so that the third stops in the second of four however fast the machine.
- */
+/* An interrupted render keeps its samples, reports their number, and is unbiased. Each pixel is
+ * compared with a finished render, whose sample variance is better known. The interrupted one drew
+ * whole blocks of CS_BLOCK = 16 neighbouring strata, so its variance is at most 16 times that of as
+ * many independent samples; 6 such standard errors, false alarms 2e-9 per pixel. A launch ends with
+ * each replicate at the latest, so the third launch stops in the second of four replicates, however
+ * fast the machine is. */
 static void interrupted_renders_are_usable(void **state)
 {
     test_fixture *made = *state;
@@ -307,7 +307,7 @@ static void counts_and_channels(void **state)
     clshear_film_free(film);
 }
 
-/* What is wrong by itself is refused when it is set; what does not go together, by the render. */
+/* Invalid values are refused when they are set, and invalid combinations by the render. */
 static void bad_settings_are_refused(void **state)
 {
     static const struct {
@@ -344,7 +344,7 @@ static void bad_settings_are_refused(void **state)
         clshear_settings_free(wrong);
     }
     assert_null(film);
-    clshear_film_free(render_once(made, settings)); /* nothing was changed */
+    clshear_film_free(render_once(made, settings)); /* the settings are unchanged */
 }
 
 static void bad_contexts_are_refused(void **state)
@@ -372,7 +372,7 @@ int main(void)
         cmocka_unit_test(a_crop_is_part_of_the_whole),
         cmocka_unit_test(shears_agree),
         cmocka_unit_test(samplers_agree),
-        cmocka_unit_test(variance_channel_is_honest),
+        cmocka_unit_test(variance_channel_is_correct),
         cmocka_unit_test(interrupted_renders_are_usable),
         cmocka_unit_test(counts_and_channels),
         cmocka_unit_test(bad_settings_are_refused),

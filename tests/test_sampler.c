@@ -1,5 +1,4 @@
-/* What every sampler of the table must do: be uniform, unbiased, independent, the same in any
- * order. */
+/* Requirements of every sampler: uniform, unbiased, independent, and the same in any order. */
 #include "support.h"
 
 #include <math.h>
@@ -17,9 +16,9 @@ static cs_u32 stratum(cs_f32 value, cs_u32 strata)
     return (cs_u32)((double)value * strata);
 }
 
-/* Over many patterns, one sample's pairs are uniform in the unit square: chi-square on 8 x 8 cells,
- * 63 degrees of freedom, 64 000 patterns. 140 is 6.9 standard deviations above the mean; false
- * alarms below 1e-7 for each of 225 tests. */
+/* Over many patterns, the pairs of one sample are uniform in the unit square: chi-square on 8 x 8
+ * cells, 63 degrees of freedom, 64 000 patterns. The limit of 140 is 6.9 standard deviations above
+ * the mean; false alarms below 1e-7 for each of 225 tests. */
 static void single_samples_are_uniform(void **state)
 {
     static const cs_u32 sizes[] = {1, 7, 16, 101, 1000};
@@ -46,8 +45,8 @@ static void single_samples_are_uniform(void **state)
         }
 }
 
-/* A 4D ball, half a hypercube cut askew, a smooth product, and a mixed moment of the light's pair.
- */
+/* Integrands: a 4D ball, a slanted half of the hypercube, a smooth product, and a mixed moment of
+ * the light's pair. */
 enum {
     INTEGRANDS = 4
 };
@@ -90,8 +89,10 @@ static void estimates_are_unbiased(void **state)
             for (cs_u32 t = 0; t < patterns; t++) {
                 double mean[INTEGRANDS];
                 estimate(&drawn, cs_pattern_key(1, t, 5), mean);
-                for (int k = 0; k < INTEGRANDS; k++)
-                    sum[k] += mean[k], squares[k] += mean[k] * mean[k];
+                for (int k = 0; k < INTEGRANDS; k++) {
+                    sum[k] += mean[k];
+                    squares[k] += mean[k] * mean[k];
+                }
             }
             for (int k = 0; k < INTEGRANDS; k++) {
                 const double mean = sum[k] / patterns;
@@ -104,9 +105,9 @@ static void estimates_are_unbiased(void **state)
         }
 }
 
-/* Patterns of the next seed, pixel and replicate are unrelated: the errors of their estimates do
- * not correlate. 4000 pairs, |r| < 0.09 is 5.7 standard deviations, false alarms 1e-8 for each of
- * 180 tests. */
+/* Patterns of neighbouring seeds, pixels and replicates are unrelated: the errors of their
+ * estimates do not correlate. 4000 pairs; |r| < 0.09 is 5.7 standard deviations, false alarms 1e-8
+ * for each of 180 tests. */
 static void patterns_are_unrelated(void **state)
 {
     static const cs_u32 others[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -126,7 +127,9 @@ static void patterns_are_unrelated(void **state)
                 for (int k = 0; k < INTEGRANDS; k++) {
                     a[k] -= integrals[k];
                     b[k] -= integrals[k];
-                    ab[k] += a[k] * b[k], aa[k] += a[k] * a[k], bb[k] += b[k] * b[k];
+                    ab[k] += a[k] * b[k];
+                    aa[k] += a[k] * a[k];
+                    bb[k] += b[k] * b[k];
                 }
             }
             for (int k = 0; k < INTEGRANDS; k++)
@@ -138,8 +141,8 @@ static void patterns_are_unrelated(void **state)
     }
 }
 
-/* The order of blocks leaves nothing out, and the table in drawing order holds the same samples as
- * in the sequence's. */
+/* The order of blocks is a permutation, and the table in drawing order has the same samples as the
+ * table in the order of the sequence. */
 static void orders_hold_the_same_samples(void **state)
 {
     (void)state;
@@ -169,8 +172,8 @@ static void orders_hold_the_same_samples(void **state)
         }
 }
 
-/* Progressive samplers go on: a longer pattern begins with the shorter one's samples, and a pattern
- * that starts at element `first` has those that follow. */
+/* Progressive samplers: a longer pattern begins with the shorter one's samples, and a pattern from
+ * element `first` continues the sequence. */
 static void progressive_samplers_go_on(void **state)
 {
     cs_error error;
@@ -194,8 +197,8 @@ static void progressive_samplers_go_on(void **state)
     }
 }
 
-/* Constructions hold for large and awkward numbers too: points inside the cube, lattices that are
- * no diagonals. */
+/* Constructions are valid for large and awkward counts too: points are inside the cube, and
+ * lattices are not diagonals. */
 static void large_patterns_are_sound(void **state)
 {
     static const cs_u32 numbers[] = {3194, 59000, 674041, CS_MAX_PATTERN};
@@ -203,7 +206,7 @@ static void large_patterns_are_sound(void **state)
     for (cs_u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
         for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
             if (cs_sampler_count(sampler, numbers[k]) == 0) continue;
-            if (sampler == CS_SAMPLER_CCVT && k > 0) continue; /* takes long */
+            if (sampler == CS_SAMPLER_CCVT && k > 0) continue; /* slow */
             test_pattern drawn = test_pattern_of(sampler, numbers[k], CS_ORDER_COHERENT);
             const cs_u32 count = drawn.pattern.grid.count;
             double products = 0.0;
@@ -220,7 +223,7 @@ static void large_patterns_are_sound(void **state)
         }
 }
 
-/* Every name is found, and others are refused with the list. */
+/* Every name is found, and the message about an unknown name lists all of them. */
 static void names_are_found(void **state)
 {
     cs_error error;

@@ -1,4 +1,4 @@
-/* Scene files: what is read, what is repaired, what is refused. */
+/* Scene files: reading, repairs and refusals. */
 #include "support.h"
 
 #include <math.h>
@@ -35,7 +35,7 @@ static clshear_scene *load(fixture *made, const char *path)
     return scene;
 }
 
-static void refuse(fixture *made, const char *path)
+static void refuse_file(fixture *made, const char *path)
 {
     clshear_scene *scene = NULL;
     const char *name = strrchr(path, '/') + 1;
@@ -59,8 +59,8 @@ static clshear_settings *looking_down_z(double x, double y, double height)
     return settings;
 }
 
-/* Colour in the middle of a square of half width 1 in the plane z = 0, lit head-on so that radiance
- * is albedo: distance 1, intensity pi. */
+/* Renders the colour in the middle of a square of half-width 1 in the plane z = 0. The light is
+ * head-on at distance 1 with intensity pi, so radiance is albedo. */
 static void look_at(clshear_scene *scene, float x, float y, float *colour)
 {
     const float pi = 3.14159265f;
@@ -98,7 +98,7 @@ static void obj_polygons_and_negative_indices(void **state)
     clshear_scene_free(scene);
 }
 
-/* As several statements, and as several names in one. */
+/* Material files in several statements, and several names in one statement. */
 static void several_material_files(void **state)
 {
     fixture *made = *state;
@@ -133,7 +133,7 @@ static void emission_is_seen(void **state)
     clshear_scene_free(scene);
 }
 
-/* A 2 x 2 picture: the lower left texel is the last row's first one. */
+/* Writes a 2 x 2 picture. The lower left texel is the first one of the last row. */
 static void write_picture(const char *name)
 {
     FILE *stream = fopen(test_path(name), "wb");
@@ -165,7 +165,7 @@ static void textures_are_bilinear_and_upright(void **state)
     }
 }
 
-/* Files named by URI, as glTF does it. */
+/* Texture names may be URIs, as in glTF. */
 static void texture_names_are_decoded(void **state)
 {
     fixture *made = *state;
@@ -179,7 +179,7 @@ static void texture_names_are_decoded(void **state)
     clshear_scene_free(scene);
 }
 
-/* Texture coordinates beyond all measure are looked up somewhere, not outside the image. */
+/* Huge texture coordinates do not read outside the image. */
 static void wild_texture_coordinates_are_safe(void **state)
 {
     fixture *made = *state;
@@ -300,11 +300,11 @@ static void gltf_with_camera_and_light(void **state)
 static void bad_files_are_refused(void **state)
 {
     fixture *made = *state;
-    refuse(made, test_path("not_there.obj"));
-    refuse(made, SCENES);
-    refuse(made, test_file("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
-    refuse(made, test_file("infinite.obj", "v 1e39 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
-    refuse(made, test_file("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"));
+    refuse_file(made, test_path("not_there.obj"));
+    refuse_file(made, SCENES);
+    refuse_file(made, test_file("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    refuse_file(made, test_file("infinite.obj", "v 1e39 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    refuse_file(made, test_file("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"));
     const char *const ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
                             "property float y\nproperty float z\nelement face 1\n"
                             "property list uchar int vertex_indices\nend_header\n"
@@ -313,14 +313,14 @@ static void bad_files_are_refused(void **state)
     for (int i = 0; i < 3; i++) {
         char text[512];
         snprintf(text, sizeof text, ply, indices[i]);
-        refuse(made, test_file("range.ply", text));
+        refuse_file(made, test_file("range.ply", text));
     }
-    refuse(made, test_file("none.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"));
-    refuse(made, test_file("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\nl 1 2\n"));
-    refuse(made, test_file("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"));
-    refuse(made, test_file("empty.obj", ""));
-    refuse(made, test_file("prose.txt", "This is not a scene.\n"));
-    refuse(made, test_file("broken.gltf", "{\"asset\":"));
+    refuse_file(made, test_file("none.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"));
+    refuse_file(made, test_file("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\nl 1 2\n"));
+    refuse_file(made, test_file("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"));
+    refuse_file(made, test_file("empty.obj", ""));
+    refuse_file(made, test_file("prose.txt", "This is not a scene.\n"));
+    refuse_file(made, test_file("broken.gltf", "{\"asset\":"));
 }
 
 static void bad_meshes_are_refused(void **state)
@@ -349,11 +349,11 @@ static void bad_meshes_are_refused(void **state)
     }
     test_ok(clshear_scene_add_mesh(scene, &mesh));
     test_ok(clshear_scene_complete(scene));
-    assert_int_equal(test_scene_info(scene).triangles, 1); /* of the refused ones nothing stays */
+    assert_int_equal(test_scene_info(scene).triangles, 1); /* refused meshes leave nothing behind */
     clshear_scene_free(scene);
 }
 
-static void colours_that_are_none_become_black(void **state)
+static void invalid_colours_become_black(void **state)
 {
     fixture *made = *state;
     test_file("odd.mtl", "newmtl a\nKd inf 1 1\nnewmtl b\nKd 0.5 0.25 1\nKe -5 nan 1e38\n");
@@ -374,7 +374,7 @@ static void colours_that_are_none_become_black(void **state)
     clshear_scene_free(scene);
 }
 
-/* A pipe without a writer would be waited for, and a folder has no bytes. */
+/* Pipes and folders are refused: a pipe without a writer would block, and a folder has no bytes. */
 static void pipes_and_folders_are_not_read(void **state)
 {
     fixture *made = *state;
@@ -406,7 +406,7 @@ int main(void)
         cmocka_unit_test(gltf_with_camera_and_light),
         cmocka_unit_test(bad_files_are_refused),
         cmocka_unit_test(bad_meshes_are_refused),
-        cmocka_unit_test(colours_that_are_none_become_black),
+        cmocka_unit_test(invalid_colours_become_black),
         cmocka_unit_test(pipes_and_folders_are_not_read),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -26,7 +26,7 @@ static int close_settings(void **state)
     return 0;
 }
 
-/* One value of a setting, each number `value` but for what must be ordered. */
+/* Fills one value of a setting with `value`, except where the order of numbers matters. */
 static size_t numbers_of(const cs_setting *entry, double value, double *numbers)
 {
     for (size_t i = 0; i < entry->values; i++)
@@ -41,8 +41,8 @@ static clshear_status set_all(clshear_settings *settings, const cs_setting *entr
                                         numbers_of(entry, value, numbers));
 }
 
-/* Both bounds are allowed and what is just beyond is not, for every row; a refusal names the
- * setting and changes nothing. The crop's numbers must rise and packets are powers of two: see
+/* For every row, both bounds are allowed and values just outside are refused. A refusal names the
+ * setting and changes nothing. The crop's numbers must rise and packets are powers of two; see
  * below. */
 static void bounds_are_enforced(void **state)
 {
@@ -74,7 +74,7 @@ static void bounds_are_enforced(void **state)
                  "X0 < X1");
 }
 
-/* The number of numbers counts too. */
+/* The count of numbers is checked too. */
 static void counts_are_enforced(void **state)
 {
     clshear_settings *settings = *state;
@@ -96,7 +96,7 @@ static void counts_are_enforced(void **state)
                  "X,Y,Z");
 }
 
-/* Setters and getters of the wrong kind. */
+/* Setters and getters of the wrong kind fail. */
 static void kinds_are_enforced(void **state)
 {
     clshear_settings *settings = *state;
@@ -123,7 +123,8 @@ static void kinds_are_enforced(void **state)
                  "device");
 }
 
-/* What is printed is taken back and prints the same; fallbacks too, and unset brings them back. */
+/* Printed values can be read and print the same again, fallbacks too. Unsetting restores the
+ * fallbacks. */
 static void texts_come_back(void **state)
 {
     clshear_settings *settings = *state, *other = fresh();
@@ -160,7 +161,7 @@ static void texts_come_back(void **state)
     clshear_settings_free(other);
 }
 
-/* Every float is printed with as many digits as it needs: a record of 0.1f reads back as 0.1f. */
+/* Floats are printed with enough digits: 0.1f reads back as 0.1f. */
 static void floats_survive_texts(void **state)
 {
     clshear_settings *settings = *state;
@@ -227,7 +228,7 @@ static void unknown_settings_are_refused(void **state)
     clshear_settings_unset(settings, none);
 }
 
-/* The table can be walked, and every name and alias is found. */
+/* The table can be enumerated, and every name and alias is found. */
 static void the_table_is_open(void **state)
 {
     clshear_setting_info info = {.struct_size = sizeof info};
@@ -343,7 +344,7 @@ static void apertures_are_checked(void **state)
     assert_near(clshear_lens_extent(settings), 1.0f, 0);
 }
 
-/* A copy keeps what it has, whatever happens to the first. */
+/* A copy is independent of the original. */
 static void copies_are_independent(void **state)
 {
     clshear_settings *settings = fresh(), *copy = NULL;
@@ -370,8 +371,8 @@ static void copies_are_independent(void **state)
     clshear_settings_free(copy);
 }
 
-/* An older program's struct ends earlier: what follows it in memory is left alone. A newer one's is
- * longer: what the library does not know stays as it was. */
+/* The struct of an older program is shorter: memory after it stays unchanged. The struct of a newer
+ * program is longer: members unknown to the library stay unchanged. */
 static void infos_fit_their_callers(void **state)
 {
     struct {

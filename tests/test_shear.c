@@ -1,4 +1,4 @@
-/* The shears keep measure and do what they are for. */
+/* The shears preserve measure and align samples with the fibres. */
 #include "support.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ static cs_f32 uniform(cs_u32 index, cs_u32 dimension)
     return (cs_f32)(cs_key(cs_key(77, index), dimension) >> 8) * (1.0f / 16777216.0f);
 }
 
-/* A square or disk aperture with the usual pixel. */
+/* Shears a tuple, with a square or disk aperture and the usual pixel. */
 static cs_camera_sample sheared(cs_f32 a, cs_f32 b, cs_f32 c, cs_f32 d, cs_u32 mode,
                                 cs_u32 aperture, cs_f32 shear)
 {
@@ -64,8 +64,8 @@ static void points_are_inside(void **state)
                 }
 }
 
-/* Nine integrands whose means over pixel x aperture are known: moments of each coordinate, mixed
- * ones, and a half plane across the fibres. */
+/* Nine integrands with known means over pixel x aperture: moments of each coordinate, mixed
+ * moments, and a half plane across the fibres. */
 enum {
     INTEGRANDS = 9
 };
@@ -88,8 +88,8 @@ static void truths(cs_u32 aperture, double *values)
     memcpy(values, all, sizeof all);
 }
 
-/* Measure is kept: means of 200 000 independent points, |z| < 5.5. There are 594 comparisons; the
- * false-alarm rate of each is 4e-8, of all 2e-5. */
+/* The shears preserve measure: means of 200 000 independent points, |z| < 5.5. There are 594
+ * comparisons; the false-alarm rate of each is 4e-8, of all 2e-5. */
 static void measure_is_kept(void **state)
 {
     (void)state;
@@ -118,8 +118,8 @@ static void measure_is_kept(void **state)
 }
 
 /* The joint distribution is uniform, not only its moments: chi-square of (x, u) on 8 x 8 cells of
- * equal measure (u through the aperture's own distribution), 63 degrees of freedom; 140 is 6.9
- * standard deviations up, false alarms below 1e-7. */
+ * equal probability (u through the aperture's own distribution), 63 degrees of freedom. The limit
+ * of 140 is 6.9 standard deviations up, false alarms below 1e-7. */
 static void film_and_lens_stay_independent(void **state)
 {
     (void)state;
@@ -141,8 +141,8 @@ static void film_and_lens_stay_independent(void **state)
             }
 }
 
-/* After the equal-area shear the fibre coordinates depend on the first pair alone: t_x on a, t_y on
- * a and b, whatever the second pair. */
+/* After the equal-area shear the fibre coordinates depend on the first pair alone, t_x on a and t_y
+ * on a and b, for any second pair. */
 static void first_pair_fixes_the_fibre(void **state)
 {
     (void)state;
@@ -164,8 +164,8 @@ static void first_pair_fixes_the_fibre(void **state)
     }
 }
 
-/* Numerically, the share of the pixel and of the disk's slab at t_x with y - 1/2 + s v < t_y;
- * chords of the slab weighted by their length, v clipped exactly. */
+/* Integrates numerically the share of the pixel and of the disk's slab at t_x with y - 1/2 + s v <
+ * t_y: the slab's chords weighted by their length, v clipped exactly. */
 static double fibre_share(double t_x, double t_y, double s)
 {
     const int steps = 20000;
@@ -186,7 +186,7 @@ static double fibre_share(double t_x, double t_y, double s)
     return below / total;
 }
 
-/* Through the disk, t_y is the quantile b of its distribution given t_x, the lens coordinate u
+/* With the disk, t_y is the quantile b of its distribution given t_x, with the lens coordinate u
  * integrated out. */
 static void disk_fibre_is_a_quantile(void **state)
 {
@@ -204,7 +204,7 @@ static void disk_fibre_is_a_quantile(void **state)
         }
 }
 
-/* The fibre coordinate grows with the first pair, without jumps: no seams. */
+/* The fibre coordinate increases with the first pair without jumps: no seams. */
 static void equal_area_has_no_seams(void **state)
 {
     (void)state;
@@ -223,7 +223,7 @@ static void equal_area_has_no_seams(void **state)
         }
 }
 
-/* The toroidal shear undoes the slope: modulo the wrap, x + s u is the first pair. */
+/* The toroidal shear cancels the slope: modulo the wrap, x + s u is the first pair. */
 static void toroidal_slides_along_fibres(void **state)
 {
     (void)state;
@@ -241,36 +241,36 @@ static void toroidal_slides_along_fibres(void **state)
 
 static cs_f32 disk_fibre(cs_f32 across, cs_f32 blur)
 {
-    const cs_f32 mass = cs_disk_fibre_mass(across);
-    cs_f32 t = cs_disk_fibre_guess(mass, blur);
+    const cs_f32 cdf = cs_disk_fibre_mass(across);
+    cs_f32 t = cs_disk_fibre_guess(cdf, blur);
     cs_i32 rough = 1;
     for (int step = 0; step < 2 && rough; step++)
-        t = cs_disk_fibre_step(t, sqrtf(mass), blur, &rough);
+        t = cs_disk_fibre_step(t, sqrtf(cdf), blur, &rough);
     return across > 0.5f ? -t : t;
 }
 
 /* Inverse and distribution of the disk's marginal agree, and the fibre quantile inverts its
- * distribution (checked by numerical integration of the pixel). */
+ * distribution (checked by numerical integration over the pixel). */
 static void disk_functions_invert(void **state)
 {
     (void)state;
     for (cs_u32 i = 1; i < 4000; i++) {
-        cs_f32 mass = (cs_f32)i / 4000.0f;
-        assert_near(cs_disk_cdf(cs_disk_quantile(mass)), mass, 1e-6f);
+        cs_f32 cdf = (cs_f32)i / 4000.0f;
+        assert_near(cs_disk_cdf(cs_disk_quantile(cdf)), cdf, 1e-6f);
     }
     const cs_f32 blurs[] = {1e-5f, 0.01f, 0.4f, 1.0f, 3.0f, 5.9f, 6.1f, 20.0f};
     for (size_t k = 0; k < sizeof blurs / sizeof *blurs; k++)
         for (cs_u32 i = 1; i < 40; i++) {
-            cs_f32 mass = (cs_f32)i / 40.0f, t = disk_fibre(mass, blurs[k]);
+            cs_f32 cdf = (cs_f32)i / 40.0f, t = disk_fibre(cdf, blurs[k]);
             double sum = 0.0;
             for (int j = 0; j < 4000; j++)
                 sum += cs_disk_cdf((cs_f32)((t - (j + 0.5) / 4000.0 + 0.5) / blurs[k]));
-            assert_near(sum / 4000.0, mass, 3e-4);
+            assert_near(sum / 4000.0, cdf, 3e-4);
         }
 }
 
-/* The thin lens in words: all rays of a raster point meet on the focal plane, and a point at depth
- * z seen through (x, u) appears, through the lens centre, at x + shear * squeeze * u. */
+/* The thin lens: all rays of a raster point meet on the focal plane, and a point at depth z seen
+ * through (x, u) appears, through the lens centre, at x + shear * squeeze * u. */
 static void lens_agrees_with_shear(void **state)
 {
     (void)state;

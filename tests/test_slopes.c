@@ -1,16 +1,15 @@
-/* Variance against N of every sampler on integrands whose rates are known, as a table.
+/* Variance against N of every sampler on integrands with known rates, as a table.
  *
  * Integrands: an axis-aligned step in x; a slanted step in (x, y); a disk in (x, y); a smooth
  * function of (x, y); the half-space x + y + u + v < 2; a smooth function of all four. Expected
- * slopes of the variance: -1 for independent points; one dimension of strata takes 1/d off, -1 -
- * 1/d, for discontinuities, -1 - 2/d for smooth functions (Cook 1986; Singh & Jarosz 2017, table
- * 1).
+ * slopes of the variance: -1 for independent points; stratification in d dimensions gives -1 - 1/d
+ * for discontinuities and -1 - 2/d for smooth functions (Cook 1986; Singh & Jarosz 2017, table 1).
  *
  * Errors: 300 replicates give each variance a relative standard error of sqrt(2/299) = 0.082 (near
  * normal means; heavier tails at most double it), and a slope over 5 sizes spaced by log 4 one of
- * 0.082 / (log 4 sqrt(10)) = 0.019, or 0.037. The intervals below leave 0.15 and more to either
- * side of the expected slope, 4 standard errors even with heavy tails: false alarms below 1e-4 for
- * each row; seeds are fixed. */
+ * 0.082 / (log 4 sqrt(10)) = 0.019, or 0.037. The intervals below leave 0.15 or more to either side
+ * of the expected slope, 4 standard errors even with heavy tails: false alarms below 1e-4 for each
+ * row; seeds are fixed. */
 #include "support.h"
 
 #include <math.h>
@@ -32,7 +31,7 @@ static const cs_u32 sizes[SIZES] = {16, 64, 256, 1024, 4096};
 static void integrands(const cs_f32 *t, double *values)
 {
     const double x = t[0], y = t[1], u = t[2], v = t[3];
-    values[0] = x < 1.0 / 3.0; /* at a third or two of a stratum for all N here */
+    values[0] = x < 1.0 / 3.0; /* a third or two thirds of a stratum for all N here */
     values[1] = x + 0.618 * y < 0.7713;
     values[2] = (x - 0.51) * (x - 0.51) + (y - 0.47) * (y - 0.47) < 0.1153;
     values[3] = exp(sin(6.283185307179586 * (x + 0.1)) + cos(6.283185307179586 * y));
@@ -41,8 +40,8 @@ static void integrands(const cs_f32 *t, double *values)
                             (v - 0.2) * (v - 0.2)));
 }
 
-/* Means of patterns of one size, for each integrand: means[k][r]. */
-static void measure(cs_u32 sampler, cs_u32 size, cs_u32 *count, double (*means)[REPLICATES])
+/* Computes the means of patterns of one size for each integrand: means[k][r]. */
+static void measure_means(cs_u32 sampler, cs_u32 size, cs_u32 *count, double (*means)[REPLICATES])
 {
     test_pattern drawn = test_pattern_of(sampler, size, CS_ORDER_SEQUENCE);
     *count = drawn.pattern.grid.count;
@@ -62,7 +61,7 @@ static void measure(cs_u32 sampler, cs_u32 size, cs_u32 *count, double (*means)[
     test_pattern_free(&drawn);
 }
 
-/* How many sizes have variances of more than rounding, which is below 1e-14; two at least. */
+/* Number of sizes with variances above rounding (1e-14), at least two. */
 static int sizes_above_rounding(double (*means)[REPLICATES])
 {
     int kept = 2;
@@ -77,13 +76,13 @@ static int sizes_above_rounding(double (*means)[REPLICATES])
     return kept;
 }
 
-/* Slopes of one sampler. */
+/* Measures the slopes of one sampler. */
 static void measure_slopes(cs_u32 sampler, double *slope)
 {
     static double means[SIZES][INTEGRANDS][REPLICATES], of_one[SIZES][REPLICATES];
     cs_u32 count[SIZES];
     for (int i = 0; i < SIZES; i++)
-        measure(sampler, sizes[i], &count[i], means[i]);
+        measure_means(sampler, sizes[i], &count[i], means[i]);
     for (int k = 0; k < INTEGRANDS; k++) {
         double errors[SIZES];
         clshear_fit fit = {.struct_size = sizeof fit};
@@ -98,7 +97,7 @@ static void measure_slopes(cs_u32 sampler, double *slope)
 typedef struct expectation {
     cs_u32 sampler;
     int integrand;
-    double low, high; /* of the slope */
+    double low, high; /* bounds of the slope */
 } expectation;
 
 static const expectation expected[] = {
@@ -120,7 +119,7 @@ static const expectation expected[] = {
     {CS_SAMPLER_SOBOL_PAIRS, 4, -1.15, -0.85},
 };
 
-/* Steeper than jittering where the function is smooth. */
+/* Samplers with steeper slopes than jittering for smooth functions. */
 static const cs_u32 steeper[] = {CS_SAMPLER_CCVT, CS_SAMPLER_SOBOL, CS_SAMPLER_SOBOL_PAIRS,
                                  CS_SAMPLER_SZ};
 

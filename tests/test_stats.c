@@ -74,7 +74,7 @@ static void empty_sets_change_nothing(void **state)
     assert_near(cs_moments_merge(none, none).count, 0.0f, 0);
 }
 
-/* A million small terms on a large one: a plain float sum would lose all of them. */
+/* Sums a million small terms and a large one. A plain float sum would lose all of them. */
 static void exact_sums_lose_nothing(void **state)
 {
     (void)state;

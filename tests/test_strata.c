@@ -1,4 +1,4 @@
-/* The strata that samplers promise. */
+/* The guaranteed strata of the samplers. */
 #include "support.h"
 
 #include <math.h>
@@ -10,24 +10,24 @@
 static const cs_u32 counts[] = {1, 2, 3, 5, 7, 16, 49, 64, 101, 512, 1000, 1024};
 enum {
     COUNTS = sizeof counts / sizeof *counts,
-    DIMENSIONS = 4 /* that promises are about */
+    DIMENSIONS = 4 /* coordinates with guarantees */
 };
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 
-/* Which test looks at which samplers. */
+/* The samplers of each test. */
 static const cs_u32 with_coordinates[] = {CS_SAMPLER_NROOKS, CS_SAMPLER_MJ,  CS_SAMPLER_CMJ,
                                           CS_SAMPLER_OA,     CS_SAMPLER_OA3, CS_SAMPLER_RANK1};
 static const cs_u32 with_pairs[] = {CS_SAMPLER_JITTERED, CS_SAMPLER_MJ, CS_SAMPLER_CMJ};
 static const cs_u32 with_arrays[] = {CS_SAMPLER_OA, CS_SAMPLER_OA3};
 static const cs_u32 nets[] = {CS_SAMPLER_SOBOL, CS_SAMPLER_SOBOL_PAIRS, CS_SAMPLER_SZ};
 
-/* Tests of their own, or no strata. */
+/* Samplers with tests of their own, or without strata. */
 static const cs_u32 others[] = {CS_SAMPLER_HALTON, CS_SAMPLER_JITTERED4D, CS_SAMPLER_RANDOM,
                                 CS_SAMPLER_POISSON, CS_SAMPLER_CCVT};
 
-/* A partition of the tuple's cube into cells[0] x ... x cells[3] boxes that hold equally many
- * points each. */
+/* A partition of the tuple's cube into cells[0] x ... x cells[3] boxes with equally many points
+ * each. */
 typedef struct promise {
     cs_u32 sampler;
     cs_u32 count;
@@ -66,8 +66,8 @@ static void expect_kept(const test_pattern *drawn, const promise *p)
     free(hits);
 }
 
-/* All boxes of `base`^a x base^b x base^c x base^d with a + b + c + d = `total`, each exponent up
- * to most[d]. */
+/* Checks all partitions into base^a x base^b x base^c x base^d boxes with a + b + c + d = `total`
+ * and each exponent up to most[d]. */
 static void expect_elementary(const test_pattern *drawn, cs_u32 base, cs_u32 total,
                               const cs_u32 *most)
 {
@@ -103,7 +103,7 @@ static void coordinates_are_stratified(void **state)
         }
 }
 
-/* Film and lens pairs have one point in each cell of the grid, where it has no partial row. */
+/* Film and lens pairs have one point in each cell of a grid without a partial row. */
 static void pairs_are_stratified(void **state)
 {
     (void)state;
@@ -130,7 +130,7 @@ static void hypergrids_are_stratified(void **state)
     }
 }
 
-/* Strength 2: every two coordinates; strength 3: every three. Primes and prime powers. */
+/* Strength 2 stratifies every two coordinates, strength 3 every three. Primes and prime powers. */
 static void orthogonal_arrays_are_orthogonal(void **state)
 {
     static const cs_u32 strong[] = {27, 64, 125, 343, 512, 729};
@@ -172,7 +172,7 @@ static void nets_fill_elementary_intervals(void **state)
     }
 }
 
-/* Boxes of the bases' powers, as many as points. */
+/* Boxes with sides of powers of the bases, as many as points. */
 static void halton_fills_elementary_intervals(void **state)
 {
     static const promise kept[] = {
@@ -200,7 +200,7 @@ static double torus_distance(const cs_f32 *a, const cs_f32 *b)
 }
 
 /* Points keep their distance in both pairs: 0.65 (Poisson disk) and 0.5 (equal capacity) of the
- * densest packing's. Random points come closer than a hundredth of it. */
+ * densest packing's. The closest random points are below a hundredth of it. */
 static void blue_noise_keeps_its_distance(void **state)
 {
     static const cs_u32 samplers[] = {CS_SAMPLER_POISSON, CS_SAMPLER_CCVT};
@@ -222,8 +222,8 @@ static void blue_noise_keeps_its_distance(void **state)
         }
 }
 
-/* Equal capacity shows in the spectrum: below a fifth of the points' frequency a blue noise set has
- * less than 2 % of the power of random points, a Poisson disk set more. */
+/* Equal capacity is visible in the spectrum. Below a fifth of the points' frequency, a blue noise
+ * set has less than 2 % of the power of random points, and a Poisson disk set more. */
 static void equal_capacity_has_no_low_frequencies(void **state)
 {
     enum {
@@ -255,8 +255,8 @@ static void equal_capacity_has_no_low_frequencies(void **state)
     assert_above(power[1], 0.02);
 }
 
-/* A sampler that is added to the table must be put down here, with the test of its strata or among
- * those that promise none. */
+/* A new sampler in the table must be listed here, with the test of its strata or among the samplers
+ * without strata. */
 static void every_sampler_is_tested(void **state)
 {
     static const struct {
@@ -272,7 +272,7 @@ static void every_sampler_is_tested(void **state)
         int found = 0;
         for (size_t l = 0; l < COUNT_OF(lists); l++)
             for (size_t i = 0; i < lists[l].count; i++)
-                found |= lists[l].samplers[i] == sampler;
+                if (lists[l].samplers[i] == sampler) found = 1;
         if (!found) fail_msg("%s is in no list of this file", cs_sampler_name(sampler));
     }
 }

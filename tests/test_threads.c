@@ -1,5 +1,5 @@
-/* What several threads do at the same time gives what each gives alone, bit for bit. Run it under
- * ThreadSanitizer by scripts/tsan. */
+/* Concurrent work gives the same results as sequential work, bit for bit. scripts/tsan runs this
+ * test under ThreadSanitizer. */
 #include "support.h"
 
 #include <pthread.h>
@@ -12,15 +12,16 @@ enum {
     THREADS = 2
 };
 
-/* cmocka's assertions belong to the thread that runs the test: others return what was wrong. */
+/* A thread's task. Threads return failures as text, because cmocka's assertions only work in the
+ * thread of the test. */
 typedef struct task {
     clshear_context *context;
     clshear_scene *scene;
     clshear_settings *settings;
-    clshear_film *expected; /* of the same render, done alone */
+    clshear_film *expected; /* the same render in one thread */
     clshear_film *written;
     const char *path;
-    const char *wrong; /* NULL: nothing */
+    const char *wrong; /* a failure as text, or NULL */
 } task;
 
 static int is_same(const clshear_film *a, const clshear_film *b)
@@ -49,7 +50,7 @@ static void *render(void *argument)
     return NULL;
 }
 
-/* Runs both tasks at the same time and fails the test if something was wrong. */
+/* Runs both tasks at the same time and fails the test if either fails. */
 static void run_both(void *(*first)(void *), void *(*second)(void *), task *tasks)
 {
     pthread_t threads[THREADS];
@@ -108,7 +109,7 @@ static void two_scenes_of_one_context(void **state)
     clshear_scene_free(floor);
 }
 
-/* With lights of their own, which each render puts on the device for itself. */
+/* The settings have lights of their own, which each render uploads for itself. */
 static void one_scene_two_settings(void **state)
 {
     test_fixture *made = *state;

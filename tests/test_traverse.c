@@ -37,8 +37,9 @@ static void destroy(fixture *made)
     cs_scene_free(&made->scene);
 }
 
-/* Traces RAYS rays (3 planes of origins, 3 of directions) with the kernel. `distances` holds how
- * far each may go and then where it hit, or below 0 where something blocks it. */
+/* Traces RAYS rays (3 planes of origins, 3 of directions) with the kernel. `distances` holds the
+ * length of each ray, and receives the distance of its hit, or a negative number if something
+ * blocks it. */
 static void trace_device(const fixture *made, int packet, int any_hit, const float *rays,
                          float *distances)
 {
@@ -68,7 +69,7 @@ static void trace_device(const fixture *made, int packet, int any_hit, const flo
     cs_device_close(device);
 }
 
-/* Nearest hit by testing every triangle in double precision. */
+/* Distance of the nearest hit, from a test of every triangle in double precision. */
 static double nearest_by_hand(const cs_scene *scene, const double *o, const double *d)
 {
     const uint32_t(*indices)[3] = scene->indices.items;
@@ -104,8 +105,8 @@ static void make_random_rays(float *rays, float reach, float *distances)
     }
 }
 
-/* All packet widths, closest hit and any hit, against the triangles tested one by one. Rays that
- * pass an edge within rounding may differ: 1 in 10 000 is allowed. */
+/* All packet widths, closest hit and any hit, against a test of every triangle. Rays within
+ * rounding of an edge may differ: 1 in 10 000 is allowed. */
 static void hits_equal_brute_force(void **state)
 {
     (void)state;
@@ -143,8 +144,8 @@ static void hits_equal_brute_force(void **state)
     free(truth);
 }
 
-/* Camera rays of a pinhole picture of many triangles: the kernel's distance is the depth that
- * Embree finds, but for rays that graze an edge. */
+/* Camera rays of a pinhole picture of many triangles: the kernel's distance equals Embree's depth,
+ * except for rays that graze an edge. */
 static void hits_equal_embree(void **state)
 {
     (void)state;
@@ -192,7 +193,8 @@ static void hits_equal_embree(void **state)
     free(found);
 }
 
-/* Every triangle is in a leaf, every node is reached once, children lie inside their boxes. */
+/* Checks that every triangle is in a leaf, every node is reached once, and children lie inside
+ * their boxes. */
 static cs_u32 check_subtree(const cs_flat_bvh *bvh, cs_u32 reference, const float (*box)[2],
                             unsigned char *seen)
 {

@@ -1,16 +1,16 @@
-/* The whole way of a sample (tuple, shear, lens, trace, shadow, accumulate) against the same
+/* The whole path of a sample (tuple, shear, lens, trace, shadow, accumulate) against the same
  * samples through Embree.
  *
  *   bench_frame [--mesh box|spheres|terrain] [--triangles N] [--spp N] [--size PX] [--rounds N]
  *               [--threads N] [--packet W] [--lens R] [--sampler NAME] [--aperture disk|square]
  *               [--json FILE]
  *
- * Embree gets its camera rays ready-made, in the kernel's order: its time is intersection, shading,
- * occlusion and sums. Drawing and shearing the same tuples, by the same vector code as the kernel's
- * (cs_draw_sum), is timed apart and added in a second ratio. Rounds are interleaved; medians of the
- * ratios of rounds are printed, against medium and high quality and one, 8, 16 rays or streams at a
- * time. The kernel's own time is held against cs_trace on the same rays: what is left of it is
- * everything that is not traversal. Exits with 1 if the two pictures differ. */
+ * Embree receives precomputed camera rays in the kernel's order: its time is intersection, shading,
+ * occlusion and sums. Drawing and shearing the same tuples, with the kernel's vector code
+ * (cs_draw_sum), is timed separately and added in a second ratio. Rounds are interleaved. The
+ * medians of their ratios are printed against medium and high quality, with one, 8 or 16 rays or
+ * streams at a time. The kernel's time is also compared with cs_trace on the same rays: the rest is
+ * the time without traversal. Exits with 1 if the two pictures differ. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,7 +36,7 @@ typedef struct bench {
     clshear_settings *settings;
     embree_scene *embree[2];
     cs_buffer *origins, *directions, *distances, *hits, *sums, *table;
-    float *radiance[2]; /* mean and squares, by Embree; mean, by the kernel */
+    float *radiance[2]; /* [0]: mean and squares by Embree; [1]: mean by the kernel */
     float *reach;
     int *faces;
 } bench;
@@ -60,7 +60,7 @@ static double embree_s(bench *state, int kind)
     return cs_now_s() - start_s;
 }
 
-/* Drawing and shearing alone, for every pixel. */
+/* Measures drawing and shearing alone, for every pixel. */
 static double tuples_s(bench *state)
 {
     const bench_view *view = &state->view;
@@ -86,7 +86,7 @@ static double tuples_s(bench *state)
     return took_s;
 }
 
-/* Tracing alone, of the rays that the buffers hold. */
+/* Measures tracing alone, of the rays in the buffers. */
 static double trace_s(bench *state, int any_hit, const float *reach)
 {
     cs_device *device = state->context->device;
@@ -114,7 +114,7 @@ static void upload(bench *state, const float *origins, const float *directions)
     bench_must(cs_buffer_write(state->directions, 0, size, directions, error));
 }
 
-/* Rays from what camera rays hit to the light, in place of these. */
+/* Replaces the camera rays by shadow rays from their hits to the light. */
 static void upload_shadow_rays(bench *state)
 {
     const ray_planes *rays = &state->view.rays;
@@ -207,10 +207,10 @@ typedef struct times {
     double embree[KINDS][BENCH_MOST_ROUNDS];
 } times;
 
-static void measure(bench *state, times *t)
+static void measure_rounds(bench *state, times *t)
 {
     const ray_planes *rays = &state->view.rays;
-    kernel_s(state); /* compiles */
+    kernel_s(state); /* compiles the kernel */
     tuples_s(state);
     for (int round = 0; round < state->rounds; round++) {
         for (int kind = 0; kind < KINDS; kind++)
@@ -236,7 +236,7 @@ static void report(bench *state, times *t)
 {
     const int rounds = state->rounds;
     const double samples = 1e-6 * (double)state->view.rays.count;
-    double best[2] = {INFINITY, INFINITY}; /* of one ray at a time, of all */
+    double best[2] = {INFINITY, INFINITY}; /* best time with one ray per call, and with any mode */
     double best_free[2] = {INFINITY, INFINITY};
     bench_record *record = bench_record_begin(state->json, "frame");
     bench_record_text(record, "mesh", state->view.mesh);
@@ -306,14 +306,9 @@ int main(int argc, char **argv)
                    .aperture = "disk"};
     static times t;
     bench_view *view = &state.view;
-    const bench_flag flags[] = {{.name = "mesh", .text = &view->mesh},
-                                {.name = "triangles", .count = &view->triangles},
-                                {.name = "spp", .number = &view->spp},
-                                {.name = "size", .number = &view->size},
+    const bench_flag flags[] = {BENCH_VIEW_FLAGS(view),
                                 {.name = "rounds", .number = &state.rounds},
-                                {.name = "threads", .number = &view->threads},
                                 {.name = "packet", .number = &state.packet},
-                                {.name = "lens", .real = &view->lens_radius},
                                 {.name = "sampler", .text = &state.sampler},
                                 {.name = "aperture", .text = &state.aperture},
                                 {.name = "json", .text = &state.json}};
@@ -333,7 +328,7 @@ int main(int argc, char **argv)
            view->mesh, cs_scene_triangle_count(&view->scene), view->size, view->size, view->spp,
            cs_sampler_name(view->sampler), state.aperture, cs_device_packet(state.context->device),
            cs_device_threads(state.context->device));
-    measure(&state, &t);
+    measure_rounds(&state, &t);
     report(&state, &t);
     const double off = difference(&state);
     printf("pictures differ by %.1e of their mean\n", off);

@@ -1,12 +1,12 @@
-/* Traversal: our kernel against Embree, with the same rays and threads.
+/* Traversal: the kernel against Embree, with the same rays and threads.
  *
  *   bench_traverse [--mesh box|spheres|terrain] [--triangles N] [--spp N] [--size PX] [--rounds N]
  *                  [--threads N] [--packet W] [--lens R] [--json FILE]
  *
- * Camera rays are drawn by the renderer's sampler, sheared and sent through its lens; shadow rays
- * go from what they hit to a point light. Embree traces them one by one, in packets of 8 and 16 and
- * as streams, in scenes of medium and high quality. Rounds are interleaved, Embree then kernel, and
- * the medians of the rounds' ratios are printed. Exits with 1 if the hits disagree. */
+ * Camera rays are drawn by the renderer's sampler, sheared and sent through its lens. Shadow rays
+ * go from their hits to a point light. Embree traces them one by one, in packets of 8 and 16 and as
+ * streams, in scenes of medium and high quality. Rounds are interleaved, Embree then kernel, and
+ * the medians of their ratios are printed. Exits with 1 if the hits disagree. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,8 +26,8 @@ typedef struct bench {
     cs_error error;
     cs_device *device;
     cs_buffer *nodes, *triangles, *origins, *directions, *distances, *hits;
-    embree_scene *embree[2]; /* medium, high */
-    float *found[2];         /* distances by Embree and by the kernel */
+    embree_scene *embree[2]; /* medium and high quality */
+    float *found[2];         /* distances by Embree, by the kernel */
     int *faces;
 } bench;
 
@@ -38,7 +38,8 @@ static void must(bench *state, clshear_status status)
     exit(1);
 }
 
-/* Turns rays that hit something into rays from there to a light; the others get no reach. */
+/* Replaces rays with a hit by rays from the hit to the light. The length of the others becomes
+ * 0. */
 static void make_shadow_rays(bench *state)
 {
     ray_planes *rays = &state->view.rays;
@@ -63,7 +64,7 @@ static void upload_rays(bench *state)
     must(state, cs_buffer_write(state->directions, 0, 3 * plane, rays->directions, &state->error));
 }
 
-/* Seconds that the kernel takes for all rays. */
+/* Measures the kernel's seconds for all rays. */
 static double kernel_s(bench *state, int any_hit)
 {
     const ray_planes *rays = &state->view.rays;
@@ -95,7 +96,7 @@ static double embree_s(bench *state, int kind, int any_hit)
     return cs_now_s() - start_s;
 }
 
-/* Share of rays whose distances differ by more than a part in 10^4. */
+/* Share of rays with distances that differ by more than a part in 10^4. */
 static double disagreement(const bench *state)
 {
     size_t different = 0;
@@ -115,7 +116,7 @@ static size_t rays_with_reach(const ray_planes *rays)
     return count;
 }
 
-/* Median seconds: those of each kind, then the kernel's. */
+/* Median seconds of each mode of Embree, then of the kernel. */
 typedef struct outcome {
     double embree_s[KINDS];
     double kernel_s;
@@ -192,7 +193,7 @@ static void tear_down(bench *state)
     bench_view_close(&state->view);
 }
 
-/* How much faster the kernel is for both kinds of rays together, than single rays and than the best
+/* Prints the kernel's speed-up for both kinds of rays together: over single rays, and over the best
  * mode for each kind. */
 static void report(const bench *state, const outcome *camera, const outcome *shadow)
 {
@@ -231,14 +232,9 @@ int main(int argc, char **argv)
                             .sampler = CS_SAMPLER_MJ},
                    .rounds = 7};
     bench_view *view = &state.view;
-    const bench_flag flags[] = {{.name = "mesh", .text = &view->mesh},
-                                {.name = "triangles", .count = &view->triangles},
-                                {.name = "spp", .number = &view->spp},
-                                {.name = "size", .number = &view->size},
+    const bench_flag flags[] = {BENCH_VIEW_FLAGS(view),
                                 {.name = "rounds", .number = &state.rounds},
-                                {.name = "threads", .number = &view->threads},
                                 {.name = "packet", .number = &state.packet},
-                                {.name = "lens", .real = &view->lens_radius},
                                 {.name = "json", .text = &state.json}};
     bench_read_flags(argc, argv, flags, sizeof flags / sizeof *flags);
     state.rounds = bench_rounds(state.rounds);

@@ -58,7 +58,7 @@ static struct RTCIntersectContext context_of(embree_mode mode)
     return context;
 }
 
-/* Fills a packet of Embree's from the batch; lanes from `count` on are off. */
+/* Fills an Embree packet from the batch. Lanes from `count` on are off. */
 #define FILL_PACKET(packet, valid, width, first)                                \
     for (int i = 0; i < (width); i++) {                                         \
         const int from = (first) + i < count ? (first) + i : 0;                 \
@@ -118,7 +118,7 @@ static struct RTCRay single(const embree_batch *batch, int i)
                            .mask = ~0u};
 }
 
-/* One by one, or as a stream. */
+/* Traces rays one by one, or as a stream. */
 static void closest_singles(const embree_scene *scene, embree_mode mode,
                             struct RTCIntersectContext *context, embree_batch *batch, int count)
 {
@@ -232,7 +232,7 @@ void embree_trace(const embree_scene *scene, embree_mode mode, int any_hit, cons
     cs_parallel(scene->threads, rays->count, trace_range, &work);
 }
 
-/* From hits to shadow rays; `weight`: what arrives where nothing is in the way. */
+/* Replaces hits by shadow rays. `weight` is the radiance of an unblocked ray. */
 static void shade(const float *light, float intensity, embree_batch *batch, int count,
                   float *weight)
 {

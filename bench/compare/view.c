@@ -62,7 +62,7 @@ clshear_settings *bench_view_settings(const bench_view *view)
     return settings;
 }
 
-/* The ray of sample number `place` of a pixel's order. */
+/* The ray of sample number `place` in the order of the pixel's samples. */
 static cs_ray ray_at(const bench_view *view, const cs_u32 *rows, cs_u32 pixel, cs_u32 place,
                      float shear_px)
 {

@@ -1,5 +1,5 @@
-/* What Embree makes of a scene: the flattened hierarchy for the device, and depth on the host. No
- * other floor sees Embree. */
+/* Acceleration structures by Embree: the flattened hierarchy for the device, and depths on the
+ * host. In host/, only this folder uses Embree. */
 #ifndef CS_ACCEL_ACCEL_H
 #define CS_ACCEL_ACCEL_H
 
@@ -12,11 +12,11 @@
 
 typedef struct cs_accel cs_accel;
 
-/* The hierarchy as the kernels read it. */
+/* The hierarchy in the kernels' layout. */
 typedef struct cs_flat_bvh {
     cs_array nodes;     /* cs_node; the root is node 0 */
     cs_array triangles; /* cs_triangle, in leaf order; spatial splits repeat some */
-    int depth;          /* of the tree; the traversal's stack needs as many entries */
+    int depth;          /* levels of the tree: entries of the traversal's stack */
 } cs_flat_bvh;
 
 void cs_flat_bvh_free(cs_flat_bvh *bvh);
@@ -30,12 +30,14 @@ void cs_accel_free(cs_accel *accel);
  * scenes. */
 clshear_status cs_accel_build_bvh(const cs_accel *accel, cs_flat_bvh *bvh, cs_error *error);
 
-/* Depths of the pixels of a window, row by row, from a centre ray and `lens_rays` others each (0:
- * the statistics repeat the centre; the optics are not used). optics: their table. window: x0, x1,
- * y0, y1; at most CS_MOST_LENS_RAYS. */
 enum {
-    CS_MOST_LENS_RAYS = 256
+    CS_MOST_LENS_RAYS = 256 /* upper bound of lens rays per pixel */
 };
+
+/* Computes the depths of the pixels of a window, row by row. `optics` is the table of the camera's
+ * lens, `window` is x0, x1, y0, y1 in pixels. Each pixel gets a centre ray and `lens_rays` lens
+ * rays, 0 to CS_MOST_LENS_RAYS. With 0 the statistics repeat the centre and `optics` is not used.
+ */
 clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const cs_f32 *optics,
                               const int *window, int lens_rays, cs_depth *depth, cs_error *error);
 

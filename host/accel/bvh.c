@@ -1,4 +1,5 @@
-/* The binary hierarchy: built by rtcBuildBVH, then flattened for the device. */
+/* The binary hierarchy: Embree's rtcBuildBVH builds it, and this file flattens it for the
+ * device. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,13 +8,14 @@
 #include "base/vec.h"
 
 enum {
-    LEAF_SIZE = 2,        /* packets test two triangles as cheaply as a node */
-    MOST_SPLIT = 1 << 14, /* triangles in scenes that get spatial splits: those help long triangles,
-                             and cost ten times as much as the rest of the build */
+    LEAF_SIZE = 2, /* a packet tests two triangles at the cost of a node */
+    /* Largest scene with spatial splits, in triangles: they help long triangles, but take ten times
+     * as long as the rest of the build. */
+    MOST_SPLIT = 1 << 14,
     MAX_DEPTH = CS_STACK - 2
 };
 
-/* A node of the tree that Embree's callbacks make. Leaves have no children. */
+/* A node of the tree that Embree builds. Leaves have no children. */
 typedef struct build_node {
     struct build_node *child[2];
     struct RTCBounds bounds[2];
@@ -96,7 +98,7 @@ static void intersect_boxes(struct RTCBounds *box, const struct RTCBuildPrimitiv
     box->upper_z = fminf(box->upper_z, limit->upper_z);
 }
 
-/* Bounds of the parts of a triangle on both sides of an axis-aligned plane. */
+/* Computes the bounds of a triangle's parts on both sides of an axis-aligned plane. */
 static void split_triangle(const struct RTCBuildPrimitive *primitive, unsigned axis, float plane,
                            struct RTCBounds *left, struct RTCBounds *right, void *user)
 {
@@ -152,7 +154,8 @@ static void flatten_triangle(const cs_scene *scene, uint32_t index, cs_triangle 
     triangle->flags = ((const uint8_t *)scene->triangle_flags.items)[index];
 }
 
-/* Copies a box, a little enlarged: rounding in the slab test must not lose what touches a face. */
+/* Copies a box and enlarges it a little, so that the slab test's rounding cannot lose a hit on a
+ * face. */
 static void flatten_box(const struct RTCBounds *box, float (*flat)[2])
 {
     const float low[3] = {box->lower_x, box->lower_y, box->lower_z};
@@ -164,7 +167,7 @@ static void flatten_box(const struct RTCBounds *box, float (*flat)[2])
     }
 }
 
-/* The axis along which the centres of the two boxes lie farthest apart. */
+/* The axis with the largest distance between the centres of the two boxes. */
 static unsigned separating_axis(const float (*first)[2], const float (*second)[2], int *ascending)
 {
     unsigned best = 0;
@@ -182,10 +185,10 @@ static unsigned separating_axis(const float (*first)[2], const float (*second)[2
 typedef struct flattening {
     const cs_scene *scene;
     cs_flat_bvh *bvh;
-    int failed; /* out of memory */
+    int failed; /* 1 when out of memory, or if the tree is too deep */
 } flattening;
 
-/* Appends the subtree and returns the reference to it. */
+/* Appends the subtree and returns its reference. */
 static uint32_t flatten(flattening *work, const build_node *node, int depth)
 {
     cs_flat_bvh *bvh = work->bvh;
@@ -193,13 +196,13 @@ static uint32_t flatten(flattening *work, const build_node *node, int depth)
     if (node->count > 0) {
         size_t first = bvh->triangles.count;
         cs_triangle *triangles = cs_array_extend(&bvh->triangles, node->count);
-        work->failed |= triangles == NULL;
+        if (triangles == NULL) work->failed = 1;
         for (uint32_t i = 0; i < node->count && !work->failed; i++)
             flatten_triangle(work->scene, node->triangles[i], &triangles[i]);
         return (uint32_t)CS_LEAF | (node->count - 1) << CS_LEAF_SHIFT | (uint32_t)first;
     }
     size_t index = bvh->nodes.count;
-    work->failed |= cs_array_extend(&bvh->nodes, 1) == NULL || depth >= MAX_DEPTH;
+    if (cs_array_extend(&bvh->nodes, 1) == NULL || depth >= MAX_DEPTH) work->failed = 1;
     if (work->failed) return 0;
     cs_node flat = {0};
     int ascending = 1;
@@ -216,7 +219,7 @@ static uint32_t flatten(flattening *work, const build_node *node, int depth)
     return (uint32_t)index;
 }
 
-/* A node whose second child is empty, for scenes that fit into one leaf. */
+/* Makes a root with an empty second child, for scenes of a single leaf. */
 static build_node wrap_leaf(build_node *leaf, const struct RTCBuildPrimitive *primitives)
 {
     static build_node nothing;
@@ -239,7 +242,9 @@ static clshear_status flatten_tree(const cs_scene *scene, build_node *root,
     if (root->count > 0) {
         build_node wrapped = wrap_leaf(root, primitives);
         cs_node *flat = cs_array_extend(&bvh->nodes, 1);
-        if (flat != NULL) {
+        if (flat == NULL) {
+            work.failed = 1;
+        } else {
             flatten_box(&wrapped.bounds[0], flat->bounds[0]);
             for (int axis = 0; axis < 3; axis++) {
                 flat->bounds[1][axis][0] = 1e30f;
@@ -249,7 +254,6 @@ static clshear_status flatten_tree(const cs_scene *scene, build_node *root,
             ((cs_node *)bvh->nodes.items)->child[0] = leaf;
             ((cs_node *)bvh->nodes.items)->child[1] = leaf;
         }
-        work.failed |= flat == NULL;
     } else {
         flatten(&work, root, 0);
     }

@@ -1,4 +1,4 @@
-/* The depths that every pixel sees. */
+/* Depths in every pixel, traced by Embree. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,20 +10,21 @@
 #include "pattern/pattern.h"
 
 enum {
-    WIDTH = 16, /* rays that Embree traces at once */
-    SETS = 64   /* of rays all over pixel and lens, among which pixels choose at random */
+    WIDTH = 16, /* rays per call of Embree */
+    SETS = 64   /* number of sets of lens rays; each pixel uses one at random */
 };
 
 typedef struct prepass {
     const cs_accel *accel;
     const cs_camera *camera;
     const int *window;
-    const cs_camera_sample *sets; /* SETS * lens_rays */
+    const cs_camera_sample *sets; /* SETS sets of `lens_rays` samples */
     cs_u32 lens_rays;
     cs_depth *depth;
 } prepass;
 
-/* Rays from the left upper corner (x, y) of a pixel. What tracing does not change is set before. */
+/* Sets the lane's ray through the pixel with the upper left corner (x, y). The query's other
+ * members are constant. */
 static void aim(const cs_camera *camera, cs_f32 x, cs_f32 y, const cs_camera_sample *point,
                 int lane, struct RTCRayHit16 *query)
 {
@@ -36,7 +37,8 @@ static void aim(const cs_camera *camera, cs_f32 x, cs_f32 y, const cs_camera_sam
     query->ray.dir_z[lane] = ray.direction[2];
 }
 
-/* Depths along the first `count` rays: directions have a forward component of 1. */
+/* Traces the first `count` rays. Distances are depths, because directions have a forward component
+ * of 1. */
 static void trace(const cs_accel *accel, struct RTCRayHit16 *query, int count, cs_f32 *depth)
 {
     struct RTCIntersectContext context;
@@ -55,7 +57,7 @@ static void trace(const cs_accel *accel, struct RTCRayHit16 *query, int count, c
             query->hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID ? INFINITY : query->ray.tfar[lane];
 }
 
-/* By insertion: mostly there are 16, and many alike. */
+/* Insertion sort: there are usually 16 values, many of them equal. */
 static void sort(cs_f32 *values, cs_u32 count)
 {
     for (cs_u32 i = 1; i < count; i++) {
@@ -67,7 +69,7 @@ static void sort(cs_f32 *values, cs_u32 count)
     }
 }
 
-/* Statistics of `count` depths, which are sorted. */
+/* Sorts `count` depths and computes their statistics. */
 static void summarise(cs_f32 *all, cs_u32 count, cs_depth *depth)
 {
     cs_u32 hits = 0;
@@ -95,12 +97,15 @@ static void depths_of_pixel(const prepass *work, cs_u32 x, cs_u32 y, struct RTCR
     if (work->lens_rays > 0) {
         summarise(all, work->lens_rays, depth);
     } else {
-        depth->near = depth->median = depth->far = depth->centre;
+        depth->near = depth->centre;
+        depth->median = depth->centre;
+        depth->far = depth->centre;
         depth->misses = isfinite(depth->centre) ? 0.0f : 1.0f;
     }
 }
 
-/* Pixels [begin, end) of the window: the centres of WIDTH neighbours at once, then their lenses. */
+/* Computes pixels [begin, end) of the window: first the centres of WIDTH pixels at once, then the
+ * lens rays of each. */
 static void depths_of_range(void *user, size_t begin, size_t end)
 {
     const prepass *work = user;
@@ -127,23 +132,23 @@ static void depths_of_range(void *user, size_t begin, size_t end)
     }
 }
 
-/* Sets of points all over pixel and lens: patterns of `lens_rays` tuples. */
+/* Makes SETS sets of camera samples, each a pattern of `lens_rays` tuples. */
 static clshear_status make_sets(const cs_camera *camera, const cs_f32 *optics, cs_u32 lens_rays,
                                 cs_camera_sample **sets, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_array rows = {0};
+    cs_array table = {0};
     const cs_pattern pattern = cs_pattern_of(CS_SAMPLER_SZ, 0, lens_rays);
-    CS_TRY(cs_sample_table_make(&pattern, CS_ORDER_SEQUENCE, &rows, error));
+    CS_TRY(cs_sample_table_make(&pattern, CS_ORDER_SEQUENCE, &table, error));
     *sets = malloc(SETS * lens_rays * sizeof **sets);
     CS_REQUIRE(*sets != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     for (cs_u32 i = 0; i < SETS * lens_rays; i++) {
         cs_f32 t[CS_DIMENSIONS] = {0};
-        cs_draw(&pattern, rows.items, cs_pattern_key(0, i / lens_rays, 0), i % lens_rays, t);
+        cs_draw(&pattern, table.items, cs_pattern_key(0, i / lens_rays, 0), i % lens_rays, t);
         (*sets)[i] = cs_unsheared(t[0], t[1], t[2], t[3], &camera->optics, optics);
     }
 done:
-    cs_array_free(&rows);
+    cs_array_free(&table);
     return status;
 }
 

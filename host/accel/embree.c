@@ -17,7 +17,7 @@ static void note_failure(void *user, enum RTCError code, const char *text)
             "Embree: %s", text);
 }
 
-/* The scene as Embree traces it; it reads the caller's arrays in place. */
+/* Makes Embree's scene. It reads the caller's arrays in place. */
 static clshear_status attach_triangles(cs_accel *accel, cs_error *error)
 {
     const cs_scene *scene = accel->scene;

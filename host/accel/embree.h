@@ -1,4 +1,4 @@
-/* Inside of cs_accel, for the files of this folder. */
+/* The definition of cs_accel, private to this folder. */
 #ifndef CS_ACCEL_EMBREE_H
 #define CS_ACCEL_EMBREE_H
 
@@ -11,7 +11,7 @@ struct cs_accel {
     RTCDevice device;
     RTCScene traced;
     int threads;
-    cs_error *error; /* while a build runs: where Embree's errors go */
+    cs_error *error; /* destination of Embree's errors during a build */
     int failed;
 };
 

@@ -1,10 +1,11 @@
-/* Energy of a function of four coordinates at frequencies of some of them.
+/* Energy of a function of four coordinates at frequencies of one, two or four of them.
  *
- * The function is sampled on several grids, each shifted at random by a part of a cell, with the
- * other coordinates on a lattice that each cell shifts at random. A transform of one grid is the
- * function's coefficient at k, times a phase that is taken out, plus aliases whose phases depend on
- * the shift, plus noise. Both are independent between grids and 0 on average, so the mean of
- * products of two different grids is |f|^2 without them. */
+ * The function is sampled on several grids, each shifted by a random part of a cell. Within each
+ * cell the other coordinates follow a randomly shifted lattice. The transform of one grid is the
+ * sum of the function's coefficient at k, aliases, and noise. The shift turns the phase of the
+ * coefficient by a known angle, which is removed, and the phases of the aliases by others. Aliases
+ * and noise are therefore independent between grids with mean 0, and the mean product of two
+ * different grids is |f|^2. */
 #include "analysis/energy.h"
 
 #include <fftw3.h>
@@ -18,7 +19,7 @@
 static const double pi = 3.14159265358979323846;
 
 enum {
-    CHUNK = 1 << 16 /* points evaluated at once */
+    CHUNK = 1 << 16 /* points per call of the function */
 };
 
 typedef struct accumulation {
@@ -30,15 +31,15 @@ typedef struct accumulation {
     double *grid;
     fftw_complex *transform;
     fftw_complex *sum;
-    double shift[4]; /* of the group, in cells */
-    float *points;   /* CHUNK * 4 */
-    float *values;   /* CHUNK */
+    double shift[4]; /* shift of the current grid, in cells */
+    float *points;   /* CHUNK points of 4 coordinates */
+    float *values;   /* values at these points */
     fftw_plan plan;
 } accumulation;
 
-/* The coordinates of point number `index` of a group. The lattice's steps are powers of an odd
- * number over that of the samples, a power of two: each coordinate by itself is spread evenly. */
-static void place(const accumulation *a, cs_u32 key, size_t index, float *point)
+/* Computes point number `index` of a grid. The lattice's steps are powers of an odd number over the
+ * number of samples, a power of two, so each coordinate alone is evenly spread. */
+static void place_point(const accumulation *a, cs_u32 key, size_t index, float *point)
 {
     const cs_part_marginal *m = a->marginal;
     const cs_u32 odd = (cs_u32)(0.382 * (double)m->samples) | 1u;
@@ -52,15 +53,15 @@ static void place(const accumulation *a, cs_u32 key, size_t index, float *point)
             (float)(((double)(cell % m->side) + a->shift[d]) / (double)m->side);
 }
 
-/* Fills the grid of one group with means. */
-static clshear_status sample(accumulation *a, cs_u32 key)
+/* Fills the grid of one group with the means of its cells. */
+static clshear_status sample_grid(accumulation *a, cs_u32 key)
 {
     const size_t samples = a->marginal->samples, all = a->cells * samples;
     memset(a->grid, 0, a->cells * sizeof *a->grid);
     for (size_t first = 0; first < all; first += CHUNK) {
         const size_t count = all - first < CHUNK ? all - first : CHUNK;
         for (size_t i = 0; i < count; i++)
-            place(a, key, first + i, a->points + 4 * i);
+            place_point(a, key, first + i, a->points + 4 * i);
         const clshear_status status = a->function(a->user, a->points, count, a->values);
         if (status != CLSHEAR_OK) return status;
         for (size_t i = 0; i < count; i++)
@@ -69,7 +70,7 @@ static clshear_status sample(accumulation *a, cs_u32 key)
     return CLSHEAR_OK;
 }
 
-/* Half turns that the group's shift turns coefficient number `index` by. */
+/* Phase of coefficient number `index` due to the grid's shift, in half turns. */
 static double phase_of(const accumulation *a, size_t index)
 {
     const cs_part_marginal *m = a->marginal;
@@ -83,7 +84,8 @@ static double phase_of(const accumulation *a, size_t index)
     return 2.0 * turns / (double)m->side;
 }
 
-/* Adds the group's coefficients to the sum, and takes their own squares off the energy. */
+/* Adds the group's coefficients to the sum and subtracts their squared magnitudes from the energy,
+ * which leaves the products of different groups. */
 static void add_group(accumulation *a, cs_energy *energy)
 {
     fftw_execute(a->plan);
@@ -98,7 +100,7 @@ static void add_group(accumulation *a, cs_energy *energy)
     }
 }
 
-static clshear_status reserve(accumulation *a, cs_energy *energy, cs_error *error)
+static clshear_status allocate_grids(accumulation *a, cs_energy *energy, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const cs_part_marginal *m = a->marginal;
@@ -132,12 +134,12 @@ clshear_status cs_energy_measure(const cs_part_marginal *marginal, clshear_funct
     cs_u32 key = cs_key(0x656e6572u, (cs_u32)marginal->rank);
     for (int d = 0; d < marginal->rank; d++)
         key = cs_key(key, (cs_u32)marginal->coordinate[d]);
-    CS_TRY(reserve(&a, &energy, error));
+    CS_TRY(allocate_grids(&a, &energy, error));
     for (cs_u32 group = 0; group < CS_ENERGY_GROUPS; group++) {
         const cs_u32 own = cs_key(key, group);
         for (cs_u32 d = 0; d < 4; d++)
             a.shift[d] = (double)cs_key(own ^ 0x73686966u, d) * 0x1p-32;
-        CS_TRY(sample(&a, own));
+        CS_TRY(sample_grid(&a, own));
         add_group(&a, &energy);
     }
     for (size_t i = 0; i < a.coefficients; i++) {

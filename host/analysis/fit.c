@@ -1,4 +1,4 @@
-/* How fast errors fall with the number of samples. */
+/* Slopes of errors over sample counts. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,8 +10,8 @@ enum {
     RESAMPLES = 1000
 };
 
-/* Variance of `count` values, or their mean squared difference from *reference; the values are
- * those at `chosen`, where that is not NULL. */
+/* Variance of `count` values or, unless `reference` is NULL, their mean squared difference from it.
+ * `chosen` selects the values by index; NULL: the first `count`. */
 static double error_of(const double *values, const uint32_t *chosen, size_t count,
                        const double *reference)
 {
@@ -26,14 +26,18 @@ static double error_of(const double *values, const uint32_t *chosen, size_t coun
     return reference != NULL ? square / n : fmax(square - sum * sum / n, 0.0) / (n - 1.0);
 }
 
-/* Least squares in logarithms; NaN for fewer than two points. */
+/* Least squares fit in logarithms. Returns NaN for fewer than two positive errors. */
 static double slope_of(const uint32_t *counts, const double *errors, size_t sizes)
 {
     double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
     for (size_t k = 0; k < sizes; k++) {
         if (!(errors[k] > 0.0)) continue;
         const double a = log(counts[k]), b = log(errors[k]);
-        n += 1.0, x += a, y += b, xx += a * a, xy += a * b;
+        n += 1.0;
+        x += a;
+        y += b;
+        xx += a * a;
+        xy += a * b;
     }
     const double spread = n * xx - x * x;
     return n >= 2.0 && spread > 0.0 ? (n * xy - x * y) / spread : NAN;
@@ -45,7 +49,8 @@ static int by_value(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* The slope of one bootstrap sample. `chosen`, `errors`: room for replicates and sizes. */
+/* Slope of one bootstrap sample. `chosen` and `errors` are scratch memory for `replicates` and
+ * `sizes` entries. */
 static double resampled_slope(const uint32_t *counts, size_t sizes, const double *means,
                               size_t replicates, const double *reference, cs_u32 number,
                               uint32_t *chosen, double *errors)
@@ -59,7 +64,7 @@ static double resampled_slope(const uint32_t *counts, size_t sizes, const double
     return slope_of(counts, errors, sizes);
 }
 
-/* Slope and interval from `found` resampled slopes. */
+/* Stores the slope, and its 95 % interval from `found` resampled slopes. */
 static void summarise(double slope, double *slopes, size_t found, clshear_fit *fit)
 {
     qsort(slopes, found, sizeof *slopes, by_value);
@@ -68,7 +73,8 @@ static void summarise(double slope, double *slopes, size_t found, clshear_fit *f
     fit->slope_high = found > 0 ? slopes[found - 1 - found / 40] : NAN;
 }
 
-static clshear_status check(const uint32_t *counts, size_t sizes, size_t values, cs_error *error)
+static clshear_status check_sizes(const uint32_t *counts, size_t sizes, size_t values,
+                                  cs_error *error)
 {
     if (sizes < 2 || values < 2)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
@@ -91,7 +97,7 @@ clshear_status cs_fit_slope(const uint32_t *counts, size_t sizes, const double *
     double *slopes = calloc(RESAMPLES, sizeof *slopes), *drawn = calloc(sizes + 1, sizeof *drawn);
     uint32_t *chosen = calloc(replicates + 1, sizeof *chosen);
     size_t found = 0;
-    CS_TRY(check(counts, sizes, replicates, error));
+    CS_TRY(check_sizes(counts, sizes, replicates, error));
     CS_REQUIRE(slopes != NULL && drawn != NULL && chosen != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory");
     for (size_t k = 0; k < sizes; k++)
@@ -116,7 +122,7 @@ clshear_status cs_fit_slope_of_parts(const uint32_t *counts, size_t sizes, const
     cs_error *error = cs_thread_error();
     double *slopes = calloc(RESAMPLES, sizeof *slopes), *sums = calloc(sizes + 1, sizeof *sums);
     size_t found = 0;
-    CS_TRY(check(counts, sizes, count, error));
+    CS_TRY(check_sizes(counts, sizes, count, error));
     CS_REQUIRE(slopes != NULL && sums != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     for (cs_u32 s = 0; s < RESAMPLES; s++) {
         const cs_u32 key = cs_key(0x70617274u, s);

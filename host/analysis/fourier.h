@@ -1,9 +1,9 @@
-/* FFTW for callers in several threads. */
+/* Thread safety of FFTW. */
 #ifndef CS_ANALYSIS_FOURIER_H
 #define CS_ANALYSIS_FOURIER_H
 
-/* To be called before anything that makes or destroys plans: FFTW keeps what it knows of all plans
- * in one place, unguarded unless it is told to. */
+/* Makes FFTW's planner thread-safe. Call it before making or destroying plans, because all plans of
+ * a process share one unlocked state. */
 void cs_fourier_start(void);
 
 #endif

@@ -1,4 +1,4 @@
-/* Functions on the unit square whose spectra are known, and their means over point sets. */
+/* Functions on the unit square with known spectra, and means of functions over point sets. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* A row of CLSHEAR_INTEGRAND_LIST; its number is its place. */
+/* A row of CLSHEAR_INTEGRAND_LIST. Its index is the integrand's number. */
 static const struct {
     const char *name;
     double extent;
@@ -59,14 +59,14 @@ double cs_integrand_at(const clshear_integrand *integrand, double x, double y)
 }
 
 enum {
-    PARTS = 4 /* values along a side of a cell */
+    PARTS = 4 /* values along the side of a cell */
 };
 
 typedef struct tabulation {
     const clshear_integrand *integrand;
     size_t side;
     float *cells;
-    double *squares; /* summed, of each row */
+    double *squares; /* sum of squared values, one entry per row */
 } tabulation;
 
 static void tabulate_rows(void *user, size_t begin, size_t end)
@@ -140,7 +140,7 @@ void cs_points_integrate(const clshear_points *points, const clshear_integrand *
     cs_parallel(0, points->sets, integrate_sets, &job);
 }
 
-/* x, y, u and v of point number `index` of all, shifted as its set is. */
+/* Coordinates x, y, u and v of point number `index` over all sets, with its set's random shift. */
 static void shifted(const clshear_points *points, size_t index, int homogenise, uint32_t seed,
                     float *place)
 {

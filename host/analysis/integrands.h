@@ -4,7 +4,7 @@
 
 #include "points/points.h"
 
-/* As the public functions of these names; fail with the calling thread's message. */
+/* Implement the public functions of these names. Errors go to the calling thread's error. */
 clshear_status cs_integrand_find(const char *name, clshear_integrand *integrand);
 double cs_integrand_at(const clshear_integrand *integrand, double x, double y);
 clshear_status cs_integrand_tabulate(const clshear_integrand *integrand, size_t side, float *cells,

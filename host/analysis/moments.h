@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-/* As clshear_variance_of. `count` is 2 or more. */
+/* Implements clshear_variance_of. `count` is 2 or more. */
 void cs_variance_of(const double *values, size_t count, double *variance, double *standard_error);
 
 #endif

@@ -1,22 +1,22 @@
-/* Power spectra of point sets: exponentials are tabulated and multiplied on the device. */
+/* Power spectra of point sets. The device tabulates complex exponentials and multiplies them. */
 #include "analysis/periodogram.h"
 
 #include <stdlib.h>
 
 enum {
-    ROWS = 8,    /* CS_SPECTRUM_ROWS of cl/spectrum.cl */
-    LANES = 16,  /* columns are padded to the widest packet */
-    CHUNK = 1024 /* points whose exponentials are tabulated at once */
+    ROWS = 8,    /* equals CS_SPECTRUM_ROWS of cl/spectrum.cl */
+    LANES = 16,  /* columns are a multiple of the widest packet */
+    CHUNK = 1024 /* points per launch */
 };
 
 typedef struct transform {
     cs_device *device;
     const cs_lattice *lattice;
-    uint32_t counts[2]; /* padded */
-    uint32_t stride;    /* coordinates of a point */
-    cs_buffer *points;  /* CHUNK */
+    uint32_t counts[2]; /* columns and rows, padded */
+    uint32_t stride;    /* floats from one point to the next */
+    cs_buffer *points;  /* coordinates of CHUNK points */
     cs_buffer *x[2];    /* exponentials of columns: real, imaginary */
-    cs_buffer *y[2];    /* of rows */
+    cs_buffer *y[2];    /* exponentials of rows: real, imaginary */
     cs_buffer *sums;
     cs_buffer *power;
 } transform;
@@ -52,7 +52,7 @@ static void release(transform *t)
     cs_buffer_free(t->power);
 }
 
-/* Tabulates the exponentials of columns (side 0) or rows (1). */
+/* Tabulates the exponentials of columns (side 0) or rows (side 1). */
 static clshear_status tabulate(const transform *t, uint32_t count, int side, cs_error *error)
 {
     cs_buffer *const *table = side == 0 ? t->x : t->y;
@@ -68,7 +68,7 @@ static clshear_status tabulate(const transform *t, uint32_t count, int side, cs_
     return CS_RUN(t->device, EXPONENTIALS, items, arguments, error);
 }
 
-/* Adds up to CHUNK points of a set of `all`. */
+/* Adds up to CHUNK points of a set of `all` points. */
 static clshear_status add_chunk(transform *t, const float *points, uint32_t count, uint32_t begins,
                                 uint32_t ends, size_t all, cs_error *error)
 {
@@ -96,7 +96,7 @@ done:
     return status;
 }
 
-/* Without the padding, as means over sets. */
+/* Reads the power, averages it over the sets and drops the padding. */
 static clshear_status read_power(const transform *t, size_t sets, float *power, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
@@ -113,7 +113,7 @@ done:
     return status;
 }
 
-static clshear_status check(const clshear_points *points, cs_error *error)
+static clshear_status check_points(const clshear_points *points, cs_error *error)
 {
     const size_t stride = points->dimensions;
     for (size_t i = 0; i < stride * points->sets * points->count; i++)
@@ -130,7 +130,7 @@ clshear_status cs_periodogram(cs_device *device, const clshear_points *points,
 {
     clshear_status status = CLSHEAR_OK;
     transform t = {.device = device, .lattice = lattice, .stride = (uint32_t)points->dimensions};
-    CS_TRY(check(points, error));
+    CS_TRY(check_points(points, error));
     CS_TRY(prepare(&t, error));
     for (size_t set = 0; set < points->sets; set++)
         for (size_t first = 0; first < points->count; first += CHUNK) {

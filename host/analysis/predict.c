@@ -1,4 +1,4 @@
-/* Variance from the two spectra, of the samples and of the integrand. */
+/* Variance predicted from the spectra of the samples and of the integrand. */
 #include <fftw3.h>
 #include <math.h>
 #include <stddef.h>
@@ -10,26 +10,29 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Cones by their angles in eighths of a half turn. */
+/* Names of the cones: their first angle in degrees. */
 static const char *const part_names[CS_CONES + 1] = {"cone 0",    "cone 22.5",  "cone 45",
                                                      "cone 67.5", "cone 90",    "cone 112.5",
                                                      "cone 135",  "cone 157.5", "tail"};
 
-/* Which cone a frequency lies in; f and -f in the same. */
+/* Index of a frequency's cone. f and -f share one. */
 static int cone_of(double x, double y)
 {
-    double angle = atan2(y, x) / pi; /* half turns */
+    double angle = atan2(y, x) / pi; /* in half turns */
     angle -= floor(angle);
     const int cone = (int)(angle * CS_CONES);
     return cone < CS_CONES ? cone : 0;
 }
 
-/* Energy of the integrand at (x, y), from the half plane of columns that FFTW returns. That the
- * values are means over cells is not undone: it takes as much from smooth functions as aliases add
- * to those with jumps. */
+/* Energy of the integrand at (x, y), from FFTW's half plane of columns. The attenuation by averages
+ * over cells is not corrected: it removes about as much energy from smooth functions as aliases add
+ * to functions with jumps. */
 static double energy_at(const fftw_complex *transform, size_t side, ptrdiff_t x, ptrdiff_t y)
 {
-    if (x < 0) x = -x, y = -y;
+    if (x < 0) {
+        x = -x;
+        y = -y;
+    }
     const size_t row = (size_t)(y < 0 ? y + (ptrdiff_t)side : y);
     const double *value = transform[row * (side / 2 + 1) + (size_t)x];
     const double scale = (double)side * (double)side;
@@ -39,7 +42,7 @@ static double energy_at(const fftw_complex *transform, size_t side, ptrdiff_t x,
 typedef struct frequency {
     ptrdiff_t x;
     ptrdiff_t y;
-    size_t radius; /* of its ring */
+    size_t radius; /* index of its ring */
 } frequency;
 
 static frequency frequency_of(const clshear_spectrum *samples, size_t index)
@@ -51,7 +54,7 @@ static frequency frequency_of(const clshear_spectrum *samples, size_t index)
     return f;
 }
 
-/* The mean power of each ring; `counts` is room for as many numbers. */
+/* Computes the mean power of each ring. `counts` is scratch memory for as many entries. */
 static void ring_means(const clshear_spectrum *samples, double *means, double *counts, size_t rings)
 {
     for (size_t i = 0; i < samples->width * samples->height; i++) {
@@ -63,7 +66,7 @@ static void ring_means(const clshear_spectrum *samples, double *means, double *c
         if (counts[i] > 0.0) means[i] /= counts[i];
 }
 
-/* Sums over all frequencies of the spectrum but 0. */
+/* Sums over all frequencies of the spectrum except 0. */
 static void sum_up(const clshear_spectrum *samples, const fftw_complex *transform, size_t side,
                    const double *rings, clshear_prediction *p)
 {
@@ -103,8 +106,8 @@ clshear_status cs_predict_variance(const clshear_spectrum *samples, const float 
     fftw_plan plan = NULL;
     CS_REQUIRE(side % 2 == 0 && side >= 2 * longer_side(samples) && side <= 16384,
                CLSHEAR_BAD_ARGUMENT,
-               "an integrand of %zu x %zu cells for a spectrum of %zu x %zu: needs an even side of "
-               "twice as many at least",
+               "an integrand of %zu x %zu cells for a spectrum of %zu x %zu: its side must be even "
+               "and at least twice the spectrum's",
                side, side, samples->width, samples->height);
     values = fftw_malloc(side * side * sizeof *values);
     transform = fftw_malloc(side * (side / 2 + 1) * sizeof *transform);

@@ -5,21 +5,21 @@
 #include "analysis/spectrum.h"
 
 enum {
-    CS_CONES = 8,      /* parts of a plane besides the tail */
-    CS_MOST_PARTS = 12 /* of four dimensions */
+    CS_CONES = 8,      /* parts in two dimensions, without the tail */
+    CS_MOST_PARTS = 12 /* parts in four dimensions */
 };
 
 struct clshear_prediction {
     size_t parts;
     const char *names[CS_MOST_PARTS];
     double variances[CS_MOST_PARTS];
-    double energies[CS_MOST_PARTS]; /* NaN where they are not known by parts */
-    double variance;                /* the sum of `variances` */
-    double isotropic;               /* NaN for four dimensions */
+    double energies[CS_MOST_PARTS]; /* energy of each part; NaN in two dimensions */
+    double variance;                /* sum of `variances` */
+    double isotropic;               /* variance from ring means; NaN in four dimensions */
     double energy;                  /* variance of the integrand itself */
 };
 
-/* As the public functions of these names; fail with the calling thread's message. */
+/* Implement the public functions of these names. Errors go to the calling thread's error. */
 clshear_status cs_predict_variance(const clshear_spectrum *samples, const float *integrand,
                                    size_t side, double mean_square, clshear_prediction *prediction);
 clshear_status cs_predict_variance_4d(clshear_context *context, const clshear_points *samples,

@@ -1,5 +1,5 @@
-/* Variance of integrals over four coordinates from the spectra of samples and integrand, in parts
- * that each go as far as they need: axes, planes, a block, and the rest. */
+/* Variance of integrals over four coordinates, predicted from the spectra of samples and integrand.
+ * Each part (axes, planes, block) covers its own range of frequencies; the tail is the rest. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,8 +13,8 @@ enum {
     PLANES = 6,
     BLOCK = AXES + PLANES,
     TAIL = BLOCK + 1,
-    FOLD = 128,           /* frequencies of an axis in a row */
-    GRID_POINTS = 1 << 19 /* that each grid of a part gets at least */
+    FOLD = 128,           /* frequencies of an axis per row of the lattice */
+    GRID_POINTS = 1 << 19 /* least number of points per grid of a part */
 };
 
 static const struct {
@@ -36,11 +36,13 @@ static const struct {
 
 static int reach_of(const clshear_reach *reach, int rank)
 {
-    return (int)(rank == 1 ? reach->axis : rank == 2 ? reach->plane : reach->block);
+    if (rank == 1) return (int)reach->axis;
+    if (rank == 2) return (int)reach->plane;
+    return (int)reach->block;
 }
 
-/* Frequencies -reach ... reach of all coordinates but the last, 0 ... reach of that: the others are
- * their mirror images. An axis is folded into rows of FOLD. */
+/* The frequencies of a part: -reach ... reach in all coordinates, but 0 ... reach in the last,
+ * because the others are mirror images. An axis is folded into rows of FOLD. */
 static cs_lattice lattice_of(int part, int reach)
 {
     const cs_u32 whole = 2 * (cs_u32)reach + 1, half = (cs_u32)reach + 1, last = (cs_u32)reach + 1;
@@ -59,7 +61,7 @@ static cs_lattice lattice_of(int part, int reach)
                         .counts = {whole * whole, whole * half}};
 }
 
-/* The frequency of a cell of the lattice above. */
+/* The frequency of a cell of lattice_of. */
 static void frequency_of(int rank, int reach, size_t column, size_t row, int *k)
 {
     const size_t whole = 2 * (size_t)reach + 1;
@@ -76,8 +78,8 @@ static void frequency_of(int rank, int reach, size_t column, size_t row, int *k)
     }
 }
 
-/* How often a frequency counts in its part: axes have one coordinate that is not 0, planes two, the
- * block three or four; with its mirror image unless that is listed too. */
+/* Weight of a frequency in its part. It is 0 unless an axis has one nonzero coordinate, a plane
+ * two, a block three or four. It is 2 if the lattice leaves out the mirror image. */
 static int weight_of(int rank, int reach, const int *k)
 {
     int used = 0;
@@ -136,8 +138,8 @@ done:
     return status;
 }
 
-/* Variance of the function itself, from well-spread samples: the tail is a small difference of it.
- */
+/* Measures the variance of the function with well-spread samples, because the tail is a small
+ * difference from it. */
 static clshear_status measure_energy(clshear_function function, void *user, double *energy,
                                      cs_error *error)
 {

@@ -1,4 +1,4 @@
-/* What is read off a spectrum: rings, directions, pictures. */
+/* Evaluation of spectra: rings, directions, pictures. */
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@ size_t cs_spectrum_radius(const clshear_spectrum *spectrum)
     return (shorter - 1) / 2;
 }
 
-/* Power at a whole frequency that lies inside. */
+/* Power at a whole frequency within the spectrum. */
 static double power_at(const clshear_spectrum *spectrum, ptrdiff_t x, ptrdiff_t y)
 {
     const size_t column = (size_t)(x + (ptrdiff_t)(spectrum->width / 2));
@@ -22,12 +22,14 @@ static double power_at(const clshear_spectrum *spectrum, ptrdiff_t x, ptrdiff_t 
     return (double)spectrum->power[row * spectrum->width + column];
 }
 
-/* Sum, sum of squares and number of the powers on a ring, of one of each pair f, -f. */
+/* Sums the power, squared power and number of frequencies on a ring, over one of each pair f,
+ * -f. */
 static void sum_ring(const clshear_spectrum *spectrum, ptrdiff_t radius, double *sums)
 {
     for (ptrdiff_t y = 0; y <= radius; y++)
         for (ptrdiff_t x = y == 0 ? 1 : -radius; x <= radius; x++) {
-            const ptrdiff_t square = 4 * (x * x + y * y); /* (2 length)^2, to round the length */
+            const ptrdiff_t square =
+                4 * (x * x + y * y); /* (2 length)^2, for rounding without a square root */
             if (square < (2 * radius - 1) * (2 * radius - 1) ||
                 square >= (2 * radius + 1) * (2 * radius + 1))
                 continue;
@@ -66,7 +68,7 @@ void cs_spectrum_along(const clshear_spectrum *spectrum, double x, double y, flo
     }
 }
 
-/* What the sRGB curve of a written picture turns into `grey`. */
+/* Inverse of the sRGB curve, which the picture's writer applies. */
 static float before_curve(double grey)
 {
     return (float)(grey <= 0.04045 ? grey / 12.92 : pow((grey + 0.055) / 1.055, 2.4));

@@ -1,4 +1,4 @@
-/* Power spectra of points of two dimensions. */
+/* Power spectra of two-dimensional points. */
 #include <stddef.h>
 #include <stdlib.h>
 
@@ -9,7 +9,7 @@ enum {
     MOST_SIDE = 8192
 };
 
-/* The whole plane from columns -width/2 ... width/2 and rows 0 ... height/2, since P(-f) = P(f). */
+/* Fills the whole plane from columns -width/2 ... width/2 and rows 0 ... height/2; P(-f) = P(f). */
 static void unfold(const cs_lattice *lattice, const float *half, clshear_spectrum *spectrum)
 {
     const size_t width = spectrum->width, height = spectrum->height;
@@ -24,8 +24,8 @@ static void unfold(const cs_lattice *lattice, const float *half, clshear_spectru
         }
 }
 
-static clshear_status check(const clshear_points *points, size_t width, size_t height,
-                            cs_error *error)
+static clshear_status check_spectrum(const clshear_points *points, size_t width, size_t height,
+                                     cs_error *error)
 {
     if (points->dimensions != 2)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
@@ -50,7 +50,7 @@ clshear_status cs_spectrum_measure(clshear_context *context, const clshear_point
         .sets = {{{0, 0}, {-(int32_t)(width / 2), 0}, {1, 0}, MOST_SIDE + 1},
                  {{1, 1}, {0, 0}, {1, 0}, MOST_SIDE + 1}},
         .counts = {(uint32_t)(width / 2 * 2 + 1), (uint32_t)(height / 2 + 1)}};
-    CS_TRY(check(points, width, height, error));
+    CS_TRY(check_spectrum(points, width, height, error));
     half = malloc((size_t)lattice.counts[0] * lattice.counts[1] * sizeof *half);
     made.power = malloc(width * height * sizeof *made.power);
     CS_REQUIRE(half != NULL && made.power != NULL, CLSHEAR_OUT_OF_MEMORY,

@@ -1,20 +1,20 @@
-/* Power spectra: measured, transformed, read off, written. */
+/* Power spectra: measurement, Fourier transforms, evaluation and files. */
 #ifndef CS_ANALYSIS_SPECTRUM_H
 #define CS_ANALYSIS_SPECTRUM_H
 
 #include "context/context.h"
 #include "points/points.h"
 
-/* Start from zeros; cs_spectrum_free gives the memory back and leaves zeros. */
+/* A power spectrum. Initialise to zero. cs_spectrum_free frees the memory and zeroes the struct. */
 struct clshear_spectrum {
-    float *power; /* row by row; that of frequency (column - width / 2, row - height / 2) */
+    float *power; /* row by row; frequency (column - width / 2, row - height / 2) */
     size_t width;
     size_t height;
-    size_t sets;  /* that the mean is taken over */
+    size_t sets;  /* number of sets in the mean */
     size_t count; /* points in each set */
 };
 
-/* As the public functions of these names; fail with the calling thread's message. */
+/* Implement the public functions of these names. Errors go to the calling thread's error. */
 clshear_status cs_spectrum_measure(clshear_context *context, const clshear_points *points,
                                    size_t width, size_t height, clshear_spectrum *spectrum);
 clshear_status cs_spectrum_of_grid(const float *values, size_t width, size_t height,
@@ -27,7 +27,7 @@ void cs_spectrum_along(const clshear_spectrum *spectrum, double x, double y, flo
 clshear_status cs_spectrum_write(const clshear_spectrum *spectrum, int keep_dc, const char *path);
 void cs_spectrum_free(clshear_spectrum *spectrum);
 
-/* Writes planes of floats as clshear_image_write does. */
+/* Implements clshear_image_write. */
 clshear_status cs_planes_write(const char *path, int width, int height, size_t channels,
                                const char *const *names, const float *const *planes);
 

@@ -25,13 +25,15 @@ clshear_status cs_spectrum_of_grid(const float *values, size_t width, size_t hei
     plan = fftw_plan_dft_2d((int)height, (int)width, data, data, FFTW_FORWARD, FFTW_ESTIMATE);
     CS_REQUIRE(plan != NULL, CLSHEAR_OUT_OF_MEMORY, "no transform of %zu x %zu values", width,
                height);
-    for (size_t i = 0; i < made.count; i++)
-        data[i][0] = (double)values[i], data[i][1] = 0.0;
+    for (size_t i = 0; i < made.count; i++) {
+        data[i][0] = (double)values[i];
+        data[i][1] = 0.0;
+    }
     fftw_execute(plan);
     for (size_t i = 1; i < made.count; i++)
         sum += data[i][0] * data[i][0] + data[i][1] * data[i][1];
     const double scale = sum > 0.0 ? (double)(made.count - 1) / sum : 0.0;
-    for (size_t i = 0; i < made.count; i++) { /* frequency 0 goes to the middle */
+    for (size_t i = 0; i < made.count; i++) { /* frequency 0 moves to the middle */
         const size_t column = (i % width + width / 2) % width;
         const size_t row = (i / width + height / 2) % height;
         made.power[row * width + column] =

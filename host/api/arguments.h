@@ -1,4 +1,4 @@
-/* What public functions do with their arguments before they forward them. */
+/* Checks and conversions of arguments in public functions. */
 #ifndef CS_API_ARGUMENTS_H
 #define CS_API_ARGUMENTS_H
 
@@ -7,7 +7,7 @@
 
 #include "base/status.h"
 
-/* Fails in the calling function when a pointer that it needs is NULL. */
+/* Returns from the calling function with an error if `pointer` is NULL. */
 #define CS_NEEDS(pointer)                                                                       \
     do {                                                                                        \
         if ((pointer) == NULL)                                                                  \
@@ -15,8 +15,8 @@
                            #pointer);                                                           \
     } while (0)
 
-/* Takes a struct that begins with its size over from a caller that may have an older or a newer
- * version of it: unknown members are left out, missing ones are zero. */
+/* Copies a versioned struct from the caller. Its size is its first member and may be that of an
+ * older or newer version: missing members become zero and unknown ones are ignored. */
 static inline clshear_status cs_struct_in(void *copy, size_t size, const void *given,
                                           const char *name)
 {
@@ -29,7 +29,8 @@ static inline clshear_status cs_struct_in(void *copy, size_t size, const void *g
     return CLSHEAR_OK;
 }
 
-/* Gives a struct that begins with its size to such a caller, whose size stays. */
+/* Copies a versioned struct to the caller, up to the caller's size. The size itself stays
+ * unchanged. */
 static inline void cs_struct_out(void *target, const void *source, size_t size)
 {
     size_t target_size;
@@ -40,9 +41,8 @@ static inline void cs_struct_out(void *target, const void *source, size_t size)
                common - sizeof target_size);
 }
 
-/* A handle on the heap with a copy of what was made, once `status` is CLSHEAR_OK. NULL, with the
- * status of the failure, when it is not or when there is no memory: the caller frees what was made.
- */
+/* Returns a heap copy of `made` if `status` is CLSHEAR_OK. Otherwise, or when out of memory,
+ * returns NULL and stores the failure in `status`; the caller then frees `made`. */
 static inline void *cs_handle(clshear_status *status, const void *made, size_t size)
 {
     if (*status != CLSHEAR_OK) return NULL;
@@ -54,14 +54,27 @@ static inline void *cs_handle(clshear_status *status, const void *made, size_t s
     return handle;
 }
 
-/* A public function that reads one member of an object. */
+/* Defines hand_over for an object: passes `made` to the caller, or frees it after a failure. */
+#define CS_HAND_OVER(object)                                                       \
+    static clshear_status hand_over(clshear_status status, clshear_##object *made, \
+                                    clshear_##object **result)                     \
+    {                                                                              \
+        clshear_##object *handle = cs_handle(&status, made, sizeof *made);         \
+        if (handle != NULL)                                                        \
+            *result = handle;                                                      \
+        else                                                                       \
+            cs_##object##_free(made);                                              \
+        return status;                                                             \
+    }
+
+/* Defines a public function that returns a member of an object. */
 #define CS_GETTER(type, object, member)                              \
     type clshear_##object##_##member(const clshear_##object *object) \
     {                                                                \
         return object->member;                                       \
     }
 
-/* The same for an element of an array. */
+/* Defines a public function that returns an element of an object's array. */
 #define CS_GETTER_AT(type, object, name, member)                                 \
     type clshear_##object##_##name(const clshear_##object *object, size_t index) \
     {                                                                            \

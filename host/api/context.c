@@ -4,7 +4,7 @@
 #include "clshear/clshear.h"
 #include "settings/settings.h"
 
-/* What the settings say of a device; NULL settings: fallbacks. */
+/* Device settings of a context. NULL settings: fallbacks. */
 typedef struct device_wish {
     const char *name;
     int threads;

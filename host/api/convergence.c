@@ -55,17 +55,7 @@ static clshear_status check_study(const cs_study *study)
                    study->replicates);
 }
 
-/* Hands a result over to the caller, or frees it after a failure. */
-static clshear_status hand_over(clshear_status status, clshear_convergence *made,
-                                clshear_convergence **result)
-{
-    clshear_convergence *handle = cs_handle(&status, made, sizeof *made);
-    if (handle != NULL)
-        *result = handle;
-    else
-        cs_convergence_free(made);
-    return status;
-}
+CS_HAND_OVER(convergence)
 
 clshear_status clshear_converge_integrand(const clshear_integrand *integrand, const char *sampler,
                                           uint32_t seed, const uint32_t *counts, size_t sizes,

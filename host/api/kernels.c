@@ -1,4 +1,4 @@
-/* clshear/kernels.h: the words that the device headers work on, for programs of others. */
+/* clshear/kernels.h: data for the device headers in other programs' kernels. */
 #include "clshear/kernels.h"
 
 #include <stdlib.h>
@@ -21,7 +21,8 @@ const char *clshear_device_source(void)
     return cs_device_source();
 }
 
-/* Copies a struct of the device headers to a caller who says that it has `size` bytes there. */
+/* Copies a struct of the device headers. Fails unless the caller's `size` is that of this
+ * library. */
 static clshear_status give(const char *type, const void *words, size_t real_size, void *target,
                            size_t size)
 {
@@ -43,7 +44,7 @@ struct clshear_pattern {
     cs_array table; /* cs_u32; never empty */
 };
 
-/* Number of a sampler and of its samples from their names. */
+/* Finds a sampler by name, and its next sample count. */
 static clshear_status find_count(const char *name, uint32_t wanted, cs_u32 *sampler,
                                  uint32_t *count)
 {
@@ -114,11 +115,11 @@ const uint32_t *clshear_pattern_table(const clshear_pattern *pattern, size_t *wo
 struct clshear_lens {
     cs_optics_tables made;
     cs_camera camera;
-    clshear_status camera_status; /* CLSHEAR_OK where the settings describe a camera */
+    clshear_status camera_status; /* CLSHEAR_OK if the settings have a camera */
     cs_error camera_error;
 };
 
-/* The camera of the settings, if they describe one. */
+/* Makes the camera if the settings have one. */
 static void make_camera(const clshear_settings *settings, const cs_view *view, clshear_lens *lens)
 {
     lens->camera_status = CLSHEAR_BAD_ARGUMENT;

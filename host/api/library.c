@@ -1,4 +1,4 @@
-/* Public functions that belong to no object: version, status, samplers. */
+/* Public functions without an object: version, status, samplers. */
 #include "api/arguments.h"
 #include "clshear/clshear.h"
 #include "pattern/pattern.h"

@@ -6,17 +6,7 @@
 #include "analysis/integrands.h"
 #include "api/arguments.h"
 
-/* Hands a point set over to the caller, or frees it after a failure. */
-static clshear_status hand_over(clshear_status status, clshear_points *made,
-                                clshear_points **points)
-{
-    clshear_points *handle = cs_handle(&status, made, sizeof *made);
-    if (handle != NULL)
-        *points = handle;
-    else
-        cs_points_free(made);
-    return status;
-}
+CS_HAND_OVER(points)
 
 clshear_status clshear_points_draw(const char *sampler, size_t count, size_t sets, uint32_t seed,
                                    clshear_points **points)

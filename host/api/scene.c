@@ -1,4 +1,4 @@
-/* Public functions of scenes and of the camera that looks at them. */
+/* Public functions of scenes and cameras. */
 #include "api/arguments.h"
 #include "render/camera_choice.h"
 #include "render/objects.h"
@@ -48,7 +48,7 @@ clshear_status clshear_scene_complete(clshear_scene *scene)
     CS_TRY(cs_scene_finish(&scene->scene, "scene", error));
     CS_TRY(cs_scene_complete(scene, error));
 done:
-    if (status == CLSHEAR_BAD_FILE) status = CLSHEAR_BAD_ARGUMENT; /* there is no file */
+    if (status == CLSHEAR_BAD_FILE) status = CLSHEAR_BAD_ARGUMENT; /* no file is involved */
     return cs_message_keep(&scene->message, status);
 }
 
@@ -80,7 +80,7 @@ void clshear_scene_free(clshear_scene *scene)
     cs_scene_destroy(scene);
 }
 
-/* Whether the scene can be looked at. */
+/* Fails unless the scene is complete. */
 static clshear_status check_complete(const clshear_scene *scene)
 {
     if (scene->is_complete) return CLSHEAR_OK;

@@ -40,7 +40,8 @@ void clshear_settings_free(clshear_settings *settings)
     free(settings);
 }
 
-/* The table's entry of a setting that is of one of two kinds, or NULL with a message. */
+/* Finds the table's entry of a setting of either kind. Returns NULL and stores a message if the
+ * setting is unknown or of a third kind. */
 static const cs_setting *entry_of(clshear_setting setting, clshear_setting_kind kind,
                                   clshear_setting_kind other, const char *what)
 {
@@ -109,7 +110,7 @@ clshear_status clshear_settings_set_aperture(clshear_settings *settings, const f
     CS_NEEDS(settings);
     CS_NEEDS(luminance);
     cs_aperture_image image = {.width = width, .height = height};
-    image.luminance = (float *)(uintptr_t)luminance; /* copied, not written */
+    image.luminance = (float *)(uintptr_t)luminance; /* only read: settings copy it */
     return cs_settings_set_aperture(settings, &image, cs_thread_error());
 }
 
@@ -132,7 +133,7 @@ int clshear_settings_is_set(const clshear_settings *settings, clshear_setting se
     return settings != NULL && index < CS_SETTING_COUNT && settings->values[index].is_set;
 }
 
-/* Whether a value counts: one that is set, or a fallback. */
+/* Fails unless the setting has a value: one that was set, or a fallback. */
 static clshear_status check_value(const clshear_settings *settings, clshear_setting setting)
 {
     const size_t index = cs_setting_index(setting);

@@ -1,21 +1,11 @@
-/* Public functions of spectra, and of written planes. */
+/* Public functions of spectra and of image files. */
 #include "analysis/spectrum.h"
 
 #include <stdlib.h>
 
 #include "api/arguments.h"
 
-/* Hands a spectrum over to the caller, or frees it after a failure. */
-static clshear_status hand_over(clshear_status status, clshear_spectrum *made,
-                                clshear_spectrum **spectrum)
-{
-    clshear_spectrum *handle = cs_handle(&status, made, sizeof *made);
-    if (handle != NULL)
-        *spectrum = handle;
-    else
-        cs_spectrum_free(made);
-    return status;
-}
+CS_HAND_OVER(spectrum)
 
 clshear_status clshear_spectrum_measure(clshear_context *context, const clshear_points *points,
                                         size_t width, size_t height, clshear_spectrum **spectrum)

@@ -1,16 +1,16 @@
-/* What is known of the depths that a pixel sees. */
+/* Statistics of the depths in a pixel. */
 #ifndef CS_BASE_DEPTH_H
 #define CS_BASE_DEPTH_H
 
 #include "clshear/device/dialect.h"
 
-/* What a pixel sees, as camera depths; infinite where that is nothing. */
+/* Camera depths in a pixel, in world units. A depth is infinite if the rays hit nothing. */
 typedef struct cs_depth {
-    cs_f32 centre; /* through the pixel's centre and the lens's */
-    cs_f32 near;   /* the nearest, median and farthest hit of rays all over pixel and lens */
-    cs_f32 median;
-    cs_f32 far;
-    cs_f32 misses; /* fraction of those rays that see nothing */
+    cs_f32 centre; /* along the ray through the middles of pixel and lens */
+    cs_f32 near;   /* smallest depth along the pixel's lens rays */
+    cs_f32 median; /* median depth along the lens rays */
+    cs_f32 far;    /* largest depth along the lens rays */
+    cs_f32 misses; /* fraction of the lens rays without a hit, 0 to 1 */
 } cs_depth;
 
 #endif

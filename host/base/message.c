@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* The message is no part of an object's value: objects that are constant keep theirs too. */
+/* The message is not part of an object's value, so constant objects can store one too. */
 static cs_message *mutable(const cs_message *message)
 {
     return (cs_message *)(uintptr_t)message;

@@ -1,4 +1,4 @@
-/* The reason of an object's last failure, for threads that share the object. */
+/* The last error message of an object, guarded against concurrent use. */
 #ifndef CS_BASE_MESSAGE_H
 #define CS_BASE_MESSAGE_H
 
@@ -14,10 +14,10 @@ typedef struct cs_message {
 void cs_message_init(cs_message *message);
 void cs_message_destroy(cs_message *message);
 
-/* Returns `status`. After a failure, copies the calling thread's reason into the object. */
+/* Returns `status`. If it is a failure, copies the calling thread's message into the object. */
 clshear_status cs_message_keep(const cs_message *message, clshear_status status);
 
-/* A copy of the object's last reason that is valid until the thread calls this again. */
+/* A copy of the object's last message, valid until the same thread calls this function again. */
 const char *cs_message_text(const cs_message *message);
 
 #endif

@@ -1,4 +1,4 @@
-/* Files that appear under their name only when they are complete. */
+/* Output files under a temporary name until they are complete. */
 #ifndef CS_BASE_OUTPUT_FILE_H
 #define CS_BASE_OUTPUT_FILE_H
 
@@ -8,25 +8,25 @@
 extern "C" {
 #endif
 
-/* A file being written. Links are followed; devices and pipes are written as they are, since no new
- * file must replace them. Start from zeros. */
+/* A file being written. Symbolic links are followed. Devices and pipes are written in place,
+ * because a rename would replace them. Initialise to zero. */
 typedef struct cs_output_file {
-    char *target; /* what the file will be called */
-    char *part;   /* what is written to: a file beside the target, or the target */
+    char *target; /* final path; owned */
+    char *part;   /* temporary path beside the target, or the target itself; owned */
     FILE *stream;
 } cs_output_file;
 
-/* Whether a path is a device, a pipe or the like. */
+/* Returns 1 if the path is a device, a pipe or a folder, else 0. */
 int cs_is_special_file(const char *path);
 
-/* Finds out where to write, without opening it. Returns 0, or errno. */
+/* Sets the paths without opening a file. Returns 0, or errno. */
 int cs_output_begin(const char *path, cs_output_file *file);
 
-/* cs_output_begin, then opens `stream`. Returns 0, or errno after cleaning up. */
+/* Sets the paths and opens `stream`. Returns 0, or errno without anything to release. */
 int cs_output_open(const char *path, cs_output_file *file);
 
-/* Closes the stream, if there is one. Where `good` and all is written the file gets its name, else
- * it is removed. Returns 0, or errno of what failed here. */
+/* Closes the stream if it is open. Renames the file to its target if `good` and no write failed,
+ * else deletes it. Returns 0, or errno of the first failure in this call. */
 int cs_output_end(cs_output_file *file, int good);
 
 #ifdef __cplusplus

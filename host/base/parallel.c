@@ -31,7 +31,9 @@ static void *run_ranges(void *argument)
 int cs_core_count(void)
 {
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    return cores < 1 ? 1 : cores > MAX_THREADS ? MAX_THREADS : (int)cores;
+    if (cores < 1) return 1;
+    if (cores > MAX_THREADS) return MAX_THREADS;
+    return (int)cores;
 }
 
 void cs_parallel(int threads, size_t count, void (*body)(void *user, size_t begin, size_t end),

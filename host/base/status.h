@@ -1,4 +1,4 @@
-/* How the library fails: a status is returned, the reason is kept in a cs_error. */
+/* Error handling: functions return a status and store the reason in a cs_error. */
 #ifndef CS_BASE_STATUS_H
 #define CS_BASE_STATUS_H
 
@@ -12,24 +12,27 @@ typedef struct cs_error {
     char message[1024];
 } cs_error;
 
-/* Records the reason, in one line, and returns `status`. */
+/* Stores a one-line reason in `error` and returns `status`. */
 clshear_status cs_fail(cs_error *error, clshear_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* The reason of the calling thread's last failure: what public functions pass down. */
+/* The error of the calling thread. Public functions pass it to the functions they call. */
 cs_error *cs_thread_error(void);
 
-/* How a render that the progress callback stopped unwinds. It never leaves the library: the render
+/* Internal status that unwinds a cancelled render. It never leaves the library: a cancelled render
  * succeeds with an incomplete film. */
 #define CS_CANCELLED ((clshear_status)1000)
 
-/* Both jump to the label `done`, where what was acquired is released; `status` is the function's.
- */
+/* Stores the result of `call` in the variable `status` and jumps to the label `done`, which
+ * releases resources, unless it is CLSHEAR_OK. */
 #define CS_TRY(call)                         \
     do {                                     \
         status = (call);                     \
         if (status != CLSHEAR_OK) goto done; \
     } while (0)
+
+/* Unless `condition` holds, stores `failure` in the variable `status` and a message in the variable
+ * `error`, and jumps to the label `done`. */
 #define CS_REQUIRE(condition, failure, ...)                  \
     do {                                                     \
         if (!(condition)) {                                  \
@@ -38,7 +41,7 @@ cs_error *cs_thread_error(void);
         }                                                    \
     } while (0)
 
-/* Where warnings go. */
+/* The receiver of warnings; NULL `warn`: none. */
 typedef struct cs_log {
     void (*warn)(void *user, const char *line);
     void *user;
@@ -46,7 +49,7 @@ typedef struct cs_log {
 
 void cs_warn(const cs_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Seconds since some fixed moment. */
+/* Monotonic time in seconds. */
 double cs_now_s(void);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* Vectors of three coordinates, in both precisions. */
+/* Vectors of three coordinates, in single and double precision. */
 #ifndef CS_BASE_VEC_H
 #define CS_BASE_VEC_H
 
@@ -12,7 +12,7 @@ static inline double cs_vec_dot_double(const double *a, const double *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* c = a x b; c must be neither. */
+/* c = a x b; c must not alias a or b. */
 static inline void cs_vec_cross(const float *a, const float *b, float *c)
 {
     for (int i = 0; i < 3; i++) {
@@ -21,7 +21,7 @@ static inline void cs_vec_cross(const float *a, const float *b, float *c)
     }
 }
 
-/* c = a x b; c must be neither. */
+/* c = a x b; c must not alias a or b. */
 static inline void cs_vec_cross_double(const double *a, const double *b, double *c)
 {
     for (int i = 0; i < 3; i++) {
@@ -37,7 +37,7 @@ static inline void cs_vec_subtract(const float *a, const float *b, float *d)
         d[i] = a[i] - b[i];
 }
 
-/* d = a - b, of floats, without rounding twice. */
+/* d = a - b in double precision, which is exact up to one rounding. */
 static inline void cs_vec_subtract_double(const float *a, const float *b, double *d)
 {
     for (int i = 0; i < 3; i++)

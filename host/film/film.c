@@ -40,7 +40,7 @@ float *cs_film_add_channel(clshear_film *film, const char *name)
     return pixels;
 }
 
-/* The attribute of that name, emptied, or a new one; NULL when out of memory. */
+/* The attribute of that name, emptied, or a new one. Returns NULL when out of memory. */
 static cs_attribute *attribute_named(clshear_film *film, const char *name)
 {
     cs_attribute *attributes = film->attributes.items;
@@ -174,6 +174,18 @@ clshear_status cs_film_write(clshear_film *film, const char *path)
     return status;
 }
 
+static clshear_status copy_attribute(clshear_film *film, const cs_attribute *from)
+{
+    switch (from->kind) {
+    case CS_ATTRIBUTE_TEXT:
+        return cs_film_annotate(film, from->name, from->text);
+    case CS_ATTRIBUTE_INT:
+        return cs_film_set_int(film, from->name, from->integer);
+    default:
+        return cs_film_set_float(film, from->name, from->numbers[0]);
+    }
+}
+
 static clshear_status copy_picture(clshear_film *film, const cs_picture *picture)
 {
     const size_t pixels = (size_t)picture->width * (size_t)picture->height;
@@ -183,11 +195,7 @@ static clshear_status copy_picture(clshear_film *film, const cs_picture *picture
         memcpy(plane, picture->planes[c], pixels * sizeof *plane);
     }
     for (size_t i = 0; i < picture->attribute_count; i++) {
-        const cs_attribute *a = &picture->attributes[i];
-        clshear_status status =
-            a->kind == CS_ATTRIBUTE_TEXT  ? cs_film_annotate(film, a->name, a->text)
-            : a->kind == CS_ATTRIBUTE_INT ? cs_film_set_int(film, a->name, a->integer)
-                                          : cs_film_set_float(film, a->name, a->numbers[0]);
+        const clshear_status status = copy_attribute(film, &picture->attributes[i]);
         if (status != CLSHEAR_OK) return status;
     }
     return CLSHEAR_OK;

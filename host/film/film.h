@@ -1,4 +1,4 @@
-/* The rendered image: named float planes and metadata. */
+/* Rendered images: named float planes and metadata. */
 #ifndef CS_FILM_FILM_H
 #define CS_FILM_FILM_H
 
@@ -17,7 +17,7 @@ struct clshear_film {
     cs_message message;
     cs_array channels;   /* cs_channel */
     cs_array attributes; /* cs_attribute */
-    int window[4];       /* x0, x1, y0, y1 in the full image */
+    int window[4];       /* x0, x1, y0, y1 in the full image, px */
     int full_width;
     int full_height;
     clshear_film_info info;
@@ -26,27 +26,27 @@ struct clshear_film {
 clshear_status cs_film_create(const int *window, int full_width, int full_height, cs_error *error,
                               clshear_film **film);
 
-/* A film with the channels, texts, integers and floats of a file. */
+/* Reads the channels and the text, integer and float metadata of an EXR file. */
 clshear_status cs_film_read(const char *path, cs_error *error, clshear_film **film);
 
-/* Functions below fail with the calling thread's message. */
+/* The functions below store the reason of a failure in the calling thread's error. */
 
-/* Names and planes of channels; NULL where there is none. */
+/* Name and plane of a channel, or NULL if the film does not have it. */
 const char *cs_film_channel_name(const clshear_film *film, size_t index);
 const float *cs_film_channel(const clshear_film *film, const char *name);
 
-/* Writes all channels, or a picture; or one channel in false colours. As the public functions. */
+/* Implement clshear_film_write and clshear_film_write_ratio. */
 clshear_status cs_film_write(clshear_film *film, const char *path);
 clshear_status cs_film_write_ratio(clshear_film *film, const char *channel, const char *path);
-/* Copies channels into the caller's memory, as clshear_film_copy does. */
+/* Implements clshear_film_copy. */
 clshear_status cs_film_copy(const clshear_film *film, const char *const *channels, size_t count,
                             void *target, size_t pixel_stride, size_t row_stride);
 void cs_film_free(clshear_film *film);
 
-/* Adds a plane of zeros, or NULL when out of memory. */
+/* Adds a plane of zeros. Returns NULL when out of memory. */
 float *cs_film_add_channel(clshear_film *film, const char *name);
 
-/* A text or number of the metadata; NULL, or 0, if there is none of that name. */
+/* A text or number of the metadata; NULL or 0 if the film has none of that name. */
 const char *cs_film_text(const clshear_film *film, const char *name);
 int cs_film_int(const clshear_film *film, const char *name, int *value);
 

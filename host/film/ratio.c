@@ -4,8 +4,8 @@
 
 #include "film/film.h"
 
-/* Blue below 1, white at 1, orange above, in linear light: told apart by every kind of colour
- * vision. */
+/* Blue below 1, white at 1, orange above, in linear light. All kinds of colour vision can
+ * distinguish these. */
 static void colour_of(float ratio, float *rgb)
 {
     static const float low[3] = {0.0f, 0.15f, 0.6f}, high[3] = {0.8f, 0.2f, 0.0f};

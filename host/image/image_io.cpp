@@ -27,7 +27,7 @@ using OIIO::ImageBuf;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/* Runs `work`, which returns a status, and turns exceptions into one. */
+/* Runs `work` and turns its exceptions into a status. */
 template <typename Work> clshear_status guarded(const char *path, cs_error *error, Work work)
 {
     try {
@@ -39,19 +39,20 @@ template <typename Work> clshear_status guarded(const char *path, cs_error *erro
     }
 }
 
-/* First line of a message of OpenImageIO. */
+/* The first line of an OpenImageIO message, for one-line errors. */
 std::string first_line(const std::string &text)
 {
     return text.substr(0, text.find('\n'));
 }
 
-/* Makes the library forget what a file of that name held earlier. */
+/* Drops the cached contents of the file, which may have changed on disk. */
 void forget(const char *path)
 {
     OIIO::ImageCache::create(true)->invalidate(OIIO::ustring(path), true);
 }
 
-/* Any number of channels as linear RGBA: grey is repeated, alpha is kept but not used. */
+/* Converts any number of channels to linear RGBA. Grey is repeated; alpha is kept but not
+ * applied. */
 ImageBuf linear_rgba(const ImageBuf &source)
 {
     const int channels = source.nchannels();
@@ -66,7 +67,7 @@ ImageBuf linear_rgba(const ImageBuf &source)
     return OIIO::ImageBufAlgo::colorconvert(rgba, "sRGB", "linear", false);
 }
 
-/* A file, or `memory` if that is not null, as linear RGBA. */
+/* Reads a file, or `memory` unless it is null, as linear RGBA. */
 clshear_status read_rgba(const char *path, const void *memory, size_t size, ImageBuf &rgba,
                          cs_error *error)
 {
@@ -106,7 +107,7 @@ clshear_status read_texels(const char *path, const void *memory, size_t size, cs
     return CLSHEAR_OK;
 }
 
-/* Whole numbers of texels become one, by their mean: light is kept. */
+/* Reduces by summing whole blocks of texels, which preserves the total light. */
 clshear_status read_luminance(const char *path, int most, float **luminance, int *width,
                               int *height, cs_error *error)
 {
@@ -132,7 +133,7 @@ clshear_status read_luminance(const char *path, int most, float **luminance, int
     return CLSHEAR_OK;
 }
 
-/* One of the file's attributes, or nothing if it is of another kind. */
+/* Copies a text, an integer or a float; returns false for other types. */
 bool copy_attribute(const OIIO::ParamValue &source, cs_attribute *target)
 {
     std::snprintf(target->name, sizeof target->name, "%s", source.name().c_str());
@@ -231,7 +232,7 @@ void set_attributes(const cs_picture *picture, ImageSpec &spec)
     }
 }
 
-/* The chosen planes, interleaved, in a window of the full image. */
+/* The chosen planes, interleaved, with the offset of the picture's window. */
 ImageBuf interleaved(const cs_picture *picture, const std::vector<size_t> &chosen)
 {
     ImageSpec spec(picture->width, picture->height, static_cast<int>(chosen.size()),
@@ -263,7 +264,7 @@ std::string extension_of(const char *path)
     return extension;
 }
 
-/* The buffer to write for this extension: everything for EXR, an sRGB picture for the others. */
+/* The pixels to encode: all planes for EXR, 8-bit or 16-bit sRGB for other formats. */
 ImageBuf buffer_for(const std::string &extension, const cs_picture *picture)
 {
     std::vector<size_t> chosen;
@@ -278,8 +279,8 @@ ImageBuf buffer_for(const std::string &extension, const cs_picture *picture)
     return OIIO::ImageBufAlgo::colorconvert(linear, "linear", "sRGB", false);
 }
 
-/* Encodes into a file called `path`, or into `memory` if that is not NULL. Returns what failed, or
- * nothing. */
+/* Encodes into the file `path`, or into `memory` unless it is NULL. Returns an error message, empty
+ * on success. */
 std::string encode(const std::string &extension, const ImageBuf &buffer, const std::string &path,
                    OIIO::Filesystem::IOProxy *memory)
 {
@@ -288,7 +289,9 @@ std::string encode(const std::string &extension, const ImageBuf &buffer, const s
     ImageSpec spec = buffer.spec();
     const bool is_exr = extension == "exr";
     const bool is_tiff = extension == "tif" || extension == "tiff";
-    spec.set_format(is_exr ? TypeDesc::FLOAT : is_tiff ? TypeDesc::UINT16 : TypeDesc::UINT8);
+    spec.set_format(TypeDesc::UINT8);
+    if (is_exr) spec.set_format(TypeDesc::FLOAT);
+    if (is_tiff) spec.set_format(TypeDesc::UINT16);
     if (!is_exr) spec.attribute("oiio:ColorSpace", "sRGB");
     if (is_exr) spec.attribute("compression", "zip");
     if (memory != nullptr) output->set_ioproxy(memory);
@@ -297,8 +300,8 @@ std::string encode(const std::string &extension, const ImageBuf &buffer, const s
     return output->close() ? std::string() : first_line(output->geterror());
 }
 
-/* By way of memory: libpng's errors get lost on their way here, and libjpeg ends the process when a
- * disk is full. The encoder never sees pipes and devices either, which know no places to go to. */
+/* Encodes in memory first: OpenImageIO loses libpng's write errors, and libjpeg ends the process
+ * when the disk is full. Pipes and devices cannot seek, so encoders must not write to them. */
 std::string write_by_memory(const std::string &extension, const ImageBuf &buffer,
                             const std::string &path)
 {

@@ -1,4 +1,4 @@
-/* Image apertures: the profile of their columns, and one of the texels of each column. */
+/* Image apertures: tabulated marginals of the columns and of the texels in each column. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,15 +8,16 @@
 #include "optics/aperture_kinds.h"
 
 enum {
-    MOST_TEXELS = 256 /* along a side */
+    MOST_TEXELS = 256 /* limit of each side */
 };
 
-/* Rows of texels of equal width from -reach to reach; `weight` reads texel i. */
+/* A line of `count` equally wide texels from -half_width to half_width. Texel i is at first[i *
+ * stride]. */
 typedef struct strip {
     const float *first;
     size_t stride;
     cs_u32 count;
-    double reach;
+    double half_width;
 } strip;
 
 static double strip_sum(const strip *texels)
@@ -27,27 +28,28 @@ static double strip_sum(const strip *texels)
     return sum;
 }
 
-/* An even strip where all is dark: it is never chosen, but must not divide by zero. */
+/* The probability of texel i. A dark strip is never chosen; equal shares avoid a division by
+ * zero. */
 static double share_of(const strip *texels, cs_u32 i, double sum)
 {
     return sum > 0.0 ? (double)texels->first[i * texels->stride] / sum : 1.0 / texels->count;
 }
 
-/* Fills count + 1 rows; returns the variance. */
+/* Fills count + 1 rows of the marginal; returns its variance. */
 static double fill_rows(const strip *texels, cs_f32 *rows)
 {
-    const double width = 2.0 * texels->reach / texels->count, sum = strip_sum(texels);
-    double mass = 0.0, integral = 0.0, mean = 0.0, square = 0.0;
+    const double width = 2.0 * texels->half_width / texels->count, sum = strip_sum(texels);
+    double cdf = 0.0, integral = 0.0, mean = 0.0, square = 0.0;
     for (cs_u32 i = 0; i <= texels->count; i++) {
         cs_f32 *row = rows + (size_t)i * CS_MARGINAL_COLUMNS;
         const double share = i < texels->count ? share_of(texels, i, sum) : 0.0;
-        const double start = i * width - texels->reach, middle = start + 0.5 * width;
+        const double start = i * width - texels->half_width, middle = start + 0.5 * width;
         row[CS_MARGINAL_START] = (cs_f32)start;
-        row[CS_MARGINAL_CDF] = i < texels->count ? (cs_f32)mass : 1.0f;
+        row[CS_MARGINAL_CDF] = i < texels->count ? (cs_f32)cdf : 1.0f;
         row[CS_MARGINAL_INTEGRAL] = (cs_f32)integral;
         row[CS_MARGINAL_DENSITY] = (cs_f32)(share / width);
-        integral += width * (mass + 0.5 * share);
-        mass += share;
+        integral += width * (cdf + 0.5 * share);
+        cdf += share;
         mean += share * middle;
         square += share * (middle * middle + width * width / 12.0);
     }
@@ -85,7 +87,7 @@ clshear_status cs_aperture_image_make(const cs_view *camera, cs_optics_tables *t
     if (status != CLSHEAR_OK) return status;
     const cs_u32 width = (cs_u32)image->width, height = (cs_u32)image->height;
     const double longer = width > height ? width : height;
-    const double reach[2] = {0.5 * width / longer, 0.5 * height / longer};
+    const double half_width[2] = {0.5 * width / longer, 0.5 * height / longer};
     const size_t rows = width + 1 + (size_t)width * (height + 1);
     cs_f32 *row = cs_array_extend(&tables->table, rows * CS_MARGINAL_COLUMNS);
     if (row == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
@@ -94,19 +96,19 @@ clshear_status cs_aperture_image_make(const cs_view *camera, cs_optics_tables *t
         most = fmax(most, (double)image->luminance[i]);
     for (cs_u32 i = 0; i < width; i++)
         columns[i] =
-            (float)(strip_sum(&(strip){image->luminance + i, width, height, reach[1]}) / most);
-    double variance[2] = {fill_rows(&(strip){columns, 1, width, reach[0]}, row), 0.0};
+            (float)(strip_sum(&(strip){image->luminance + i, width, height, half_width[1]}) / most);
+    double variance[2] = {fill_rows(&(strip){columns, 1, width, half_width[0]}, row), 0.0};
     row += (size_t)(width + 1) * CS_MARGINAL_COLUMNS;
     for (cs_u32 i = 0; i < width; i++) {
         variance[1] +=
-            fill_rows(&(strip){image->luminance + i, width, height, reach[1]}, row) / width;
+            fill_rows(&(strip){image->luminance + i, width, height, half_width[1]}, row) / width;
         row += (size_t)(height + 1) * CS_MARGINAL_COLUMNS;
     }
     optics->marginal = CS_MARGINAL_IMAGE;
     optics->segments[0] = width;
     optics->segments[1] = height;
     for (int axis = 0; axis < 2; axis++) {
-        optics->half_width[axis] = (cs_f32)reach[axis];
+        optics->half_width[axis] = (cs_f32)half_width[axis];
         optics->deviation[axis] = (cs_f32)sqrt(variance[axis]);
     }
     return CLSHEAR_OK;

@@ -1,4 +1,4 @@
-/* Pixel filters as steps of equal width. */
+/* Pixel filters as densities on steps of equal width. */
 #include <math.h>
 
 #include "optics/aperture_kinds.h"
@@ -10,7 +10,7 @@ static const float usual_width_px[] = {
     [CLSHEAR_FILTER_BLACKMAN_HARRIS] = 3.0f,
 };
 
-/* Height at `place`, 0 at the centre and +-1/2 at the ends; not normalised. */
+/* Unnormalised filter value at `place`, which runs from -1/2 to 1/2 over the filter's width. */
 static double height(clshear_filter filter, double place)
 {
     const double turn = 2.0 * 3.14159265358979323846 * place, deviations = 6.0 * place;
@@ -27,7 +27,7 @@ static double height(clshear_filter filter, double place)
     }
 }
 
-/* Mean height on step `k` of `steps`. */
+/* Mean filter value on step `k` of `steps`. */
 static double mean_height(clshear_filter filter, cs_u32 k, cs_u32 steps)
 {
     enum {

@@ -5,12 +5,13 @@
 #include "clshear/device/disk.h"
 #include "optics/aperture_kinds.h"
 
-/* What has to be known of an aperture. */
+/* Size and marginal of one kind of aperture. */
 typedef struct aperture {
-    /* One unit of the lens coordinates as a multiple of the lens radius. */
+    /* One unit of the lens coordinates, as a multiple of the lens radius. */
     float (*unit)(const cs_view *camera);
 
-    /* Sets the kind of marginal, reach and deviation; appends the rows of tabulated kinds. */
+    /* Sets the kind of marginal, half-width and deviation; appends the rows of a tabulated
+     * marginal. */
     clshear_status (*make)(const cs_view *camera, cs_optics_tables *tables, cs_error *error);
 } aperture;
 
@@ -26,11 +27,12 @@ static float square_unit(const cs_view *camera)
     return 2.0f;
 }
 
-static void set_closed(cs_optics *optics, cs_marginal_kind kind, cs_f32 reach, cs_f32 deviation)
+static void set_symmetric(cs_optics *optics, cs_marginal_kind kind, cs_f32 half_width,
+                          cs_f32 deviation)
 {
     optics->marginal = kind;
     for (int axis = 0; axis < 2; axis++) {
-        optics->half_width[axis] = reach;
+        optics->half_width[axis] = half_width;
         optics->deviation[axis] = deviation;
     }
 }
@@ -39,7 +41,7 @@ static clshear_status make_disk(const cs_view *camera, cs_optics_tables *tables,
 {
     (void)camera;
     (void)error;
-    set_closed(&tables->optics, CS_MARGINAL_DISK, CS_DISK_RADIUS, 0.5f * CS_DISK_RADIUS);
+    set_symmetric(&tables->optics, CS_MARGINAL_DISK, CS_DISK_RADIUS, 0.5f * CS_DISK_RADIUS);
     return CLSHEAR_OK;
 }
 
@@ -47,7 +49,7 @@ static clshear_status make_square(const cs_view *camera, cs_optics_tables *table
 {
     (void)camera;
     (void)error;
-    set_closed(&tables->optics, CS_MARGINAL_UNIFORM, 0.5f, 0.288675135f);
+    set_symmetric(&tables->optics, CS_MARGINAL_UNIFORM, 0.5f, 0.288675135f);
     return CLSHEAR_OK;
 }
 
@@ -58,7 +60,7 @@ static const aperture apertures[] = {
     [CLSHEAR_APERTURE_IMAGE] = {square_unit, cs_aperture_image_make},
 };
 
-/* NULL for a number that is none. */
+/* NULL for an unknown number. */
 static const aperture *aperture_of(clshear_aperture number)
 {
     return (size_t)number < sizeof apertures / sizeof *apertures ? &apertures[number] : NULL;

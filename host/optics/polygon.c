@@ -1,4 +1,5 @@
-/* Regular polygons by their chords: between two corners both ends of the chord are straight. */
+/* Regular polygons by their chords along v. Between neighbouring corners in u, both ends of the
+ * chord are linear in u. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -20,7 +21,7 @@ static int by_u(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* The chord at u, next to u on the side where `towards` lies. */
+/* The chord at u, on the edges between u and `towards`: at a corner the two sides may differ. */
 static void chord_near(const corner *corners, int blades, double u, double towards, double *low,
                        double *high)
 {
@@ -37,7 +38,7 @@ static void chord_near(const corner *corners, int blades, double u, double towar
     }
 }
 
-/* Different values of u among the corners, in order; those closer than 1e-6 are one. */
+/* The distinct u of the corners in rising order; values within 1e-6 count as one. */
 static cs_u32 knots_of(const corner *corners, int blades, double *knots)
 {
     double all[MOST_BLADES];
@@ -53,18 +54,18 @@ static cs_u32 knots_of(const corner *corners, int blades, double *knots)
 static void place_corners(corner *corners, int blades, double rotation_deg)
 {
     const double pi = 3.14159265358979323846;
-    const double radius = sqrt(2.0 / (blades * sin(2.0 * pi / blades))); /* of area 1 */
+    const double radius = sqrt(2.0 / (blades * sin(2.0 * pi / blades))); /* a polygon of area 1 */
     for (int i = 0; i < blades; i++) {
         const double angle = 2.0 * pi * i / blades + rotation_deg * pi / 180.0;
         corners[i] = (corner){radius * cos(angle), -radius * sin(angle)}; /* v points down */
     }
 }
 
-/* The rows of the polygon; returns the second moment of u. */
+/* Fills the rows of the marginal; returns its second moment. */
 static double fill_rows(const corner *corners, int blades, const double *knots, cs_u32 segments,
                         cs_f32 *rows)
 {
-    double mass = 0.0, integral = 0.0, moment = 0.0;
+    double cdf = 0.0, integral = 0.0, moment = 0.0;
     for (cs_u32 i = 0; i < segments; i++) {
         cs_f32 *row = rows + (size_t)i * CS_MARGINAL_COLUMNS;
         const double width = knots[i + 1] - knots[i];
@@ -74,17 +75,17 @@ static double fill_rows(const corner *corners, int blades, const double *knots, 
         const double density = high[0] - low[0];
         const double slope = (high[1] - low[1] - density) / width;
         row[CS_MARGINAL_START] = (cs_f32)knots[i];
-        row[CS_MARGINAL_CDF] = (cs_f32)mass;
+        row[CS_MARGINAL_CDF] = (cs_f32)cdf;
         row[CS_MARGINAL_INTEGRAL] = (cs_f32)integral;
         row[CS_MARGINAL_DENSITY] = (cs_f32)density;
         row[CS_MARGINAL_SLOPE] = (cs_f32)slope;
         row[CS_MARGINAL_LOW] = (cs_f32)low[0];
         row[CS_MARGINAL_LOW_SLOPE] = (cs_f32)((low[1] - low[0]) / width);
-        integral += width * (mass + width * (0.5 * density + slope * width / 6.0));
+        integral += width * (cdf + width * (0.5 * density + slope * width / 6.0));
         const double piece = width * (density + 0.5 * slope * width);
         const double middle = 0.5 * (knots[i] + knots[i + 1]);
         moment += piece * (middle * middle + width * width / 12.0);
-        mass += piece;
+        cdf += piece;
     }
     cs_f32 *end = rows + (size_t)segments * CS_MARGINAL_COLUMNS;
     end[CS_MARGINAL_START] = (cs_f32)knots[segments];
@@ -116,11 +117,11 @@ clshear_status cs_polygon_make(const cs_view *camera, cs_optics_tables *tables, 
     cs_f32 *rows = cs_array_extend(&tables->table, (size_t)(segments + 1) * CS_MARGINAL_COLUMNS);
     if (rows == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     const double moment = fill_rows(corners, blades, knots, segments, rows);
-    const double reach = hypot(corners[0].u, corners[0].v);
+    const double half_width = hypot(corners[0].u, corners[0].v);
     optics->marginal = CS_MARGINAL_POLYGON;
     optics->segments[0] = segments;
     for (int axis = 0; axis < 2; axis++) {
-        optics->half_width[axis] = (cs_f32)reach;
+        optics->half_width[axis] = (cs_f32)half_width;
         optics->deviation[axis] = (cs_f32)sqrt(moment);
     }
     return CLSHEAR_OK;

@@ -1,4 +1,4 @@
-/* The kernels' number of a shear, which is the public one. */
+/* Conversion of the public shear to the kernels' number. Both enumerations agree. */
 #ifndef CS_OPTICS_SHEAR_MODE_H
 #define CS_OPTICS_SHEAR_MODE_H
 

@@ -1,14 +1,14 @@
-/* How many samples every pixel gets. */
+/* Adaptive allocation: the sample count of every pixel. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "oracle/choose_rule.h"
 
-/* What is known of a pixel from its 3 x 3 neighbours, itself among them. */
+/* Statistics of a pixel's 3 x 3 neighbourhood, including the pixel. */
 typedef struct surroundings {
-    double variance;  /* mean with binomial weights */
-    double intensity; /* of the pixel */
-    double contrast;  /* largest difference of intensity from it */
+    double variance;  /* mean over the neighbourhood with binomial weights */
+    double intensity; /* intensity of the pixel itself */
+    double contrast;  /* largest difference of intensity from the pixel */
 } surroundings;
 
 static surroundings surroundings_of(const cs_pilot_picture *pilot, size_t pixel)
@@ -30,13 +30,13 @@ static surroundings surroundings_of(const cs_pilot_picture *pilot, size_t pixel)
     return found;
 }
 
-/* The desire for samples, up to a factor: (V (1/A + W/10B))^0.4. A tenth of the weight is enough
- * for the relative error to fall too. */
-static void desires(const cs_pilot_picture *pilot, double *desire)
+/* Computes the importance of each pixel up to a factor: (V (1/A + W/10B))^0.4, as defined in
+ * choose_rule.h. A tenth of the relative weight is enough to reduce the relative error too. */
+static void compute_importance(const cs_pilot_picture *pilot, double *importance)
 {
     const size_t pixels = (size_t)pilot->width * (size_t)pilot->height;
-    /* n samples that saw none of a feature leave an area of some 1/n for it, which in patterns of
-     * s would have the variance contrast^2 / (n s) where it is. */
+    /* A feature missed by n samples has an area of about 1/n. Within it, patterns of s samples have
+     * the variance contrast^2 / (n s). */
     const double overlooked = 0.2 / ((double)pilot->pattern * pilot->pattern * pilot->replicates);
     double mean = 0.0, absolute = 0.0, relative = 0.0;
     for (size_t i = 0; i < pixels; i++)
@@ -47,14 +47,16 @@ static void desires(const cs_pilot_picture *pilot, double *desire)
             const surroundings at = surroundings_of(pilot, i);
             const double v = at.variance + overlooked * at.contrast * at.contrast;
             const double w = 1.0 / (at.intensity * at.intensity + least);
-            if (pass == 0)
-                absolute += v, relative += v * w;
-            else
-                desire[i] = pow(v * (1.0 / absolute + 0.1 * w / relative), 0.4);
+            if (pass == 0) {
+                absolute += v;
+                relative += v * w;
+            } else {
+                importance[i] = pow(v * (1.0 / absolute + 0.1 * w / relative), 0.4);
+            }
         }
 }
 
-/* The power of two nearest to `wanted`, within the limits. */
+/* The power of two nearest to `wanted`, from `least` to `most`. */
 static cs_u32 rounded(double wanted, cs_u32 least, cs_u32 most)
 {
     cs_u32 count = least;
@@ -63,7 +65,7 @@ static cs_u32 rounded(double wanted, cs_u32 least, cs_u32 most)
     return count;
 }
 
-/* The largest power of two that is not above `count` (at least 1). */
+/* The largest power of two up to `count` (1 or more). */
 static cs_u32 power_of_two(cs_u32 count)
 {
     cs_u32 power = 1;
@@ -72,32 +74,39 @@ static cs_u32 power_of_two(cs_u32 count)
     return power;
 }
 
+/* The smallest allocation for a mean of `mean` samples: mean / 16, rounded up to a power of two,
+ * but at least 4 or, for a smaller mean, the largest power of two up to the mean. */
+static cs_u32 least_count(cs_u32 mean)
+{
+    if (mean < 4) return power_of_two(mean);
+    if (mean <= 64) return 4;
+    return power_of_two(2 * ((mean - 1) / 16) + 1);
+}
+
 clshear_status cs_allocate_samples(const cs_pilot_picture *pilot, cs_u32 mean, cs_u32 limit,
                                    cs_u32 *samples, cs_error *error)
 {
     const size_t pixels = (size_t)pilot->width * (size_t)pilot->height;
-    const cs_u32 least = power_of_two(mean < 4     ? mean
-                                      : mean <= 64 ? 4
-                                                   : 2 * ((mean - 1) / 16) + 1); /* upwards */
+    const cs_u32 least = least_count(mean);
     const cs_u32 most = power_of_two(limit / 16 < mean ? limit : 16 * mean);
-    double *desire = malloc(pixels * sizeof *desire);
-    if (desire == NULL)
+    double *importance = malloc(pixels * sizeof *importance);
+    if (importance == NULL)
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", pixels);
-    desires(pilot, desire);
-    /* The largest scale at which the total is not above what was asked for, by bisection. */
+    compute_importance(pilot, importance);
+    /* Bisect for the largest scale with a total within the budget. */
     double low = -60.0, high = 60.0;
     for (int step = 0; step < 60; step++) {
         const double scale = exp2(0.5 * (low + high));
         double total = 0.0;
         for (size_t i = 0; i < pixels; i++)
-            total += rounded(scale * desire[i], least, most);
+            total += rounded(scale * importance[i], least, most);
         if (total > (double)mean * (double)pixels)
             high = 0.5 * (low + high);
         else
             low = 0.5 * (low + high);
     }
     for (size_t i = 0; i < pixels; i++)
-        samples[i] = rounded(exp2(low) * desire[i], least, most);
-    free(desire);
+        samples[i] = rounded(exp2(low) * importance[i], least, most);
+    free(importance);
     return CLSHEAR_OK;
 }

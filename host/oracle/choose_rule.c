@@ -4,13 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sums over rectangles by differences of running sums: (width + 1) * (height + 1) values. */
-typedef struct table {
+/* A summed-area table of (width + 1) * (height + 1) values. */
+typedef struct summed_area {
     double *sum;
     size_t stride;
-} table;
+} summed_area;
 
-static void fill(table *t, int width, int height, const cs_f32 *values, const cs_f32 *where)
+static void fill_sums(summed_area *t, int width, int height, const cs_f32 *values,
+                      const cs_f32 *where)
 {
     for (int y = 0; y < height; y++) {
         double row = 0.0;
@@ -23,7 +24,7 @@ static void fill(table *t, int width, int height, const cs_f32 *values, const cs
     }
 }
 
-static double sum_around(const table *t, int width, int height, int x, int y, int radius)
+static double sum_around(const summed_area *t, int width, int height, int x, int y, int radius)
 {
     const size_t x0 = (size_t)(x > radius ? x - radius : 0);
     const size_t y0 = (size_t)(y > radius ? y - radius : 0);
@@ -33,17 +34,18 @@ static double sum_around(const table *t, int width, int height, int x, int y, in
            t->sum[y0 * t->stride + x0];
 }
 
-/* Tables of a candidate's variances, of the prior's, and of how many there are. */
-static void tabulate(table *tables, int width, int height, const cs_evidence *evidence)
+/* Fills tables of the candidate's variance, the prior's variance, and the number of
+ * observations. */
+static void tabulate(summed_area *tables, int width, int height, const cs_evidence *evidence)
 {
-    fill(&tables[0], width, height, evidence->variance, evidence->variance);
-    fill(&tables[1], width, height, evidence->prior, evidence->variance);
-    fill(&tables[2], width, height, NULL, evidence->variance);
+    fill_sums(&tables[0], width, height, evidence->variance, evidence->variance);
+    fill_sums(&tables[1], width, height, evidence->prior, evidence->variance);
+    fill_sums(&tables[2], width, height, NULL, evidence->variance);
 }
 
-/* The candidate's variance over the prior's around a pixel. Evidence elsewhere counts as `trust`
- * pixels' worth. */
-static double ratio_at(const table *tables, int width, int height, int x, int y, int radius)
+/* Ratio of the candidate's variance to the prior's around a pixel. The ratio of the whole picture
+ * enters with the weight of `trust` pixels. */
+static double ratio_at(const summed_area *tables, int width, int height, int x, int y, int radius)
 {
     const double trust = 30.0;
     const size_t last = tables[0].stride * ((size_t)height + 1) - 1;
@@ -61,7 +63,7 @@ static double ratio_at(const table *tables, int width, int height, int x, int y,
 clshear_status cs_pilot_choose(const cs_evidence *evidence, cs_rule prior, int width, int height,
                                int radius, uint8_t *rules, cs_error *error)
 {
-    const double clear = 0.8; /* what a rule has to gain to replace the prior */
+    const double clear = 0.8; /* largest ratio of variances at which a rule replaces the prior */
     const size_t pixels = (size_t)width * (size_t)height;
     const size_t stride = (size_t)width + 1, size = stride * ((size_t)height + 1);
     double *memory = calloc(3 * size, sizeof *memory);
@@ -71,7 +73,8 @@ clshear_status cs_pilot_choose(const cs_evidence *evidence, cs_rule prior, int w
         free(best);
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for the pilot");
     }
-    table tables[3] = {{memory, stride}, {memory + size, stride}, {memory + 2 * size, stride}};
+    summed_area tables[3] = {
+        {memory, stride}, {memory + size, stride}, {memory + 2 * size, stride}};
     memset(rules, (int)prior, pixels);
     for (size_t i = 0; i < pixels; i++)
         best[i] = (cs_f32)clear;

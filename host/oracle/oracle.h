@@ -1,5 +1,5 @@
-/* The oracle: from what is known of a pixel's depths to the shear of its samples. A wrong answer
- * costs variance, never bias. */
+/* The oracle: converts the depths in a pixel to a shear. A wrong answer costs variance, never
+ * bias. */
 #ifndef CS_ORACLE_ORACLE_H
 #define CS_ORACLE_ORACLE_H
 
@@ -7,7 +7,8 @@
 #include "clshear/choices.h"
 #include "clshear/device/camera.h"
 
-/* Rules, in the order of the public enumeration; then what a pilot may choose besides. */
+/* Rules of the oracle, in the order of the public enumeration, and then a rule for the pilot
+ * alone. */
 typedef enum cs_rule {
     CS_RULE_CENTRE,
     CS_RULE_MEDIAN,
@@ -17,11 +18,12 @@ typedef enum cs_rule {
     CS_RULE_COUNT
 } cs_rule;
 
-/* The rule of an oracle; the pilot begins with the centre. */
+/* The rule of an oracle. The pilot starts from the centre. */
 cs_rule cs_rule_of(clshear_oracle oracle);
 
-/* The signed circle of confusion, in pixels, of the depth that the rule takes. Centres that see
- * nothing take the median of what the rest of the pixel and lens sees; 0 where that is nothing. */
+/* The shear for a rule: the signed circle of confusion of the rule's depth, in pixels. If the
+ * centre ray hits nothing, the centre rule takes the median depth. Returns 0 for an infinite
+ * depth. */
 cs_f32 cs_oracle_shear(const cs_camera *camera, const cs_depth *depth, cs_rule rule);
 
 #endif

@@ -1,20 +1,21 @@
-/* Tables of the orthogonal arrays, and the finite fields they are made of. */
+/* Sample tables of the orthogonal arrays, and the finite fields behind them. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "pattern/table_makers.h"
 
 enum {
-    MOST_LEVELS = 1024, /* its square is CS_MAX_PATTERN */
+    MOST_LEVELS = 1024, /* CS_MAX_PATTERN is the square of this */
     MOST_DIGITS = 10
 };
 
-/* The field of q = prime^degree elements. Element numbers are polynomials, digits base `prime`. */
+/* The finite field of q = prime^degree elements. An element's number has the coefficients of its
+ * polynomial as digits in base `prime`. */
 typedef struct field {
     cs_u32 q;
     cs_u32 prime;
     cs_u32 degree;
-    cs_u32 power[MOST_LEVELS]; /* of a generator: 0 ... q - 2 */
+    cs_u32 power[MOST_LEVELS]; /* powers 0 to q - 2 of a generator */
     cs_u32 logarithm[MOST_LEVELS];
 } field;
 
@@ -60,33 +61,32 @@ static cs_u32 times_x(const field *f, cs_u32 a, cs_u32 rest)
     return product;
 }
 
-/* Looks for a polynomial modulo which the powers of x are all elements but 0. */
-static field field_of(cs_u32 q)
+/* Finds a primitive polynomial: modulo it, the powers of x are all elements except 0. Returns NULL
+ * when out of memory, or if q < 3: an array has three levels or more. The caller frees it. */
+static field *make_field(cs_u32 q)
 {
-    field f = {.q = q};
-    factor(q, &f.prime, &f.degree);
+    field *f = q >= 3 ? calloc(1, sizeof *f) : NULL;
+    if (f == NULL) return NULL;
+    f->q = q;
+    factor(q, &f->prime, &f->degree);
     for (cs_u32 rest = 1; rest < q; rest++) {
         cs_u32 element = 1, order = 0;
         do {
-            f.power[order] = element;
-            f.logarithm[element] = order++;
-            element = times_x(&f, element, rest);
+            f->power[order] = element;
+            f->logarithm[element] = order++;
+            element = times_x(f, element, rest);
         } while (element > 1 && order < q - 1);
         if (order == q - 1 && element == 1) break;
     }
     return f;
 }
 
-/* Levels i + j and i + x j of run i q + j, where x generates the field. */
+/* Run i q + j has the levels i + j and i + x j, where x generates the field. */
 int cs_table_oa(cs_table *table)
 {
     const cs_u32 q = table->pattern->grid.columns;
-    field *f = malloc(sizeof *f);
-    if (f == NULL || q < 3) { /* there is no smaller array */
-        free(f);
-        return 0;
-    }
-    *f = field_of(q);
+    field *f = make_field(q);
+    if (f == NULL) return 0;
     const cs_u32 x = f->power[1];
     for (cs_u32 run = 0; run < q * q; run++) {
         const cs_u32 i = run / q, j = run % q;
@@ -98,16 +98,12 @@ int cs_table_oa(cs_table *table)
 }
 
 /* Bush's array: run (a q + c) q + b has the values of a + b x + c x^2 at x = 0, infinity, 1 and a
- * generator; the first two are a and c themselves. */
+ * generator. The first two values are a and c. */
 int cs_table_oa3(cs_table *table)
 {
     const cs_u32 q = table->pattern->grid.columns;
-    field *f = malloc(sizeof *f);
-    if (f == NULL || q < 3) { /* there is no smaller array */
-        free(f);
-        return 0;
-    }
-    *f = field_of(q);
+    field *f = make_field(q);
+    if (f == NULL) return 0;
     const cs_u32 x = f->power[1], square = multiply(f, x, x);
     for (cs_u32 run = 0; run < q * q * q; run++) {
         const cs_u32 a = run / (q * q), c = run / q % q, b = run % q;

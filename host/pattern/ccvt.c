@@ -1,8 +1,8 @@
-/* Planar sets whose power regions have equal capacity: blue noise by optimal transport.
+/* Planar sets with power regions of equal capacity: blue noise by optimal transport.
  *
- * Every point owns the pixels of a fine raster of the torus that are nearest to it by power
- * distance. Weights are moved until all regions are equally large, and points to the centroids of
- * their regions (de Goes et al. 2012, section 4, both at once and on a raster). */
+ * A fine raster of the torus is divided among the points by power distance. The weights move until
+ * all regions have the same area, and the points move to the centroids of their regions (de Goes et
+ * al. 2012, section 4; both steps at once, on a raster). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,29 +11,31 @@
 #include "pattern/table_makers.h"
 
 enum {
-    PIXELS = 10,     /* of the raster, along a point's mean region */
-    STEPS = 100,     /* of points and weights */
+    PIXELS = 10,     /* raster pixels along the side of a mean region */
+    STEPS = 100,     /* steps of points and weights */
     FLOWS = 3,       /* passes over the low frequencies */
-    FREQUENCIES = 24 /* at most, along an axis */
+    FREQUENCIES = 24 /* highest frequency along an axis */
 };
 
 typedef struct raster {
     cs_i32 side;
-    cs_i32 reach; /* a region lies within this many pixels of its point */
+    cs_i32 reach; /* limit of a region's extent from its point, px */
     cs_u32 count;
-    cs_f32 *x, *y, *weight; /* of points; pixels, and their squares */
-    cs_f32 *distance;       /* of a pixel to its owner */
+    cs_f32 *x, *y, *weight; /* x, y in pixels, weight in pixels squared; one per point */
+    cs_f32 *distance;       /* power distance of each pixel to its owner */
     cs_u32 *owner;
-    cs_f32 *sums; /* of pixels, x and y of a region relative to its point: 3 for each */
+    cs_f32 *sums; /* per point: area, and x and y moments relative to the point */
 } raster;
 
 static cs_i32 wrap(cs_i32 at, cs_i32 side)
 {
-    return at < 0 ? at + side : at >= side ? at - side : at;
+    if (at < 0) return at + side;
+    if (at >= side) return at - side;
+    return at;
 }
 
-/* Lets every point claim what is nearer to it than to those before it. */
-static void assign(raster *r)
+/* Assigns each pixel to the point with the smallest power distance. */
+static void assign_pixels(raster *r)
 {
     const cs_i32 side = r->side, reach = r->reach;
     for (cs_i32 i = 0; i < side * side; i++)
@@ -55,14 +57,16 @@ static void assign(raster *r)
     }
 }
 
-/* The way from b to a that does not leave the torus's half. */
+/* The shortest difference a - b on a torus of this side. */
 static cs_f32 towards(cs_f32 a, cs_f32 b, cs_f32 side)
 {
     const cs_f32 way = a - b;
-    return way > 0.5f * side ? way - side : way < -0.5f * side ? way + side : way;
+    if (way > 0.5f * side) return way - side;
+    if (way < -0.5f * side) return way + side;
+    return way;
 }
 
-static void gather(raster *r)
+static void sum_regions(raster *r)
 {
     const cs_f32 side = (cs_f32)r->side;
     memset(r->sums, 0, 3 * (size_t)r->count * sizeof *r->sums);
@@ -83,9 +87,9 @@ static cs_f32 on_torus(cs_f32 at, cs_f32 side)
     return at < side ? at : 0.0f;
 }
 
-/* A region of mean width w grows by about 1.75 times what its weight does; half of that step is
- * stable. */
-static void improve(raster *r)
+/* A region of mean width w grows by about 1.75 times the change of its weight; half of the
+ * corresponding step is stable. */
+static void update_points(raster *r)
 {
     const cs_f32 side = (cs_f32)r->side, capacity = side * side / (cs_f32)r->count;
     for (cs_u32 k = 0; k < r->count; k++) {
@@ -97,7 +101,7 @@ static void improve(raster *r)
     }
 }
 
-static int reserve(raster *r)
+static int allocate_raster(raster *r)
 {
     const size_t pixels = (size_t)r->side * (size_t)r->side;
     r->weight = calloc(r->count, sizeof *r->weight);
@@ -110,29 +114,34 @@ static int reserve(raster *r)
 static void relax(raster *r)
 {
     const cs_f32 side = (cs_f32)r->side;
-    for (cs_u32 k = 0; k < r->count; k++)
-        r->x[k] *= side, r->y[k] *= side;
-    for (int step = 0; step < STEPS; step++) {
-        assign(r);
-        gather(r);
-        improve(r);
+    for (cs_u32 k = 0; k < r->count; k++) {
+        r->x[k] *= side;
+        r->y[k] *= side;
     }
-    for (cs_u32 k = 0; k < r->count; k++)
-        r->x[k] /= side, r->y[k] /= side;
+    for (int step = 0; step < STEPS; step++) {
+        assign_pixels(r);
+        sum_regions(r);
+        update_points(r);
+    }
+    for (cs_u32 k = 0; k < r->count; k++) {
+        r->x[k] /= side;
+        r->y[k] /= side;
+    }
 }
 
-/* exp(2 pi i a x) for a = 0 ... most, real and imaginary parts. */
+/* exp(2 pi i a x) for a = 0 ... most, as real and imaginary parts. */
 static void harmonics(cs_f32 x, int most, double (*power)[2])
 {
     const double c = cos(6.283185307179586 * (double)x), s = sin(6.283185307179586 * (double)x);
-    power[0][0] = 1.0, power[0][1] = 0.0;
+    power[0][0] = 1.0;
+    power[0][1] = 0.0;
     for (int a = 1; a <= most; a++) {
         power[a][0] = power[a - 1][0] * c - power[a - 1][1] * s;
         power[a][1] = power[a - 1][0] * s + power[a - 1][1] * c;
     }
 }
 
-/* exp(2 pi i (a x + b y)) from the harmonics, for any sign of b. */
+/* exp(2 pi i (a x + b y)) from the harmonics; b may be negative. */
 static void mode(double (*px)[2], double (*py)[2], int a, int b, double *value)
 {
     const double re = py[abs(b)][0], im = b < 0 ? -py[abs(b)][1] : py[abs(b)][1];
@@ -140,9 +149,9 @@ static void mode(double (*px)[2], double (*py)[2], int a, int b, double *value)
     value[1] = px[a][0] * im + px[a][1] * re;
 }
 
-/* Moves the points by the gradient field that cancels, to first order, what their density has at
- * frequencies up to `most` along each axis: div u = density. Weights even out what is near, this
- * what is far. */
+/* Moves the points by the gradient field with div u = density, which cancels the density's low
+ * frequencies, up to `most` along each axis, to first order. The weights equalise neighbouring
+ * regions; this step evens out larger ones. */
 static void flow(cs_u32 count, int most, cs_f32 *x, cs_f32 *y, double (*density)[2])
 {
     double px[FREQUENCIES + 1][2], py[FREQUENCIES + 1][2], value[2];
@@ -175,7 +184,7 @@ static void flow(cs_u32 count, int most, cs_f32 *x, cs_f32 *y, double (*density)
     }
 }
 
-/* Begins with a scrambled (0,2)-sequence, which leaves little to be moved far. */
+/* Starts from a scrambled (0,2)-sequence, so that points have short distances to move. */
 int cs_ccvt_points(cs_u32 count, cs_u32 seed, cs_f32 *x, cs_f32 *y)
 {
     raster r = {.count = count, .x = x, .y = y};
@@ -184,7 +193,7 @@ int cs_ccvt_points(cs_u32 count, cs_u32 seed, cs_f32 *x, cs_f32 *y)
     double(*density)[2] = malloc((size_t)((most + 1) * (2 * most + 1)) * sizeof *density);
     r.side = (cs_i32)ceil(PIXELS * sqrt((double)count));
     r.reach = 2 * PIXELS < (r.side - 1) / 2 ? 2 * PIXELS : (r.side - 1) / 2;
-    const int good = reserve(&r) && density != NULL;
+    const int good = allocate_raster(&r) && density != NULL;
     for (cs_u32 k = 0; good && k < count; k++) {
         x[k] = cs_scrambled(k, seed, 0u);
         y[k] = cs_scrambled(cs_pascal(k), seed, 1u);

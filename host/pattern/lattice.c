@@ -1,4 +1,4 @@
-/* Table of the rank-1 lattice. */
+/* Sample table of the rank-1 lattice, and of the planar sets. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,7 +10,7 @@ int cs_table_none(cs_table *table)
     return 1;
 }
 
-/* Boxes of about CS_GROUP points of any planar set. */
+/* Cuts the plane of an evenly spread set into boxes of about CS_GROUP points. */
 static void cut_evenly(cs_table *table)
 {
     const cs_u32 boxes = table->pattern->grid.count / CS_GROUP;
@@ -35,9 +35,8 @@ static cs_u32 common_divisor(cs_u32 a, cs_u32 b)
     return a;
 }
 
-/* Worst-case error in the space of functions with Fourier coefficients below |h|^-2 in each
- * coordinate, squared and up to a constant: P_2 of Sloan & Joe 1994, section 4.2. `until`: give up
- * above this. */
+/* Squared worst-case error, up to a constant, over functions with Fourier coefficients below |h|^-2
+ * in each coordinate: P_2 of Sloan & Joe 1994, section 4.2. Stops early above `until`. */
 static double figure_of_merit(cs_u32 count, cs_u32 multiplier, double until)
 {
     const double two_pi_squared = 19.739208802178716, scale = 1.0 / count;
@@ -55,22 +54,25 @@ static double figure_of_merit(cs_u32 count, cs_u32 multiplier, double until)
     return sum * scale - 1.0;
 }
 
-/* The best multiplier a of the lattice (1, a, a^2, a^3) / N among some that are spread over
- * [1, N) and prime to it. */
+/* The best multiplier a of the lattice (1, a, a^2, a^3) / N among candidates spread over [1, N) and
+ * coprime to N. */
 static cs_u32 korobov_multiplier(cs_u32 count)
 {
     const cs_u32 effort = 1u << 22;
-    const cs_u32 candidates = count < 512 ? count : effort / count > 8 ? effort / count : 8;
+    cs_u32 candidates = effort / count > 8 ? effort / count : 8;
+    if (count < 512) candidates = count;
     cs_u32 best = 1;
     double least = INFINITY;
     for (cs_u32 i = 1; i <= candidates; i++) {
         cs_u32 a = candidates == count
                        ? i
                        : (cs_u32)(((uint64_t)i * 0x9e3779b9u & 0xffffffffu) * count >> 32);
-        while (common_divisor(a, count) != 1) /* ends at a multiple of N plus 1 */
+        while (common_divisor(a, count) != 1) /* ends at the latest at a multiple of N plus 1 */
             a++;
         const double merit = figure_of_merit(count, a, least);
-        if (merit < least) least = merit, best = a;
+        if (merit >= least) continue;
+        least = merit;
+        best = a;
     }
     return best;
 }
@@ -93,8 +95,8 @@ int cs_table_rank1(cs_table *table)
     return 1;
 }
 
-static int rows_of_points(cs_table *table,
-                          int (*points)(cs_u32 count, cs_u32 seed, cs_f32 *x, cs_f32 *y))
+static int fill_table_of_points(cs_table *table,
+                                int (*points)(cs_u32 count, cs_u32 seed, cs_f32 *x, cs_f32 *y))
 {
     const cs_u32 count = table->pattern->grid.count;
     cs_f32 *x = malloc(2 * (size_t)count * sizeof *x);
@@ -112,10 +114,10 @@ static int rows_of_points(cs_table *table,
 
 int cs_table_poisson(cs_table *table)
 {
-    return rows_of_points(table, cs_poisson_points);
+    return fill_table_of_points(table, cs_poisson_points);
 }
 
 int cs_table_ccvt(cs_table *table)
 {
-    return rows_of_points(table, cs_ccvt_points);
+    return fill_table_of_points(table, cs_ccvt_points);
 }

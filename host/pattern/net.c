@@ -1,4 +1,4 @@
-/* Tables of the progressive samplers: Sobol', the binary (0,4)-sequence, Halton. */
+/* Sample tables of the progressive samplers: Sobol', the binary (0,4)-sequence, Halton. */
 #include "clshear/device/sampler/net.h"
 #include "clshear/device/sampler/halton.h"
 
@@ -10,8 +10,8 @@ enum {
     BITS = 32
 };
 
-/* Columns of a binary generator matrix. Bit r of a column is row r: row 0 makes the most
- * significant digit, so that products are coordinates in reverse. */
+/* Columns of a binary generator matrix. Bit r of a column is row r, and row 0 makes the most
+ * significant digit. Products are therefore bit-reversed coordinates. */
 typedef struct generator {
     cs_u32 column[BITS];
 } generator;
@@ -24,32 +24,32 @@ static cs_u32 product(const generator *matrix, cs_u32 element)
     return digits;
 }
 
-/* Boxes of CS_GROUP samples, or what comes near: elementary intervals of base 2. */
+/* Cuts the plane into elementary intervals of base 2 with about CS_GROUP samples each. */
 static void cut_binary(cs_table *table)
 {
     cs_u32 boxes = 1, columns = 1;
     while (2 * boxes * CS_GROUP <= table->pattern->grid.count)
         boxes *= 2;
-    while (2 * columns * columns <= boxes) /* a box is square or twice as wide as high */
+    while (2 * columns * columns <= boxes) /* boxes are square or twice as wide as high */
         columns *= 2;
     if (columns * columns > boxes) columns /= 2;
     table->boxes[0] = columns;
     table->boxes[1] = boxes / columns;
 }
 
-static void place(cs_table *table, cs_u32 row, cs_u32 x_reversed, cs_u32 y_reversed)
+static void set_place(cs_table *table, cs_u32 row, cs_u32 x_reversed, cs_u32 y_reversed)
 {
     table->place[0][row] = cs_reverse_bits(x_reversed);
     table->place[1][row] = cs_reverse_bits(y_reversed);
 }
 
-static int rows_of_net(cs_table *table, const generator *matrices)
+static int fill_net_table(cs_table *table, const generator *matrices)
 {
     for (cs_u32 row = 0; row < table->pattern->grid.count; row++) {
         const cs_u32 element = table->pattern->first + row;
         for (cs_u32 d = 0; d < CS_MAIN_DIMENSIONS; d++)
             table->word[d][row] = product(&matrices[d], element);
-        place(table, row, table->word[0][row], table->word[1][row]);
+        set_place(table, row, table->word[0][row], table->word[1][row]);
     }
     table->words = CS_MAIN_DIMENSIONS;
     cut_binary(table);
@@ -84,24 +84,25 @@ int cs_table_sobol(cs_table *table)
         matrices[0].column[c] = 1u << c;
     for (int d = 1; d < CS_MAIN_DIMENSIONS; d++)
         sobol_matrix(degree[d], coefficients[d], initial[d], &matrices[d]);
-    return rows_of_net(table, matrices);
+    return fill_net_table(table, matrices);
 }
 
-/* The (0,4)-sequence in base 4 of Faure and Niederreiter over the field of four elements: entry
- * (i, j) of matrix d is binom(j, i) f_d^(j-i), where f_d runs through the field. Elements become
- * 2 x 2 binary blocks, powers of a = ((0, 1), (1, 1)), as in Ahmed et al. 2025; and the digits of
- * dimensions 1 and 3 are mapped by ((1, 1), (0, 1)), a bijection of each digit, which makes (x, y)
- * and (u, v) binary (0,2)-sequences besides (tests/test_strata.c looks at all of this). */
+/* The (0,4)-sequence in base 4 of Faure and Niederreiter over the field of four elements. Entry (i,
+ * j) of matrix d is binom(j, i) f_d^(j-i); the f_d are the elements of the field. Each entry
+ * becomes a 2 x 2 binary block, a power of a = ((0, 1), (1, 1)), as in Ahmed et al. 2025. The
+ * digits of dimensions 1 and 3 are also mapped by the bijection ((1, 1), (0, 1)), which makes (x,
+ * y) and (u, v) binary (0,2)-sequences too. tests/test_strata.c verifies these properties. */
 static void sz_matrix(cs_u32 dimension, generator *matrix)
 {
-    /* Columns of the powers of a: bit 0 is the upper row. */
+    /* Columns of the powers of a. Bit 0 is the upper row. */
     static const cs_u32 power[3][2] = {{1, 2}, {2, 3}, {3, 1}};
     static const cs_u32 exponent[CS_MAIN_DIMENSIONS] = {0, 0, 1, 2};
     for (cs_u32 c = 0; c < BITS; c++)
         matrix->column[c] = 0;
     for (cs_u32 j = 0; j < BITS / 2; j++)
         for (cs_u32 i = 0; i <= j; i++) {
-            if ((i & ~j) != 0 || (dimension == 0 && i != j)) continue; /* even, or a power of 0 */
+            if ((i & ~j) != 0 || (dimension == 0 && i != j))
+                continue; /* binom(j, i) is even, or f_0^(j-i) is 0 */
             for (cs_u32 c = 0; c < 2; c++) {
                 cs_u32 block = power[exponent[dimension] * (j - i) % 3][c];
                 if (dimension % 2 == 1) block ^= block >> 1;
@@ -115,14 +116,14 @@ int cs_table_sz(cs_table *table)
     generator matrices[CS_MAIN_DIMENSIONS];
     for (cs_u32 d = 0; d < CS_MAIN_DIMENSIONS; d++)
         sz_matrix(d, &matrices[d]);
-    return rows_of_net(table, matrices);
+    return fill_net_table(table, matrices);
 }
 
 int cs_table_index(cs_table *table)
 {
     for (cs_u32 row = 0; row < table->pattern->grid.count; row++) {
         table->word[0][row] = table->pattern->first + row;
-        place(table, row, table->word[0][row], cs_pascal(table->word[0][row]));
+        set_place(table, row, table->word[0][row], cs_pascal(table->word[0][row]));
     }
     table->words = 1;
     cut_binary(table);
@@ -153,7 +154,7 @@ int cs_table_halton(cs_table *table)
         table->place[1][row] = (cs_u32)(thirds * 0x1p32);
     }
     table->words = CS_MAIN_DIMENSIONS;
-    /* Elementary boxes of about CS_GROUP samples: 2^a x 3^b, as square as they come. */
+    /* Elementary boxes of about CS_GROUP samples, 2^a x 3^b, as square as possible. */
     cs_u32 columns = 1, bands = 1;
     while (columns * bands * 2 * CS_GROUP <= count)
         if (columns <= bands)

@@ -6,7 +6,7 @@
 
 #include "pattern/table_makers.h"
 
-/* Whether a construction has `count` points. */
+/* Returns 1 if the construction has a set of exactly `count` points, else 0. */
 typedef int (*count_rule)(cs_u32 count);
 
 static int counts_any(cs_u32 count)
@@ -15,7 +15,7 @@ static int counts_any(cs_u32 count)
     return 1;
 }
 
-/* Sets that take long to make. */
+/* A limit for sets with a slow construction. */
 static int counts_modest(cs_u32 count)
 {
     return count <= 1u << 18;
@@ -26,14 +26,14 @@ static int counts_few(cs_u32 count)
     return count <= 1u << 16;
 }
 
-/* A grid without a partial row. */
+/* Counts with a full grid, without a partial row. */
 static int counts_grid(cs_u32 count)
 {
     return cs_grid_of(count).extra == 0;
 }
 
-/* Sides of a 4D grid, as equal as they come: shape[0] >= ... >= shape[3], at most twice as large.
- * Returns 0 if there is none. */
+/* Finds the sides of a 4D grid, shape[0] >= ... >= shape[3], as equal as possible, the largest at
+ * most twice the smallest. Returns 0 if the count has no such grid. */
 static int hypergrid(cs_u32 count, cs_u32 shape[CS_MAIN_DIMENSIONS])
 {
     cs_u32 best = 0;
@@ -72,7 +72,7 @@ static cs_u32 root_of(cs_u32 count, int power)
     }
 }
 
-/* Levels of an orthogonal array of four columns. */
+/* Returns 1 if `count` is q^power and an orthogonal array of four columns has q levels. */
 static int is_array(cs_u32 count, int power)
 {
     const cs_u32 q = root_of(count, power);
@@ -92,7 +92,7 @@ static int counts_cube(cs_u32 count)
     return is_array(count, 3);
 }
 
-/* Fills the grid and the shape of a pattern of `count` points whose other constants are known. */
+/* Fills the grid and the shape of a pattern of `count` points. The other constants are set. */
 typedef void (*shape_rule)(cs_pattern *pattern, cs_u32 count);
 
 static void shape_evenly(cs_pattern *pattern, cs_u32 count)
@@ -117,7 +117,7 @@ static void shape_cube(cs_pattern *pattern, cs_u32 count)
     pattern->grid = cs_grid_on(count, root_of(count, 3));
 }
 
-/* Digits of base `base` that number the elements below `end`. */
+/* Number of digits in base `base` of the numbers below `end`. */
 static cs_u32 digits_of(cs_u32 end, cs_u32 base)
 {
     cs_u32 digits = 0;
@@ -134,7 +134,7 @@ static void shape_digits(cs_pattern *pattern, cs_u32 count)
         pattern->shape[d] = digits_of(pattern->first + count, bases[d]);
 }
 
-/* The rules that the `shape` column of cl/clshear/device/sampler/list.h names. */
+/* An entry of the `shape` column of cl/clshear/device/sampler/list.h. */
 typedef struct sampler_shape {
     count_rule has;
     shape_rule fill;
@@ -220,28 +220,28 @@ cs_pattern cs_pattern_of(cs_u32 number, cs_u32 first, cs_u32 count)
     return pattern;
 }
 
-/* A row's place in the coherent order: the box of the first pair's plane it lies in. */
-typedef struct ticket {
+/* Sort key of the coherent order: the box of the first pair, then the row. */
+typedef struct sort_key {
     cs_u32 box;
     cs_u32 row;
-} ticket;
+} sort_key;
 
 static int by_box(const void *a, const void *b)
 {
-    const ticket *one = a, *other = b;
+    const sort_key *one = a, *other = b;
     if (one->box != other->box) return one->box < other->box ? -1 : 1;
     return one->row < other->row ? -1 : one->row > other->row;
 }
 
-/* Sorts rows by boxes, bands of boxes from side to side and back, so that neighbours in the table
- * are neighbours in the plane. Returns 0 when out of memory. */
+/* Sorts rows by boxes in serpentine order, so that neighbours in the table are neighbours in the
+ * plane. Returns 0 when out of memory. */
 static int sort_rows(cs_table *table)
 {
     const cs_u32 count = table->pattern->grid.count;
-    ticket *tickets = malloc(count * sizeof *tickets);
+    sort_key *keys = malloc(count * sizeof *keys);
     cs_u32 *sorted = malloc(count * sizeof *sorted);
-    if (tickets == NULL || sorted == NULL) {
-        free(tickets);
+    if (keys == NULL || sorted == NULL) {
+        free(keys);
         free(sorted);
         return 0;
     }
@@ -249,24 +249,24 @@ static int sort_rows(cs_table *table)
         const cs_u32 column = (cs_u32)((uint64_t)table->place[0][i] * table->boxes[0] >> 32);
         const cs_u32 band = (cs_u32)((uint64_t)table->place[1][i] * table->boxes[1] >> 32);
         const cs_u32 along = band % 2 == 0 ? column : table->boxes[0] - 1 - column;
-        tickets[i] = (ticket){band * table->boxes[0] + along, i};
+        keys[i] = (sort_key){band * table->boxes[0] + along, i};
     }
-    qsort(tickets, count, sizeof *tickets, by_box);
+    qsort(keys, count, sizeof *keys, by_box);
     for (cs_u32 w = 0; w < table->words; w++) {
         for (cs_u32 i = 0; i < count; i++)
-            sorted[i] = table->word[w][tickets[i].row];
+            sorted[i] = table->word[w][keys[i].row];
         memcpy(table->word[w], sorted, count * sizeof *sorted);
     }
-    free(tickets);
+    free(keys);
     free(sorted);
     return 1;
 }
 
-/* Copies the filled columns behind each other, padded to whole blocks. */
-static int pack(const cs_table *table, cs_array *rows)
+/* Appends the filled columns one after another, each padded to whole blocks. */
+static int pack(const cs_table *table, cs_array *table_words)
 {
     const size_t stride = (size_t)table->pattern->blocks * CS_BLOCK;
-    cs_u32 *words = cs_array_extend(rows, stride * table->words);
+    cs_u32 *words = cs_array_extend(table_words, stride * table->words);
     if (words == NULL) return 0;
     for (cs_u32 w = 0; w < table->words; w++)
         memcpy(words + w * stride, table->word[w], table->pattern->grid.count * sizeof *words);
@@ -274,7 +274,7 @@ static int pack(const cs_table *table, cs_array *rows)
 }
 
 clshear_status cs_sample_table_make(const cs_pattern *pattern, cs_sample_order order,
-                                    cs_array *rows, cs_error *error)
+                                    cs_array *table_words, cs_error *error)
 {
     const cs_u32 count = pattern->grid.count;
     cs_table table = {.pattern = pattern};
@@ -284,15 +284,15 @@ clshear_status cs_sample_table_make(const cs_pattern *pattern, cs_sample_order o
         table.word[w] = memory + (size_t)w * count;
     for (cs_u32 d = 0; good && d < 2; d++)
         table.place[d] = memory + (size_t)(CS_MOST_WORDS + d) * count;
-    *rows = (cs_array){.item_size = sizeof(cs_u32)};
+    *table_words = (cs_array){.item_size = sizeof(cs_u32)};
     good = good && samplers[pattern->sampler].make_table(&table);
     if (good && table.words > 0) {
         if (order == CS_ORDER_COHERENT && table.boxes[0] > 0) good = sort_rows(&table);
-        good = good && pack(&table, rows);
+        good = good && pack(&table, table_words);
     }
     free(memory);
     if (good) return CLSHEAR_OK;
-    cs_array_free(rows);
+    cs_array_free(table_words);
     return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %u samples of %s", count,
                    samplers[pattern->sampler].name);
 }

@@ -1,5 +1,4 @@
-/* Samplers by name: which counts they have, and the patterns and tables that the kernels draw from.
- */
+/* Samplers by name: their sample counts, patterns and sample tables. */
 #ifndef CS_PATTERN_PATTERN_H
 #define CS_PATTERN_PATTERN_H
 
@@ -7,37 +6,37 @@
 #include "base/status.h"
 #include "clshear/device/sampler/pattern.h"
 
-/* CS_SAMPLER_ number of a name; NULL is the default. Fails with the list of names. */
+/* Finds the CS_SAMPLER_ number of a name; NULL is the default. The error message lists all
+ * names. */
 clshear_status cs_sampler_find(const char *name, cs_u32 *sampler, cs_error *error);
 const char *cs_sampler_name(cs_u32 sampler);
 const char *cs_sampler_about(cs_u32 sampler);
 cs_u32 cs_sampler_default(void);
 
-/* Whether a pattern's first samples do not depend on how many follow. */
+/* Returns 1 if the first samples of a pattern are independent of its length, else 0. */
 int cs_sampler_is_progressive(cs_u32 sampler);
 
-/* The least number of samples >= `wanted` (at least 1) that the construction has, or 0 if that is
- * more than its maximum. */
+/* The smallest sample count of the construction that is `wanted` or more. `wanted` is 1 or more.
+ * Returns 0 if there is none. */
 cs_u32 cs_sampler_count(cs_u32 sampler, cs_u32 wanted);
 
-/* The most samples in a pattern, CS_MAX_PATTERN or less. */
+/* The largest sample count of a pattern, CS_MAX_PATTERN or less. */
 cs_u32 cs_sampler_most(cs_u32 sampler);
 
-/* The constants of the pattern of elements `first` ... `first` + `count` - 1. `count` must be one
- * that the sampler has; `first` must be 0 unless it is progressive. */
+/* The constants of the pattern of elements `first` ... `first` + `count` - 1. `count` must be a
+ * sample count of the sampler; `first` must be 0 unless the sampler is progressive. */
 cs_pattern cs_pattern_of(cs_u32 sampler, cs_u32 first, cs_u32 count);
 
-/* Order of a table's rows: as the renderer draws them, blocks of neighbours; or as they follow each
- * other in the sequence. */
+/* Order of a table's rows: blocks of neighbours, as the renderer draws them, or the sampler's
+ * sequence. */
 typedef enum cs_sample_order {
     CS_ORDER_COHERENT,
     CS_ORDER_SEQUENCE
 } cs_sample_order;
 
-/* Fills `rows`, an array of cs_u32, with the table of a pattern; leaves it empty where there is
- * none.
- */
+/* Fills `table_words`, an array of cs_u32, with the sample table of a pattern. Samplers without a
+ * table leave it empty. */
 clshear_status cs_sample_table_make(const cs_pattern *pattern, cs_sample_order order,
-                                    cs_array *rows, cs_error *error);
+                                    cs_array *table_words, cs_error *error);
 
 #endif

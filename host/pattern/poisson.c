@@ -5,11 +5,11 @@
 #include "clshear/device/hash.h"
 #include "pattern/table_makers.h"
 
-/* Points in cells at least as wide as the radius. */
+/* Points by cells of the torus. A cell is at least as wide as the radius. */
 typedef struct cells {
     cs_u32 side;  /* cells along an axis */
     cs_i32 *head; /* first point of a cell, or -1 */
-    cs_i32 *next; /* of a point */
+    cs_i32 *next; /* next point in the same cell, or -1; one per point */
 } cells;
 
 static cs_f32 torus_difference(cs_f32 a, cs_f32 b)
@@ -28,7 +28,7 @@ static int is_free(const cells *in, const cs_f32 *x, const cs_f32 *y, cs_f32 px,
                    cs_f32 radius)
 {
     const cs_u32 side = in->side, column = cell_of(in, px), row = cell_of(in, py);
-    const cs_u32 reach = side < 3 ? side : 3; /* few cells: each once */
+    const cs_u32 reach = side < 3 ? side : 3; /* with fewer than 3 cells each is visited once */
     for (cs_u32 j = 0; j < reach; j++)
         for (cs_u32 i = 0; i < reach; i++) {
             const cs_u32 cell = (row + side + j - 1) % side * side + (column + side + i - 1) % side;
@@ -40,8 +40,8 @@ static int is_free(const cells *in, const cs_f32 *x, const cs_f32 *y, cs_f32 px,
     return 1;
 }
 
-/* Dart throwing with a radius that shrinks a little after every run of misses (McCool & Fiume
- * 1992), from 0.8 of the densest packing's. */
+/* Throws darts with a radius that starts at 0.8 of the densest packing's and shrinks a little after
+ * every run of misses (McCool & Fiume 1992). */
 static void throw_darts(cs_u32 count, cs_u32 seed, cs_f32 *x, cs_f32 *y, cells *in, cs_f32 radius)
 {
     const cs_u32 patience = 300;

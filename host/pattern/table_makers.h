@@ -1,20 +1,18 @@
-/* The makers of tables: one for each word in the `table` column of
- * cl/clshear/device/sampler/list.h.
- */
-#ifndef CS_PATTERN_ROWS_H
-#define CS_PATTERN_ROWS_H
+/* The makers of sample tables: one for each name in the `table` column of
+ * cl/clshear/device/sampler/list.h. */
+#ifndef CS_PATTERN_TABLE_MAKERS_H
+#define CS_PATTERN_TABLE_MAKERS_H
 
 #include "clshear/device/sampler/pattern.h"
 
-/* A table in the making: rows in the sequence's order. Makers return 0 when out of memory. */
+/* A sample table under construction, with rows in the order of the sequence. Makers return 0 when
+ * out of memory. */
 typedef struct cs_table {
     const cs_pattern *pattern;
-    cs_u32 *word[CS_MOST_WORDS]; /* zeros; one for each sample */
-    cs_u32 words;                /* how many of them the maker has filled */
-    /* Where the first pair of a row lies, in units of 2^-32, and how many boxes the plane is cut
-     * into for the coherent order. boxes[0] = 0: the rows are in that order already. */
-    cs_u32 *place[2];
-    cs_u32 boxes[2];
+    cs_u32 *word[CS_MOST_WORDS]; /* columns of one word per sample, initially 0 */
+    cs_u32 words;                /* number of filled columns */
+    cs_u32 *place[2];            /* first pair of each row, in units of 2^-32 */
+    cs_u32 boxes[2]; /* boxes of the coherent order along x and y; 0: already in order */
 } cs_table;
 
 int cs_table_none(cs_table *table);
@@ -28,12 +26,11 @@ int cs_table_rank1(cs_table *table);
 int cs_table_poisson(cs_table *table);
 int cs_table_ccvt(cs_table *table);
 
-/* N points of the unit torus, made from `seed`. Return 0 when out of memory. `x` and `y`: N each.
- */
+/* Fill `x` and `y` with `count` points of the unit torus. Return 0 when out of memory. */
 int cs_poisson_points(cs_u32 count, cs_u32 seed, cs_f32 *x, cs_f32 *y);
 int cs_ccvt_points(cs_u32 count, cs_u32 seed, cs_f32 *x, cs_f32 *y);
 
-/* Whether `q` is a power of a prime, 2 or more. */
+/* Returns 1 if `q` is a prime power (2 or more), else 0. */
 int cs_is_prime_power(cs_u32 q);
 
 #endif

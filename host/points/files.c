@@ -22,10 +22,10 @@ static int has_extension(const char *path, const char *extension)
 typedef struct text_reader {
     const char *path;
     cs_error *error;
-    cs_array values; /* float */
+    cs_array values; /* float coordinates of all points */
     size_t line, dimensions, sets;
-    size_t in_set; /* points of the current set */
-    size_t count;  /* of the sets that are complete */
+    size_t in_set; /* points read of the current set */
+    size_t count;  /* points in each complete set */
 } text_reader;
 
 static clshear_status complain(const text_reader *reader, const char *what)
@@ -35,9 +35,9 @@ static clshear_status complain(const text_reader *reader, const char *what)
 
 static clshear_status end_set(text_reader *reader)
 {
-    if (reader->in_set == 0) return CLSHEAR_OK; /* "#" at the start, or twice */
+    if (reader->in_set == 0) return CLSHEAR_OK; /* a "#" before any point, or a repeated one */
     if (reader->sets > 0 && reader->in_set != reader->count)
-        return complain(reader, "this set has not as many points as those before it");
+        return complain(reader, "this set and the first one have different numbers of points");
     reader->count = reader->in_set;
     reader->in_set = 0;
     reader->sets++;
@@ -62,7 +62,8 @@ static clshear_status read_point(text_reader *reader, const char *text)
     if (dimensions == 0) return CLSHEAR_OK;
     if (reader->dimensions == 0) reader->dimensions = dimensions;
     if (dimensions != reader->dimensions)
-        return complain(reader, "more or fewer coordinates than in the lines before");
+        return complain(reader,
+                        "this line and the first one have different numbers of coordinates");
     float *added = cs_array_extend(&reader->values, dimensions);
     if (added == NULL) return cs_fail(reader->error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     memcpy(added, point, dimensions * sizeof *point);

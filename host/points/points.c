@@ -1,4 +1,4 @@
-/* Point sets as samplers draw them, sheared, and projected. */
+/* Point sets: drawing, shearing and projection. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,7 +49,7 @@ clshear_status cs_points_take(const float *values, size_t sets, size_t count, co
 
 typedef struct draw_job {
     cs_pattern pattern;
-    const cs_u32 *rows;
+    const cs_u32 *table;
     cs_u32 seed;
     clshear_points *points;
 } draw_job;
@@ -61,7 +61,7 @@ static void draw_sets(void *user, size_t begin, size_t end)
     for (size_t set = begin; set < end; set++) {
         const cs_u32 key = cs_pattern_key(job->seed, (cs_u32)set, 0);
         for (size_t i = 0; i < count; i++)
-            cs_draw_all(&job->pattern, job->rows, key, (cs_u32)i,
+            cs_draw_all(&job->pattern, job->table, key, (cs_u32)i,
                         job->points->values + (set * count + i) * CS_DIMENSIONS);
     }
 }
@@ -71,7 +71,7 @@ clshear_status cs_points_draw(const char *name, size_t wanted, size_t sets, uint
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
-    cs_array rows = {0};
+    cs_array table = {0};
     cs_u32 sampler;
     CS_TRY(cs_sampler_find(name, &sampler, error));
     const cs_u32 most = cs_sampler_most(sampler);
@@ -81,13 +81,13 @@ clshear_status cs_points_draw(const char *name, size_t wanted, size_t sets, uint
     clshear_points made = {
         .sets = sets, .count = count, .dimensions = CS_DIMENSIONS, .names = CS_DIMENSION_NAMES};
     draw_job job = {.pattern = cs_pattern_of(sampler, 0, count), .seed = seed, .points = &made};
-    CS_TRY(cs_sample_table_make(&job.pattern, CS_ORDER_SEQUENCE, &rows, error));
+    CS_TRY(cs_sample_table_make(&job.pattern, CS_ORDER_SEQUENCE, &table, error));
     CS_TRY(cs_points_reserve(&made, error));
-    job.rows = rows.items;
+    job.table = table.items;
     cs_parallel(0, sets, draw_sets, &job);
     *points = made;
 done:
-    cs_array_free(&rows);
+    cs_array_free(&table);
     return status;
 }
 
@@ -136,7 +136,8 @@ clshear_status cs_points_select(clshear_points *points, const char *names)
     for (size_t i = 0; i < points->sets * points->count; i++) {
         float point[sizeof points->names];
         memcpy(point, points->values + i * points->dimensions, points->dimensions * sizeof *point);
-        for (size_t d = 0; d < kept; d++) /* never behind what is still to be read */
+        for (size_t d = 0; d < kept;
+             d++) /* kept <= dimensions, so no unread point is overwritten */
             points->values[i * kept + d] = point[from[d]];
     }
     memset(points->names, 0, sizeof points->names);

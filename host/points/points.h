@@ -1,31 +1,31 @@
-/* Point sets: drawn, sheared, projected, read and written. */
+/* Point sets: drawing, shearing, projection and files. */
 #ifndef CS_POINTS_POINTS_H
 #define CS_POINTS_POINTS_H
 
 #include "base/status.h"
 #include "clshear/analysis.h"
 
-/* Names of up to six coordinates. */
+/* Names of the coordinates: film x y, lens u v, light p q. */
 #define CS_POINT_NAMES "xyuvpq"
 
-/* Sets of equally many points of the unit cube. Start from zeros; cs_points_free gives the memory
- * back and leaves zeros. */
+/* Sets of equally many points of the unit cube. Initialise to zero. cs_points_free frees the memory
+ * and zeroes the struct. */
 struct clshear_points {
     float *values; /* coordinate d of point i of set s: values[(s * count + i) * dimensions + d] */
     size_t sets;
     size_t count;
-    size_t dimensions; /* 1 to 6 */
-    char names[8];     /* a letter for each dimension */
+    size_t dimensions; /* coordinates of a point, 1 to 6 */
+    char names[8];     /* one letter per coordinate */
 };
 
-/* Allocates `values` for the sets, count and dimensions that are set. */
+/* Allocates `values`. `sets`, `count` and `dimensions` must be set. */
 clshear_status cs_points_reserve(clshear_points *points, cs_error *error);
 
-/* As clshear_points_create. */
+/* Implements clshear_points_create. */
 clshear_status cs_points_take(const float *values, size_t sets, size_t count, const char *names,
                               clshear_points *points);
 
-/* As the public functions of these names; fail with the calling thread's message. */
+/* Implement the public functions of these names. Errors go to the calling thread's error. */
 clshear_status cs_points_draw(const char *sampler, size_t count, size_t sets, uint32_t seed,
                               clshear_points *points);
 clshear_status cs_points_shear(clshear_points *points, clshear_shear shear, float shear_px);

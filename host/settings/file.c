@@ -1,4 +1,4 @@
-/* Settings files: one setting a line. */
+/* Settings files: one setting per line. */
 #include <ctype.h>
 #include <errno.h>
 #include <stdio.h>
@@ -7,8 +7,8 @@
 
 #include "settings/settings.h"
 
-/* All of a text file, with a closing 0; NULL, with errno, if it cannot be read. Freed by the
- * caller. */
+/* Reads a whole text file and appends a 0. Returns NULL, with errno set, on failure. The caller
+ * frees it. */
 static char *read_text(const char *path)
 {
     FILE *stream = fopen(path, "rb");
@@ -32,10 +32,10 @@ static char *read_text(const char *path)
     return NULL;
 }
 
-/* A line cut in place into name and value; the name is empty for a line without a setting. */
+/* A line split in place into name and value. The name is empty if the line has no setting. */
 typedef struct words {
     char *name;
-    char *value; /* NULL: none */
+    char *value; /* NULL if the line has no value */
 } words;
 
 static words cut_line(char *line)
@@ -54,7 +54,7 @@ static words cut_line(char *line)
     return found;
 }
 
-/* Applies a line that names a setting. The message begins with file and line. */
+/* Applies a line with a setting. The message starts with file and line. */
 static clshear_status apply(clshear_settings *settings, size_t index, const char *place,
                             const words *line, cs_error *error)
 {

@@ -25,7 +25,7 @@ done:
     return status;
 }
 
-/* Replaces a value by a copy of another, or leaves it alone when out of memory. */
+/* Replaces a value by a copy of another. Leaves it unchanged when out of memory. */
 static clshear_status copy_value(const cs_setting_value *from, cs_setting_value *to,
                                  cs_error *error)
 {
@@ -82,8 +82,9 @@ void cs_settings_unset(clshear_settings *settings, size_t index)
     value->is_set = 0;
 }
 
-/* What answers the same question as the setting that was just set: the last one counts. */
-static void replace_others(clshear_settings *settings, size_t index)
+/* Unsets the alternatives of a setting that was just set, because the last one set counts.
+ * Setting the blades chooses the polygon. */
+static void unset_alternatives(clshear_settings *settings, size_t index)
 {
     const double polygon = CLSHEAR_APERTURE_POLYGON;
     switch (index) {
@@ -114,7 +115,7 @@ clshear_status cs_settings_override(clshear_settings *settings, const clshear_se
     clshear_status status = CLSHEAR_OK;
     cs_aperture_image image = {0};
     for (size_t i = 0; i < CS_SETTING_COUNT; i++)
-        if (over->values[i].is_set) replace_others(settings, i);
+        if (over->values[i].is_set) unset_alternatives(settings, i);
     for (size_t i = 0; i < CS_SETTING_COUNT; i++)
         if (over->values[i].is_set)
             CS_TRY(copy_value(&over->values[i], &settings->values[i], error));
@@ -126,7 +127,7 @@ done:
     return status;
 }
 
-/* Whether the numbers lie within bounds and are whole where they must be. */
+/* Returns 1 if the numbers are within bounds, and whole where the kind requires it, else 0. */
 static int are_allowed(const cs_setting *entry, const double *numbers, size_t count)
 {
     const int whole = entry->kind != CLSHEAR_NUMBER;
@@ -159,7 +160,7 @@ clshear_status cs_settings_set(clshear_settings *settings, clshear_setting setti
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s: is a text, not a number", entry->name);
     if (count == 0 || count % entry->values != 0 || count / entry->values > entry->most)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s: %zu numbers: must be %zu%s", entry->name,
-                       count, entry->values, entry->most > 1 ? ", or some times as many" : "");
+                       count, entry->values, entry->most > 1 ? ", or a multiple of that" : "");
     if (!are_allowed(entry, numbers, count)) {
         cs_setting_expectation(entry, expectation, sizeof expectation);
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s %.9g%s: must be %s", entry->name,
@@ -172,7 +173,7 @@ clshear_status cs_settings_set(clshear_settings *settings, clshear_setting setti
     value->numbers = room;
     value->count = count;
     value->is_set = 1;
-    replace_others(settings, index);
+    unset_alternatives(settings, index);
     return CLSHEAR_OK;
 }
 

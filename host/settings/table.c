@@ -46,7 +46,7 @@ size_t cs_setting_index(clshear_setting setting)
     return index;
 }
 
-/* Whether `name`, of `length` characters, is one of the words of a list. */
+/* Returns 1 if `name`, of `length` characters, is a word of the list, else 0. */
 static int is_listed(const char *list, const char *name, size_t length)
 {
     while (*list != '\0') {

@@ -1,4 +1,4 @@
-/* Values of settings as text, in and out. */
+/* Conversion of settings to and from text. */
 #include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
@@ -10,7 +10,7 @@
 
 static const char *const count_words[] = {"", "a", "two", "three", "four", "five", "six"};
 
-/* Appends formatted text, cut to what fits. */
+/* Appends formatted text, truncated to `size` bytes. */
 static void append(char *text, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -31,7 +31,8 @@ static void list_choices(const cs_setting *setting, char *text, size_t size)
     for (int i = 0; i < count; i++) {
         const int last = i + 1 == count && !with_file;
         if (with_file && i == CLSHEAR_APERTURE_IMAGE) continue;
-        append(text, size, "%s%s", i == 0 ? "" : last ? " or " : ", ", choices[i].name);
+        const char *separator = last ? " or " : ", ";
+        append(text, size, "%s%s", i == 0 ? "" : separator, choices[i].name);
     }
     if (with_file) append(text, size, " or an image file");
 }
@@ -74,8 +75,8 @@ static clshear_status refuse(const cs_setting *setting, const char *text, cs_err
                    expectation);
 }
 
-/* Reads up to `capacity` numbers separated by commas. Returns how many, or 0 if there are more or
- * other things. */
+/* Reads up to `capacity` numbers separated by commas. Returns their count, or 0 if there are more
+ * or the text has anything else. */
 static size_t read_numbers(const char *text, size_t capacity, double *numbers)
 {
     for (size_t i = 0; i < capacity; i++) {
@@ -98,7 +99,7 @@ int cs_setting_parse(const cs_setting *setting, const char *text, double *number
     return numbers[0] >= 0.0;
 }
 
-/* Numbers in the table are floats in the kernels; texts like 0.1 must become the float 0.1. */
+/* Rounds to float first: kernels use floats, so "0.1" must become the float 0.1. */
 static clshear_status set_numbers(clshear_settings *settings, size_t index, const char *text,
                                   cs_error *error)
 {
@@ -121,7 +122,7 @@ static clshear_status set_numbers(clshear_settings *settings, size_t index, cons
     return status == CLSHEAR_BAD_ARGUMENT ? refuse(entry, text, error) : status;
 }
 
-/* An image file, or a name out of the list. */
+/* Sets the aperture from an image file, or from a name in the list. */
 static clshear_status set_aperture_file(clshear_settings *settings, const char *path,
                                         cs_error *error)
 {
@@ -129,7 +130,8 @@ static clshear_status set_aperture_file(clshear_settings *settings, const char *
     clshear_status status = cs_aperture_image_read(path, &image, error);
     if (status == CLSHEAR_OK) status = cs_settings_set_aperture(settings, &image, error);
     cs_aperture_image_free(&image);
-    return status == CLSHEAR_BAD_ARGUMENT ? CLSHEAR_BAD_FILE : status; /* it came from a file */
+    return status == CLSHEAR_BAD_ARGUMENT ? CLSHEAR_BAD_FILE
+                                          : status; /* the bad value came from a file */
 }
 
 clshear_status cs_settings_set_text(clshear_settings *settings, size_t index, const char *text,

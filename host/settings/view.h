@@ -1,11 +1,11 @@
-/* The camera and lens that settings describe. */
+/* Camera and lens of the settings. */
 #ifndef CS_SETTINGS_VIEW_H
 #define CS_SETTINGS_VIEW_H
 
 #include "optics/view.h"
 #include "settings/settings.h"
 
-/* What is not set is 0. The image of an image aperture is that of the settings. */
+/* Fills `view`. Unset values are 0. The image of an image aperture belongs to the settings. */
 void cs_view_of(const clshear_settings *settings, cs_view *view);
 
 #endif

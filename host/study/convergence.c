@@ -47,7 +47,7 @@ done:
     return status;
 }
 
-/* Mean of the last size, and the fit. means: sizes x replicates. */
+/* Computes the mean of the largest size and the fit. `means` has sizes x replicates values. */
 static clshear_status finish(const cs_study *study, const double *means, const double *reference,
                              clshear_convergence *result)
 {
@@ -81,7 +81,7 @@ done:
     return status;
 }
 
-/* The mean of R, G and B of a pixel's pattern. */
+/* Mean of R, G and B of one replicate of the film's only pixel. */
 static double pattern_mean(const clshear_film *film, uint32_t replicate)
 {
     double sum = 0.0;

@@ -1,4 +1,4 @@
-/* Studies of convergence: the error of many patterns at rising numbers of samples. */
+/* Convergence studies: the error of a pattern at increasing sample counts. */
 #ifndef CS_STUDY_CONVERGENCE_H
 #define CS_STUDY_CONVERGENCE_H
 
@@ -9,24 +9,25 @@
 
 struct clshear_convergence {
     size_t sizes;
-    uint32_t *counts; /* samples in a pattern of each size */
-    double *errors;   /* of each size */
-    double mean;      /* of all patterns of the last size */
+    uint32_t *counts; /* samples in a pattern, one entry per size */
+    double *errors;   /* error of a pattern, one entry per size */
+    double mean;      /* mean over all patterns of the largest size */
     clshear_fit fit;
 };
 
-/* What all studies are asked: which numbers of samples, and how many patterns of each. */
+/* The sample counts of a study, and the number of patterns at each. */
 typedef struct cs_study {
-    const uint32_t *counts; /* rising */
-    size_t sizes;           /* 2 or more */
-    uint32_t replicates;    /* 2 or more */
+    const uint32_t *counts; /* samples in a pattern, rising */
+    size_t sizes;           /* length of `counts`, 2 or more */
+    uint32_t replicates;    /* patterns of each size, 2 or more */
 } cs_study;
 
-/* Room for a result of so many sizes. Start from zeros; freed by cs_convergence_free. */
+/* Allocates a result with `sizes` entries. Initialise it to zero; free it with
+ * cs_convergence_free. */
 clshear_status cs_convergence_reserve(size_t sizes, clshear_convergence *result, cs_error *error);
 void cs_convergence_free(clshear_convergence *result);
 
-/* As the public functions of these names. */
+/* Implement the public functions of these names. */
 clshear_status cs_converge_integrand(const clshear_integrand *integrand, const char *sampler,
                                      uint32_t seed, const cs_study *study, const double *reference,
                                      clshear_convergence *result, cs_error *error);
@@ -37,9 +38,9 @@ clshear_status cs_converge_image(clshear_scene *scene, const clshear_settings *s
                                  const cs_study *study, const clshear_film *reference,
                                  clshear_convergence *result, cs_error *error);
 
-/* Settings of one render of a study: `count` samples in each replicate; the pilot counts as centre,
- * and nothing is adaptive, since it is one pattern that is measured. `settings` starts from zeros
- * and is freed by cs_settings_free. */
+/* Makes the settings of one render of a study, with `count` samples in each replicate. The pilot is
+ * replaced by the centre and adaptive sampling is off, because the study measures one fixed
+ * pattern. Initialise `settings` to zero; free it with cs_settings_free. */
 clshear_status cs_study_settings(const clshear_settings *given, const cs_study *study,
                                  uint32_t count, clshear_settings *settings, cs_error *error);
 

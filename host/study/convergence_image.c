@@ -7,12 +7,12 @@
 #include "study/convergence.h"
 
 enum {
-    TILE = 8 /* pixels along the side of a part */
+    TILE = 8 /* side of a tile, px */
 };
 
 static const char *const colours[] = {"R", "G", "B"};
 
-/* The tiles of an image: parts of the error, between which the bootstrap chooses. */
+/* The division of an image into tiles. The bootstrap resamples the tiles. */
 typedef struct tiling {
     size_t width; /* px */
     size_t height;
@@ -32,8 +32,9 @@ static tiling tiling_of(const clshear_settings *settings)
     return t;
 }
 
-/* Adds the variance of one pattern to the tiles' sums, with the square of what the mean is off the
- * reference (NULL: none) by more than that variance accounts for; returns the image's mean. */
+/* Adds the error of one pattern to each tile's sum: its variance, plus the squared difference of
+ * the mean from the reference (NULL: none) beyond the mean's own variance. Returns the image's
+ * mean. */
 static double add_tiles(const clshear_film *film, const clshear_film *reference,
                         uint32_t replicates, size_t columns, double *tiles)
 {
@@ -66,12 +67,12 @@ static clshear_status check_reference(const clshear_film *reference, const tilin
         ((size_t)reference->info.width == t->width && (size_t)reference->info.height == t->height))
         return CLSHEAR_OK;
     return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                   "the reference is %d x %d pixels: it needs %zu x %zu, the image's",
+                   "the reference has %d x %d pixels: it needs the image's size, %zu x %zu",
                    reference->info.width, reference->info.height, t->width, t->height);
 }
 
-/* Renders the image with `count` samples in each pattern. part: zeros at first; in the end its mean
- * is the mean error of a pixel. */
+/* Renders the image with `count` samples in each pattern. `part` has an entry per tile, initially
+ * 0; on return its mean is the mean error of a pixel. */
 static clshear_status render_size(clshear_scene *scene, const clshear_settings *given,
                                   const cs_study *study, uint32_t count, const tiling *t,
                                   const clshear_film *reference, uint32_t *drawn, double *mean,

@@ -1,4 +1,4 @@
-/* clshear: the enumerations of settings that name one out of several, from setting_list.h.
+/* clshear: enumerations of the settings with named choices, from setting_list.h.
  *
  * CLSHEAR_SHEAR_NONE, _TOROIDAL, _EQUAL_AREA; CLSHEAR_ORACLE_CENTRE, _MEDIAN, _NEAR, _FAR, _PILOT;
  * CLSHEAR_FILTER_BOX, _TENT, _GAUSSIAN, _BLACKMAN_HARRIS; CLSHEAR_APERTURE_DISK, _SQUARE, _POLYGON,

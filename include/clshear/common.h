@@ -1,27 +1,25 @@
-/* clshear: what every public header shares.
+/* clshear: common definitions of all public headers, which include this file.
  *
- * Included by the others; a program need not include it itself.
- *
- * Conventions of all public functions
- * - A function that can fail returns a clshear_status. Its result goes to the last pointer, which
- *   is left alone on failure.
- * - After a failure, clshear_message() has the reason in one line, for the calling thread.
- * Contexts, scenes and films keep the reason of their own last failure besides.
- * - Objects are opaque. Each is freed by its own _free function, which accepts NULL, in any order:
- *   a scene keeps its context alive.
- * - Arrays and texts passed in are copied.
- * - Structs that cross the interface begin with `struct_size`, which the caller sets to the size of
- *   the struct as compiled: `clshear_film_info info = {.struct_size = sizeof info};`. A newer library leaves alone
- *   what an older program does not know, and takes what it does not have as zero.
- * - Nothing here prints, aborts or exits.
+ * Conventions
+ * - A function that can fail returns a clshear_status. It writes its result through the last
+ *   pointer, and leaves the target unchanged on failure.
+ * - After a failure, clshear_message() returns a one-line reason, for each thread separately.
+ *   Contexts, scenes and films also store the reason of their own last failure.
+ * - Objects are opaque. Each type has a _free function, which accepts NULL. Objects can be freed in
+ *   any order: a scene keeps its context alive.
+ * - Functions copy the arrays and texts in their arguments.
+ * - Public structs begin with `struct_size`. The caller sets it to the size of the struct:
+ *   `clshear_film_info info = {.struct_size = sizeof info};`. The library writes no
+ *   member beyond this size, reads missing members as zero and ignores unknown ones, so that
+ *   programs work with newer and older libraries.
+ * - No function prints, aborts or exits.
  *
  * Threads
- * - A context may be used by any number of threads at the same time. What they run on its device
- *   takes turns.
- * - A scene may be rendered by any number of threads at the same time, once it is complete. Only
- * one thread at a time may change it, and none may use it meanwhile.
- * - Settings, films, point sets, spectra and other results may be read by any number of threads at
- *   the same time; only one may change them, and none may read them meanwhile.
+ * - Any number of threads may use a context at the same time. Their work on its device takes turns.
+ * - Any number of threads may render a complete scene at the same time. A thread that changes the
+ *   scene must be the only one that uses it.
+ * - Any number of threads may read settings, films, point sets, spectra and other results at the
+ *   same time. A thread that changes one must be the only one that uses it.
  * - Different objects are independent of each other. */
 #ifndef CLSHEAR_COMMON_H
 #define CLSHEAR_COMMON_H
@@ -49,8 +47,8 @@ extern "C" {
  * Version
  * --------------------------------------------------------------------------------------------- */
 
-/* Version of the library that runs, as "major.minor.patch" and as a number like CLSHEAR_VERSION.
- * The macros in version.h say what a program was compiled with. */
+/* Version of the loaded library, as "major.minor.patch" and as a number like CLSHEAR_VERSION. The
+ * macros in version.h are the version at compile time. */
 CLSHEAR_API const char *clshear_version(void);
 CLSHEAR_API int clshear_version_number(void);
 
@@ -73,19 +71,19 @@ typedef enum clshear_status {
 #undef CLSHEAR_STATUS_ENUMERATOR
 } clshear_status;
 
-/* The identifier of a status as text, "BAD_FILE"; NULL for a number that is none. */
+/* The identifier of a status as text, such as "BAD_FILE"; NULL for an unknown number. */
 CLSHEAR_API const char *clshear_status_name(clshear_status status);
 
-/* Why the last call of this thread that failed did so, in one line; "" before any failure. Valid
- * until the thread's next failure. */
+/* The message of this thread's last failed call, in one line; "" before any failure. Valid until
+ * the thread's next failure. */
 CLSHEAR_API const char *clshear_message(void);
 
 /* ------------------------------------------------------------------------------------------------
  * Files
  * --------------------------------------------------------------------------------------------- */
 
-/* Writes `size` bytes to a file, as all written files are: an existing one is replaced only once
- * the new one is complete, links are followed, and devices and pipes are written as they are. "-"
+/* Writes `size` bytes to a file in the way of all output files: an existing file is replaced only
+ * when the new one is complete, links are followed, and devices and pipes are written in place. "-"
  * is standard output. */
 CLSHEAR_API clshear_status clshear_file_write(const char *path, const void *bytes, size_t size);
 
@@ -94,7 +92,7 @@ CLSHEAR_API clshear_status clshear_file_write(const char *path, const void *byte
  * --------------------------------------------------------------------------------------------- */
 
 typedef struct clshear_context clshear_context;   /* an OpenCL device and its compiled kernels */
-typedef struct clshear_settings clshear_settings; /* what a render is asked for */
+typedef struct clshear_settings clshear_settings; /* options of a render */
 typedef struct clshear_scene clshear_scene;       /* triangles, materials, lights, hierarchy */
 typedef struct clshear_film clshear_film;         /* a rendered image with all its channels */
 

@@ -1,7 +1,7 @@
 /* clshear: OpenCL objects shared with the caller.
  *
- * In a header of its own, so that clshear.h does not need the OpenCL headers. Common conventions
- * stand at the head of common.h. */
+ * A header of its own, so that clshear.h does not need the OpenCL headers. The head of common.h
+ * describes the common conventions. */
 #ifndef CLSHEAR_OPENCL_H
 #define CLSHEAR_OPENCL_H
 
@@ -16,21 +16,21 @@
 extern "C" {
 #endif
 
-/* Makes a context from the caller's OpenCL context, device and in-order command queue, which it
- * retains. Of the settings, CLSHEAR_PACKET and CLSHEAR_THREADS (Embree's) count; NULL: fallbacks.
- */
+/* Creates a context from the caller's OpenCL context, device and in-order command queue, which it
+ * retains. It uses the settings CLSHEAR_PACKET and CLSHEAR_THREADS (for Embree) only; NULL:
+ * fallbacks. */
 CLSHEAR_API clshear_status clshear_context_create_from(cl_context cl, cl_device_id device,
                                                        cl_command_queue queue,
                                                        const clshear_settings *settings,
                                                        clshear_context **context);
 
-/* The OpenCL objects of a context, for programs that use its device too. Owned by the context; any
- * of the pointers may be NULL. */
+/* The OpenCL objects of a context, for programs that share its device. Owned by the context. Any of
+ * the pointers may be NULL. */
 CLSHEAR_API void clshear_context_objects(const clshear_context *context, cl_context *cl,
                                          cl_device_id *device, cl_command_queue *queue);
 
-/* Writes a channel of a film, row by row as floats, into the caller's buffer of the context's
- * device, from byte `offset` on, and waits until it is there. */
+/* Copies a channel of a film, row by row as floats, into the caller's buffer on the context's
+ * device, starting at byte `offset`. Returns when the copy is complete. */
 CLSHEAR_API clshear_status clshear_film_copy_to_buffer(clshear_film *film, clshear_context *context,
                                                        const char *channel, cl_mem buffer,
                                                        size_t offset);

@@ -1,9 +1,9 @@
 /* clshear: the table of settings.
  *
- * Everything that a render can be asked for stands here once. From this table come the enumerations
- * of clshear.h, the typed setters' bounds, the flags of the program, its help and its manual page,
- * the lines of settings files, the metadata of written images, and what a continued render must
- * have in common with its start. A new setting is one line here and the code that obeys it. */
+ * Every option of a render has one line here. The enumerations of clshear.h, the bounds of the
+ * setters, the program's flags, help and manual page, settings files, image metadata, and the check
+ * of a continued render are made from this table. A new setting is one line here and the code that
+ * implements it. */
 #ifndef CLSHEAR_SETTING_LIST_H
 #define CLSHEAR_SETTING_LIST_H
 
@@ -20,10 +20,10 @@
 #define CLSHEAR_ORACLE_LIST(X)                                                     \
     X(CENTRE, 0, "centre", "the depth seen through the middles of pixel and lens") \
     X(MEDIAN, 1, "median", "the median depth of rays all over pixel and lens")     \
-    X(NEAR, 2, "near", "the nearest depth of those rays")                          \
-    X(FAR, 3, "far", "the farthest depth of those rays")                           \
+    X(NEAR, 2, "near", "the nearest depth of these rays")                          \
+    X(FAR, 3, "far", "the farthest depth of these rays")                           \
     X(PILOT, 4, "pilot",                                                           \
-      "a small render tries centre, near, far and no shear, and takes what is clearly best")
+      "a small render tries centre, near, far and no shear, and takes the clearly best rule")
 
 #define CLSHEAR_FILTER_LIST(X)                                                       \
     X(BOX, 0, "box", "constant; usual width 1 px")                                   \
@@ -41,20 +41,20 @@
  * Settings: X(identifier, number, name, aliases, kind, values, most, fallback, low, high, choices,
  *             use, argument, help)
  *
- * number    of the enumerator; never reused, so that a program built before stays right. It also
- *           says the group in lists: 1 samples, 20 image, 40 camera, 50 lens, 60 light, 80 device,
+ * number    value of the enumerator; never reused, because compiled programs depend on it. It also
+ *           gives the group in lists: 1 samples, 20 image, 40 camera, 50 lens, 60 light, 80 device,
  *           and all numbers up to the next group
- * name      of the flag, without dashes
+ * name      name of the flag, without dashes
  * aliases   other names of the flag, separated by spaces
  * kind      SWITCH (0 or 1), INTEGER, NUMBER, CHOICE (a name out of `choices`), TEXT
- * values    how many numbers make one, separated by commas
- * most      how often it may be given; more than 1: each time adds to a list
- * fallback  what counts when nothing is given; "": chosen by the render
- * low, high bounds of each number, both included
- * choices   which list a CHOICE names: shear, oracle, filter, aperture, sampler; else none
- * use       RECIPE: fixes the picture and its noise, is written to the metadata, and must be the
+ * values    numbers in one value, separated by commas
+ * most      largest number of values; above 1, each use of the flag appends one
+ * fallback  default value; "": the render chooses it
+ * low, high bounds of each number, both inclusive
+ * choices   list of a CHOICE: shear, oracle, filter, aperture, sampler; otherwise none
+ * use       RECIPE: affects the picture or its noise, is written to the metadata, and must be the
  *           same when a render is continued; RECORD: is written to the metadata; PRIVATE: neither
- * argument  shown in the help; "": takes none
+ * argument  placeholder in the help; "": the flag takes no value
  * help      one line, at most 53 characters
  * --------------------------------------------------------------------------------------------- */
 
@@ -78,11 +78,11 @@
     X(ADAPTIVE, 8, "adaptive", "", SWITCH, 1, 1, "0", 0, 1, none, RECORD, "", \
       "more samples where they are needed; --spp is the mean") \
     X(EXTENDABLE, 9, "extendable", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
-      "keep in the EXR what --extend needs") \
+      "keep the data for --extend in the EXR") \
     X(KEEP_PATTERNS, 10, "keep-patterns", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
       "keep the mean of each replicate: Pattern<n>.R/G/B") \
     X(GAIN, 11, "gain-channel", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
-      "measure what the shear gains: channel Gain") \
+      "measure the gain of the shear: channel Gain") \
     /* Image */ \
     X(WIDTH, 20, "width", "", INTEGER, 1, 1, "512", 1, 65536, none, RECIPE, "PX", \
       "image width") \
@@ -106,7 +106,7 @@
     X(FOCAL_DISTANCE, 44, "focal-distance", "focus-distance", NUMBER, 1, 1, "", 1e-12, 1e12, none, \
       RECIPE, "D", "depth of the plane in focus") \
     X(FOCUS_PIXEL, 45, "focus-pixel", "", INTEGER, 2, 1, "", 0, 65535, none, PRIVATE, "X,Y", \
-      "focus on what this pixel sees") \
+      "focus on the depth at this pixel") \
     /* Lens */ \
     X(LENS_RADIUS, 50, "lens-radius", "aperture-radius", NUMBER, 1, 1, "", 0, 1e12, none, RECIPE, \
       "R", "lens radius in scene units; 0: pinhole") \
