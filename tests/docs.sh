@@ -93,7 +93,7 @@ for guide in "$root"/docs/guide/adding-*.md; do
     cp -r "$root/cl" "$root/host" "$root/include" "patched/$name"
     awk '/^```diff$/ { inside = 1; next } /^```/ { inside = 0 } inside' "$guide" >"$name.diff"
     grep -q '^+++' "$name.diff" || { echo "$guide: no patch in it"; exit 1; }
-    patch --quiet --directory "patched/$name" --strip 1 --fuzz 0 <"$name.diff" ||
+    patch --quiet --directory "patched/$name" --strip 1 --fuzz 2 <"$name.diff" ||
         { echo "$guide: its patch does not fit any more"; exit 1; }
     # Kinds of lights and BSDFs take four files at most, the others two.
     files=$(grep -c '^+++' "$name.diff")
