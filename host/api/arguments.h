@@ -29,6 +29,13 @@ static inline clshear_status cs_struct_in(void *copy, size_t size, const void *g
     return CLSHEAR_OK;
 }
 
+/* Declares `copy`, a struct that the caller gives by pointer, or fails in the calling function. */
+#define CS_TAKE(type, copy, given)                                        \
+    type copy;                                                            \
+    CS_NEEDS(given);                                                      \
+    if (cs_struct_in(&(copy), sizeof(copy), given, #given) != CLSHEAR_OK) \
+    return CLSHEAR_BAD_ARGUMENT
+
 /* Copies a versioned struct to the caller, up to the caller's size. The size itself stays
  * unchanged. */
 static inline void cs_struct_out(void *target, const void *source, size_t size)

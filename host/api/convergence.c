@@ -47,14 +47,6 @@ clshear_status clshear_variance_of(const double *values, size_t count, double *v
     return CLSHEAR_OK;
 }
 
-static clshear_status check_study(const cs_study *study)
-{
-    if (study->counts != NULL && study->sizes >= 2 && study->replicates >= 2) return CLSHEAR_OK;
-    return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,
-                   "%zu sizes of %u replicates: must be 2 or more of both", study->sizes,
-                   study->replicates);
-}
-
 CS_HAND_OVER(convergence)
 
 clshear_status clshear_converge_integrand(const clshear_integrand *integrand, const char *sampler,
@@ -66,11 +58,9 @@ clshear_status clshear_converge_integrand(const clshear_integrand *integrand, co
     CS_NEEDS(result);
     clshear_convergence made = {0};
     const cs_study study = {counts, sizes, replicates};
-    clshear_status status = check_study(&study);
-    if (status == CLSHEAR_OK)
-        status = cs_converge_integrand(integrand, sampler, seed, &study, reference, &made,
-                                       cs_thread_error());
-    return hand_over(status, &made, result);
+    return hand_over(cs_converge_integrand(integrand, sampler, seed, &study, reference, &made,
+                                           cs_thread_error()),
+                     &made, result);
 }
 
 clshear_status clshear_converge_pixel(clshear_scene *scene, const clshear_settings *settings, int x,
@@ -82,10 +72,8 @@ clshear_status clshear_converge_pixel(clshear_scene *scene, const clshear_settin
     CS_NEEDS(result);
     clshear_convergence made = {0};
     const cs_study study = {counts, sizes, replicates};
-    clshear_status status = check_study(&study);
-    if (status == CLSHEAR_OK)
-        status =
-            cs_converge_pixel(scene, settings, x, y, &study, reference, &made, cs_thread_error());
+    const clshear_status status =
+        cs_converge_pixel(scene, settings, x, y, &study, reference, &made, cs_thread_error());
     return cs_message_keep(&scene->message, hand_over(status, &made, result));
 }
 
@@ -98,10 +86,10 @@ clshear_status clshear_converge_image(clshear_scene *scene, const clshear_settin
     CS_NEEDS(result);
     clshear_convergence made = {0};
     const cs_study study = {counts, sizes, replicates};
-    clshear_status status = check_study(&study);
-    if (status == CLSHEAR_OK)
-        status = cs_converge_image(scene, settings, &study, reference, &made, cs_thread_error());
-    return cs_message_keep(&scene->message, hand_over(status, &made, result));
+    return cs_message_keep(
+        &scene->message,
+        hand_over(cs_converge_image(scene, settings, &study, reference, &made, cs_thread_error()),
+                  &made, result));
 }
 
 void clshear_convergence_free(clshear_convergence *result)

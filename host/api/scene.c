@@ -31,12 +31,9 @@ clshear_status clshear_scene_create(clshear_context *context, clshear_scene **sc
 
 clshear_status clshear_scene_add_mesh(clshear_scene *scene, const clshear_mesh *mesh)
 {
-    clshear_mesh copy;
     CS_NEEDS(scene);
-    CS_NEEDS(mesh);
-    clshear_status status = cs_struct_in(&copy, sizeof copy, mesh, "mesh");
-    if (status == CLSHEAR_OK) status = cs_scene_append(scene, &copy, cs_thread_error());
-    return cs_message_keep(&scene->message, status);
+    CS_TAKE(clshear_mesh, copy, mesh);
+    return cs_message_keep(&scene->message, cs_scene_append(scene, &copy, cs_thread_error()));
 }
 
 clshear_status clshear_scene_complete(clshear_scene *scene)
@@ -54,12 +51,9 @@ done:
 
 clshear_status clshear_scene_add_light(clshear_scene *scene, const clshear_light *light)
 {
-    clshear_light copy;
     CS_NEEDS(scene);
-    CS_NEEDS(light);
-    clshear_status status = cs_struct_in(&copy, sizeof copy, light, "light");
-    if (status == CLSHEAR_OK) status = cs_scene_light(scene, &copy, cs_thread_error());
-    return cs_message_keep(&scene->message, status);
+    CS_TAKE(clshear_light, copy, light);
+    return cs_message_keep(&scene->message, cs_scene_light(scene, &copy, cs_thread_error()));
 }
 
 void clshear_scene_describe(const clshear_scene *scene, clshear_scene_info *info)

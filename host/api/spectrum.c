@@ -18,22 +18,28 @@ clshear_status clshear_spectrum_measure(clshear_context *context, const clshear_
     return cs_message_keep(&context->message, hand_over(status, &made, spectrum));
 }
 
-clshear_status clshear_spectrum_of_grid(const float *values, size_t width, size_t height,
-                                        clshear_spectrum **spectrum)
+/* The spectrum of width x height values by one of the transforms below. */
+static clshear_status
+of_values(clshear_status (*transform)(const float *values, size_t width, size_t height,
+                                      clshear_spectrum *spectrum),
+          const float *values, size_t width, size_t height, clshear_spectrum **spectrum)
 {
     CS_NEEDS(values);
     CS_NEEDS(spectrum);
     clshear_spectrum made = {0};
-    return hand_over(cs_spectrum_of_grid(values, width, height, &made), &made, spectrum);
+    return hand_over(transform(values, width, height, &made), &made, spectrum);
+}
+
+clshear_status clshear_spectrum_of_grid(const float *values, size_t width, size_t height,
+                                        clshear_spectrum **spectrum)
+{
+    return of_values(cs_spectrum_of_grid, values, width, height, spectrum);
 }
 
 clshear_status clshear_spectrum_of_slice(const float *values, size_t width, size_t height,
                                          clshear_spectrum **spectrum)
 {
-    CS_NEEDS(values);
-    CS_NEEDS(spectrum);
-    clshear_spectrum made = {0};
-    return hand_over(cs_spectrum_of_slice(values, width, height, &made), &made, spectrum);
+    return of_values(cs_spectrum_of_slice, values, width, height, spectrum);
 }
 
 void clshear_spectrum_free(clshear_spectrum *spectrum)

@@ -258,23 +258,20 @@ done:
 clshear_status cs_buffer_read(const cs_buffer *buffer, size_t offset, size_t size, void *target,
                               cs_error *error)
 {
-    clshear_status status = CLSHEAR_OK;
-    CS_OPENCL(clEnqueueReadBuffer(buffer->queue, buffer->memory, CL_TRUE, offset, size, target, 0,
-                                  NULL, NULL),
-              "cannot read %zu bytes from the device", size);
-done:
-    return status;
+    const cl_int code = clEnqueueReadBuffer(buffer->queue, buffer->memory, CL_TRUE, offset, size,
+                                            target, 0, NULL, NULL);
+    if (code == CL_SUCCESS) return CLSHEAR_OK;
+    return cs_opencl_fail(error, code, "cannot read %zu bytes from the device", size);
 }
 
 clshear_status cs_buffer_write(cs_buffer *buffer, size_t offset, size_t size, const void *source,
                                cs_error *error)
 {
-    clshear_status status = CLSHEAR_OK;
-    CS_OPENCL(clEnqueueWriteBuffer(buffer->queue, buffer->memory, CL_TRUE, offset, size, source, 0,
-                                   NULL, NULL),
-              "cannot write %zu bytes to the device", size);
-done:
-    return status;
+    const cl_int code = clEnqueueWriteBuffer(buffer->queue, buffer->memory, CL_TRUE, offset, size,
+                                             source, 0, NULL, NULL);
+    return code == CL_SUCCESS
+               ? CLSHEAR_OK
+               : cs_opencl_fail(error, code, "cannot write %zu bytes to the device", size);
 }
 
 cs_buffer *cs_buffer_retain(cs_buffer *buffer)

@@ -7,8 +7,14 @@
 #include "analysis/integrands.h"
 #include "render/render.h"
 
-clshear_status cs_convergence_reserve(size_t sizes, clshear_convergence *result, cs_error *error)
+clshear_status cs_convergence_reserve(const cs_study *study, clshear_convergence *result,
+                                      cs_error *error)
 {
+    const size_t sizes = study->sizes;
+    if (study->counts == NULL || sizes < 2 || study->replicates < 2)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "%zu sizes of %u replicates: must be 2 or more of both", sizes,
+                       study->replicates);
     result->sizes = sizes;
     result->counts = calloc(sizes + 1, sizeof *result->counts);
     result->errors = calloc(sizes + 1, sizeof *result->errors);
@@ -67,7 +73,7 @@ clshear_status cs_converge_integrand(const clshear_integrand *integrand, const c
     clshear_points points = {0};
     double *means = calloc((study->sizes + 1) * study->replicates, sizeof *means);
     CS_REQUIRE(means != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    CS_TRY(cs_convergence_reserve(study->sizes, result, error));
+    CS_TRY(cs_convergence_reserve(study, result, error));
     for (size_t k = 0; k < study->sizes; k++) {
         CS_TRY(cs_points_draw(sampler, study->counts[k], study->replicates, seed, &points));
         result->counts[k] = (uint32_t)points.count;
@@ -123,7 +129,7 @@ clshear_status cs_converge_pixel(clshear_scene *scene, const clshear_settings *s
     clshear_status status = CLSHEAR_OK;
     double *means = calloc((study->sizes + 1) * study->replicates, sizeof *means);
     CS_REQUIRE(means != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    CS_TRY(cs_convergence_reserve(study->sizes, result, error));
+    CS_TRY(cs_convergence_reserve(study, result, error));
     for (size_t k = 0; k < study->sizes; k++)
         CS_TRY(render_pixel(scene, settings, x, y, study, study->counts[k], &result->counts[k],
                             means + k * study->replicates, error));

@@ -24,7 +24,8 @@ typedef struct cs_study {
 
 /* Allocates a result with `sizes` entries. Initialise it to zero; free it with
  * cs_convergence_free. */
-clshear_status cs_convergence_reserve(size_t sizes, clshear_convergence *result, cs_error *error);
+clshear_status cs_convergence_reserve(const cs_study *study, clshear_convergence *result,
+                                      cs_error *error);
 void cs_convergence_free(clshear_convergence *result);
 
 /* Implement the public functions of these names. */

@@ -103,7 +103,7 @@ clshear_status cs_converge_image(clshear_scene *scene, const clshear_settings *s
     double *parts = calloc((study->sizes + 1) * t.tiles, sizeof *parts);
     CS_REQUIRE(parts != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     CS_TRY(check_reference(reference, &t, error));
-    CS_TRY(cs_convergence_reserve(study->sizes, result, error));
+    CS_TRY(cs_convergence_reserve(study, result, error));
     for (size_t k = 0; k < study->sizes; k++)
         CS_TRY(render_size(scene, settings, study, study->counts[k], &t, reference,
                            &result->counts[k], &result->mean, parts + k * t.tiles, error));

@@ -163,21 +163,28 @@ static inline int cs_any(cs_vint mask)
 #endif
 }
 
+/* Declares `two`, the lanes of `x` folded by halves down to two, by a function of two vectors. */
+#if CS_PACKET == 16
+#define CS_FOLD(type, combine, x, two)          \
+    type##8 eight = combine((x).lo, (x).hi);    \
+    type##4 four = combine(eight.lo, eight.hi); \
+    type##2 two = combine(four.lo, four.hi)
+#elif CS_PACKET == 8
+#define CS_FOLD(type, combine, x, two)      \
+    type##4 four = combine((x).lo, (x).hi); \
+    type##2 two = combine(four.lo, four.hi)
+#elif CS_PACKET == 4
+#define CS_FOLD(type, combine, x, two) type##2 two = combine((x).lo, (x).hi)
+#endif
+#define CS_SUM(a, b) ((a) + (b))
+
 /* Sum of the lanes, in an order that the width fixes. */
 static inline cs_f32 cs_reduce_add(cs_vfloat x)
 {
 #if CS_PACKET == 1
     return x;
 #else
-#if CS_PACKET == 16
-    float8 eight = x.lo + x.hi;
-    float4 four = eight.lo + eight.hi;
-#elif CS_PACKET == 8
-    float4 four = x.lo + x.hi;
-#else
-    float4 four = x;
-#endif
-    float2 two = four.lo + four.hi;
+    CS_FOLD(float, CS_SUM, x, two);
     return two.x + two.y;
 #endif
 }
@@ -188,15 +195,7 @@ static inline cs_i32 cs_reduce_max(cs_vint x)
 #if CS_PACKET == 1
     return x;
 #else
-#if CS_PACKET == 16
-    int8 eight = max(x.lo, x.hi);
-    int4 four = max(eight.lo, eight.hi);
-#elif CS_PACKET == 8
-    int4 four = max(x.lo, x.hi);
-#else
-    int4 four = x;
-#endif
-    int2 two = max(four.lo, four.hi);
+    CS_FOLD(int, max, x, two);
     return max(two.x, two.y);
 #endif
 }

@@ -71,8 +71,7 @@ const program_command converge_command = {
              "finer render. Slopes are least squares in logarithms, with 95 % intervals by\n"
              "bootstrap over the replicates, or the image's tiles. --oracle pilot counts as\n"
              "centre.\n",
-    .flags = flags,
-    .flag_count = sizeof flags / sizeof *flags,
+    COMMAND_FLAGS(flags),
     .takes_scene = 1,
     .job_size = sizeof(converge_job),
     .run = run,

@@ -28,10 +28,8 @@ const program_command points_command = {
              "  clshear points --sampler sobol --n 256 --sets 10 --dims xu --out points.txt\n",
     .notes = "Text has a point a line and a line # between sets; .csv has commas instead of\n"
              "spaces; .exr has a channel for each coordinate and a row for each set.\n",
-    .flags = flags,
-    .flag_count = sizeof flags / sizeof *flags,
-    .settings = settings,
-    .setting_count = sizeof settings / sizeof *settings,
+    COMMAND_FLAGS(flags),
+    COMMAND_SETTINGS(settings),
     .job_size = sizeof(points_job),
     .run = run,
 };

@@ -45,8 +45,7 @@ const program_command predict_command = {
              "its integrand: x, y, u and v are what the sampler draws. Values are means of R,\n"
              "G and B; an area light is one point. --measure has the variance of sets that\n"
              "are shifted, and of sets as they are.\n",
-    .flags = flags,
-    .flag_count = sizeof flags / sizeof *flags,
+    COMMAND_FLAGS(flags),
     .takes_scene = 1,
     .job_size = sizeof(predict_job),
     .run = run,

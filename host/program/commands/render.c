@@ -56,8 +56,7 @@ const program_command render_command = {
     .notes = "Without --out, writes the scene's name with .exr in the current folder.\n"
              "Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted (what was\n"
              "rendered so far is written).\n",
-    .flags = flags,
-    .flag_count = sizeof flags / sizeof *flags,
+    COMMAND_FLAGS(flags),
     .takes_scene = 1,
     .job_size = sizeof(render_job),
     .run = run,

@@ -47,8 +47,7 @@ const program_command slice_command = {
              "pixel, or the square around the aperture. The line shows the fibres of the\n"
              "oracle's depth; in the spectrum (of the slice less its mean, through Hann's\n"
              "window) that of their energy. Without --out: slice.png, or slice.npy.\n",
-    .flags = flags,
-    .flag_count = sizeof flags / sizeof *flags,
+    COMMAND_FLAGS(flags),
     .takes_scene = 1,
     .job_size = sizeof(slice_job),
     .run = run,

@@ -53,10 +53,8 @@ const program_command spectrum_command = {
     .notes = "Power is 1 for random points. The table has for each radius the ring's mean and\n"
              "anisotropy (dB; -10: isotropic) and the power along the axes, the diagonal and\n"
              "every --direction. Without --out, the table goes to standard output.\n",
-    .flags = flags,
-    .flag_count = sizeof flags / sizeof *flags,
-    .settings = settings,
-    .setting_count = sizeof settings / sizeof *settings,
+    COMMAND_FLAGS(flags),
+    COMMAND_SETTINGS(settings),
     .job_size = sizeof(spectrum_job),
     .run = run,
 };

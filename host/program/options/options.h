@@ -90,6 +90,10 @@ typedef struct program_command {
     int (*run)(void *job); /* returns the exit status */
 } program_command;
 
+/* Members of a program_command that point to a table of flags, or of settings. */
+#define COMMAND_FLAGS(table) .flags = table, .flag_count = sizeof table / sizeof *table
+#define COMMAND_SETTINGS(table) .settings = table, .setting_count = sizeof table / sizeof *table
+
 /* A flag of a command: a row of a table, or a setting. */
 typedef struct named_flag {
     const program_flag *row; /* NULL: the setting */

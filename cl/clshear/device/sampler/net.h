@@ -73,12 +73,7 @@ static inline cs_pair cs_extra_net_pair(const cs_pattern *pattern, cs_sample_tab
 
 /* Four dimensions of one net: `sobol` and `sz`. The table's four words are the coordinates,
  * reversed; the first of them is the element number. */
-static inline void cs_draw_net(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
-                               cs_vuint index, cs_vfloat *tuple)
-{
-    for (cs_u32 d = 0u; d < (cs_u32)CS_MAIN_DIMENSIONS; d++)
-        tuple[d] = cs_scrambled(cs_sample_word(pattern, table, d, index), key, d);
-}
+CS_DEFINE_DRAW_WORDS(cs_draw_net, cs_scrambled)
 
 /* Pairs of (0,2)-sequences, each shuffled by itself (Kollig & Keller 2002, section 3; the shuffling
  * of Burley 2020). The table's one word is the element number. */

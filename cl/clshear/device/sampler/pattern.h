@@ -108,6 +108,16 @@ static inline cs_vfloat cs_unit(cs_vuint bits)
     return cs_to_vfloat(bits >> 8) * 0x1p-24f;
 }
 
+/* Defines a cs_draw_ function that takes the film and lens coordinates of a sample from the first
+ * four words of its table, each through `place`(word, key, dimension). */
+#define CS_DEFINE_DRAW_WORDS(name, place)                                                 \
+    static inline void name(const cs_pattern *pattern, cs_sample_table table, cs_u32 key, \
+                            cs_vuint index, cs_vfloat *tuple)                             \
+    {                                                                                     \
+        for (cs_u32 d = 0u; d < (cs_u32)CS_MAIN_DIMENSIONS; d++)                          \
+            tuple[d] = place(cs_sample_word(pattern, table, d, index), key, d);           \
+    }
+
 #include "../fp_contract_restore.h"
 
 #endif

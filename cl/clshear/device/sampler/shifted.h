@@ -27,12 +27,7 @@ static inline cs_pair cs_extra_partner(const cs_pattern *pattern, cs_sample_tabl
 }
 
 /* Four dimensions of a lattice. The table has four words. */
-static inline void cs_draw_lattice(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
-                                   cs_vuint index, cs_vfloat *tuple)
-{
-    for (cs_u32 d = 0u; d < (cs_u32)CS_MAIN_DIMENSIONS; d++)
-        tuple[d] = cs_shifted(cs_sample_word(pattern, table, d, index), key, d);
-}
+CS_DEFINE_DRAW_WORDS(cs_draw_lattice, cs_shifted)
 
 /* Pairs of one planar set, each shifted by itself and combined at random. The table has two words.
  */
