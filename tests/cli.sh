@@ -180,7 +180,7 @@ expect 0 "image,mj,none,4,8," -- converge "$cornell" --quiet --width 24 --height
 expect 0 "" -- "$cornell" --quiet --width 24 --height 20 --spp 64 --out ref.exr
 expect 0 "target,sampler,shear,n,replicates,mse,slope" -- converge "$cornell" --quiet --width 24 --height 20 \
     --sampler mj --nsamps 4,16 --reference ref.exr
-expect 1 "the reference is 24 x 20 pixels: it needs 24 x 16" -- converge "$cornell" --quiet --width 24 \
+expect 1 "the reference has 24 x 20 pixels: it needs the image's size, 24 x 16" -- converge "$cornell" --quiet --width 24 \
     --height 16 --reference ref.exr
 oiiotool --create 24x20 1 --chnames Y -o grey.exr
 expect 1 "the reference has no channel R: it needs R, G and B" -- converge "$cornell" --quiet --width 24 --height 20 \
