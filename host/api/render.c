@@ -28,8 +28,9 @@ clshear_status clshear_render_extend(clshear_scene *scene, const clshear_setting
 
 float clshear_lens_extent(const clshear_settings *settings)
 {
+    static const double anywhere[3] = {0, 0, 0};
     cs_view view;
-    cs_view_of(settings, &view);
+    cs_view_of(settings, anywhere, &view);
     return cs_lens_extent(&view);
 }
 

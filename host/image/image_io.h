@@ -18,10 +18,12 @@ typedef struct cs_texels {
     uint16_t *halves; /* owned; free() */
 } cs_texels;
 
-/* Reads an image file, or where `memory` is not NULL the `size` bytes of one that is called `path`
- * in messages. Images of integers are taken as sRGB unless they say otherwise. */
-clshear_status cs_image_read_texels(const char *path, const void *memory, size_t size,
-                                    cs_texels *texels, cs_error *error);
+/* Reads an image file, or where `memory` is not NULL the `size` bytes of one; `label` is what
+ * messages call it. Texels are base + gain * those of the file, whatever its alpha. Images of
+ * integers are taken as sRGB unless they say otherwise. */
+clshear_status cs_image_read_texels(const char *path, const char *label, const void *memory,
+                                    size_t size, float base, float gain, cs_texels *texels,
+                                    cs_error *error);
 
 /* Luminance of an image, linear, negative values as 0, reduced to at most `most` texels a side.
  * `luminance` is owned by the caller; free(). */

@@ -223,9 +223,30 @@ typedef struct clshear_scene_info {
 
 /* Reads OBJ, glTF 2.0, PLY, STL or another format that Assimp knows, and completes the scene. What
  * can be repaired is reported to the context's warning callback: missing material files and
- * textures, invalid colours (negative or not finite), degenerate triangles. */
+ * textures, invalid colours (negative or not finite), degenerate triangles.
+ *
+ * The file is read by the program clshear-import, in a process with limits on time and memory, so
+ * that a damaged one ends in a message. It is looked for beside the library, in libexec/clshear, and
+ * where the environment variable CLSHEAR_IMPORT says; without it OBJ, glTF, PLY and STL are read in
+ * the calling process, and other formats are refused.
+ *
+ * A scene that lies far from the origin is moved there, with a warning, since the device computes
+ * with floats. Cameras and lights in settings stay in the coordinates of the file; lights and meshes
+ * that are added by functions are relative to clshear_scene_origin. */
 CLSHEAR_API clshear_status clshear_scene_load(clshear_context *context, const char *path,
                                               clshear_scene **scene);
+
+/* The same with settings for the reading: CLSHEAR_SMOOTH. NULL: fallbacks. */
+CLSHEAR_API clshear_status clshear_scene_load_with(clshear_context *context, const char *path,
+                                                   const clshear_settings *settings,
+                                                   clshear_scene **scene);
+
+/* Where, in coordinates of its file, the scene was moved to the origin from: 0,0,0 for most. */
+CLSHEAR_API void clshear_scene_origin(const clshear_scene *scene, double origin[3]);
+
+/* Cameras of the scene's file: the name of number `index` from 0, or NULL past the last one. Owned
+ * by the scene. CLSHEAR_CAMERA chooses one. */
+CLSHEAR_API const char *clshear_scene_camera(const clshear_scene *scene, size_t index);
 
 /* Creates an empty scene, to be filled with meshes and then completed. */
 CLSHEAR_API clshear_status clshear_scene_create(clshear_context *context, clshear_scene **scene);
@@ -252,7 +273,7 @@ CLSHEAR_API void clshear_scene_free(clshear_scene *scene);
  * --------------------------------------------------------------------------------------------- */
 
 /* Sets what the settings leave open: eye, target, up and field of view from the scene file's
- * camera, or else so that the bounding box fills the picture from the front (looking down -Z);
+ * camera (the one that CLSHEAR_CAMERA names, else the first), or else so that the bounding box fills the picture from the front (looking down -Z);
  * focus on CLSHEAR_FOCUS_PIXEL, or else on the middle pixel, or the depth of the box's centre where
  * that sees nothing; the lens radius from CLSHEAR_F_STOP, or else so that a point at infinity blurs
  * over 3 % of the shorter image axis. A render does the same, without changing the settings. */

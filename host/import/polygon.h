@@ -1,0 +1,13 @@
+/* Polygons into triangles. */
+#ifndef CS_IMPORT_POLYGON_H
+#define CS_IMPORT_POLYGON_H
+
+#include "import/model.h"
+
+/* Cuts a polygon of 3 corners or more into `count` - 2 triangles, as places in `corners`: by ears,
+ * so that it may be concave, in the plane that fits it best. A polygon without ears, which crosses
+ * itself, and one with very many corners are cut as a fan. */
+void cs_polygon_cut(const double (*positions)[3], const cs_corner *corners, size_t count,
+                    uint32_t *triangles);
+
+#endif
