@@ -4,6 +4,8 @@
 
 #include "import/import.h"
 
+/* In a module of its own, clshear-import-other.so. Reads the model's file itself: `bytes` are not
+ * looked at. */
 clshear_status cs_read_other(cs_bytes *bytes, cs_model *model, cs_error *error);
 
 #endif

@@ -96,9 +96,10 @@ std::string reason_of(const ImageBuf &image, const std::string &path)
     std::string reason = first_line(image.geterror());
     const size_t advice = reason.find(" Also, it is not the name of an image format");
     if (advice != std::string::npos) reason.resize(advice);
-    for (const std::string &named : {"\"" + path + "\"", path})
+    for (const std::string &named :
+         {"Invalid image file \"" + path + "\": ", " (" + path + ")", " (\"" + path + "\")", "\"" + path + "\" ", path})
         for (size_t at = reason.find(named); at != std::string::npos; at = reason.find(named))
-            reason.replace(at, named.size(), "it");
+            reason.erase(at, named.size());
     return reason.empty() ? "not an image that can be read" : reason;
 }
 

@@ -176,7 +176,7 @@ static uint32_t colour_at(const cs_bytes *bytes, stl_colours kind, const char *f
                                                                    << 8;
     if (kind == NONE) return NO_COLOUR;
     if (kind == VISCAM) return (bits & 31) << 10 | (bits & 31 << 5) | (bits >> 10 & 31);
-    if ((bits & 0x8000) == 0) return bits;
+    if ((bits & 0x8000) == 0 && bits != 0) return bits; /* 0 is what others leave there */
     const char *head = bytes->data;
     while (memcmp(head, "COLOR=", 6) != 0)
         head++;
