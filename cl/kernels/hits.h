@@ -38,8 +38,8 @@ static inline void cs_apply_colour(const cs_scene_buffers *scene, CS_GLOBAL cons
     CS_GLOBAL const cs_f32 *c2 = scene->colours[face->vertex[2]].value;
     for (int c = 0; c < 3; c++) {
         cs_vfloat colour = c0[c] + b1 * (c1[c] - c0[c]) + b2 * (c2[c] - c0[c]);
-        surface->albedo[c] = mine ? surface->albedo[c] * cs_max(colour, (cs_vfloat)(0.0f))
-                                  : surface->albedo[c];
+        surface->albedo[c] =
+            mine ? surface->albedo[c] * cs_max(colour, (cs_vfloat)(0.0f)) : surface->albedo[c];
     }
 }
 

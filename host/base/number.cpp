@@ -21,7 +21,8 @@ extern "C" const char *cs_parse_number(const char *text, const char *end, double
     const std::from_chars_result found = std::from_chars(begin, end, *value);
     if (found.ptr == begin) return text;
     if (found.ec == std::errc::result_out_of_range) {
-        const double size = is_tiny(begin, found.ptr) ? 0.0 : std::numeric_limits<double>::infinity();
+        const double size =
+            is_tiny(begin, found.ptr) ? 0.0 : std::numeric_limits<double>::infinity();
         *value = *begin == '-' ? -size : size;
     }
     return found.ptr;

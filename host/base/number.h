@@ -9,8 +9,8 @@ extern "C" {
 #endif
 
 /* Reads the number that begins at `text` and ends before `end`, at the latest: returns the place
- * behind it, or `text` where there is none. What is too large becomes infinite, what is too small 0.
- * No blanks are skipped. */
+ * behind it, or `text` where there is none. What is too large becomes infinite, what is too small
+ * 0. No blanks are skipped. */
 const char *cs_parse_number(const char *text, const char *end, double *value);
 
 /* Writes `value` with that many significant digits, as printf's %g does. Returns `text`. */

@@ -163,7 +163,8 @@ static clshear_status add_instance(void *user, const struct aiMesh *source,
         set = materials[source->mMaterialIndex].base_map.set;
     const struct aiVector3D *st = source->mTextureCoords[set];
     const cs_corner first = {(uint32_t)model->positions.count,
-                             source->mNormals != NULL ? (uint32_t)model->normals.count : CS_NO_INDEX,
+                             source->mNormals != NULL ? (uint32_t)model->normals.count
+                                                      : CS_NO_INDEX,
                              st != NULL ? (uint32_t)model->textures.count : CS_NO_INDEX};
     clshear_status status = add_vertices(work, source, matrix, st);
     for (unsigned i = 0; i < source->mNumFaces && status == CLSHEAR_OK; i++)

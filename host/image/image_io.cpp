@@ -51,8 +51,9 @@ void forget(const char *path)
     OIIO::ImageCache::create(true)->invalidate(OIIO::ustring(path), true);
 }
 
-/* Any number of channels as linear RGBA: grey is repeated, alpha counts as 1. */
-ImageBuf linear_rgba(const ImageBuf &source)
+/* Any number of channels as linear RGBA: grey is repeated, alpha counts as 1. Files of integers
+ * (`is_integer`) that say nothing of their curve have that of sRGB. */
+ImageBuf linear_rgba(const ImageBuf &source, bool is_integer)
 {
     const int channels = source.nchannels();
     const int grey = channels < 3;
@@ -60,7 +61,6 @@ ImageBuf linear_rgba(const ImageBuf &source)
     const float fill[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     ImageBuf rgba = OIIO::ImageBufAlgo::channels(source, 4, order, fill);
     std::string space = source.spec().get_string_attribute("oiio:ColorSpace");
-    const bool is_integer = !source.spec().format.is_floating_point();
     if (space.empty()) space = is_integer ? "sRGB" : "linear";
     if (space != "sRGB") return rgba;
     return OIIO::ImageBufAlgo::colorconvert(rgba, "sRGB", "linear", false);
@@ -81,9 +81,11 @@ const char *extension_for(const void *memory, size_t size)
         const char *magic;
         size_t length;
         const char *extension;
-    } known[] = {{"\x89PNG", 4, "png"},       {"\xff\xd8\xff", 3, "jpg"}, {"RIFF", 4, "webp"},
-                 {"\x76\x2f\x31\x01", 4, "exr"}, {"#?", 2, "hdr"},           {"GIF8", 4, "gif"},
-                 {"II*", 3, "tif"},           {"MM", 2, "tif"},           {"BM", 2, "bmp"}};
+    } known[] = {{"\x89PNG", 4, "png"}, {"\xff\xd8\xff", 3, "jpg"},
+                 {"RIFF", 4, "webp"},   {"\x76\x2f\x31\x01", 4, "exr"},
+                 {"#?", 2, "hdr"},      {"GIF8", 4, "gif"},
+                 {"II*", 3, "tif"},     {"MM", 2, "tif"},
+                 {"BM", 2, "bmp"}};
     for (const auto &entry : known)
         if (size >= entry.length && std::memcmp(memory, entry.magic, entry.length) == 0)
             return entry.extension;
@@ -96,8 +98,8 @@ std::string reason_of(const ImageBuf &image, const std::string &path)
     std::string reason = first_line(image.geterror());
     const size_t advice = reason.find(" Also, it is not the name of an image format");
     if (advice != std::string::npos) reason.resize(advice);
-    for (const std::string &named :
-         {"Invalid image file \"" + path + "\": ", " (" + path + ")", " (\"" + path + "\")", "\"" + path + "\" ", path})
+    for (const std::string &named : {"Invalid image file \"" + path + "\": ", " (" + path + ")",
+                                     " (\"" + path + "\")", "\"" + path + "\" ", path})
         for (size_t at = reason.find(named); at != std::string::npos; at = reason.find(named))
             reason.erase(at, named.size());
     return reason.empty() ? "not an image that can be read" : reason;
@@ -143,7 +145,8 @@ clshear_status read_rgba(const Source &from, ImageBuf &rgba, cs_error *error)
     if (!source.read(0, 0, true, TypeDesc::FLOAT))
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
                        reason_of(source, path).c_str());
-    rgba = linear_rgba(without_alpha(std::move(source)));
+    const bool is_integer = !source.nativespec().format.is_floating_point();
+    rgba = linear_rgba(without_alpha(std::move(source)), is_integer);
     if (rgba.has_error())
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
                        first_line(rgba.geterror()).c_str());

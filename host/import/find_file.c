@@ -14,10 +14,11 @@ void cs_folder_of(const char *path, char *folder, size_t size)
     snprintf(folder, size, "%.*s", slash != NULL ? (int)(slash - path) + 1 : 0, path);
 }
 
+/* Whether it is there and no folder. What cannot be read either is found out by who opens it. */
 static int is_file(const char *path)
 {
     struct stat about;
-    return stat(path, &about) == 0 && S_ISREG(about.st_mode);
+    return stat(path, &about) == 0 && !S_ISDIR(about.st_mode);
 }
 
 /* Joins without overflow; 0 where the path is too long. */
@@ -70,7 +71,7 @@ static int has_drive(const char *name)
     return isalpha((unsigned char)name[0]) && name[1] == ':' && name[2] == '/';
 }
 
-int cs_find_file(const char *name, const char *const *folders, size_t count, char *found)
+static int find_as_written(const char *name, const char *const *folders, size_t count, char *found)
 {
     char slashed[CS_FILE_PATH], first[CS_FILE_PATH];
     const char *wanted = slashed;
@@ -110,4 +111,16 @@ void cs_decode_percent(char *name)
         source += decoded ? 2 : 0;
     }
     *target = '\0';
+}
+
+int cs_find_file(const char *name, const char *const *folders, size_t count, char *found)
+{
+    char decoded[CS_FILE_PATH], ignored[CS_FILE_PATH];
+    if (find_as_written(name, folders, count, found)) return 1;
+    if (strchr(name, '%') == NULL || strlen(name) >= sizeof decoded) return 0;
+    strcpy(decoded, name);
+    cs_decode_percent(decoded);
+    if (!find_as_written(decoded, folders, count, ignored)) return 0;
+    memcpy(found, ignored, sizeof ignored);
+    return 1;
 }

@@ -12,9 +12,9 @@ enum {
 void cs_folder_of(const char *path, char *folder, size_t size);
 
 /* Finds the file that a scene calls `name`, in one of `count` folders: as it is written, with
- * slashes for backslashes, by its last part alone where the rest is a path of another machine, and
- * at last in whatever case. Returns 1 and its path in `found` (CS_FILE_PATH bytes). Else returns 0,
- * with the path that was tried first. */
+ * slashes for backslashes, by its last part alone where the rest is a path of another machine, in
+ * whatever case, and at last with the %XX of a URI decoded. Returns 1 and its path in `found`
+ * (CS_FILE_PATH bytes). Else returns 0, with the path that was tried first. */
 int cs_find_file(const char *name, const char *const *folders, size_t count, char *found);
 
 /* Replaces %XX by the bytes they stand for: URIs name files so. */

@@ -8,9 +8,9 @@
 #include "import/gltf_reader.h"
 #include "import/readers.h"
 
-static const char *const supported[] = {"KHR_lights_punctual",     "KHR_materials_emissive_strength",
-                                        "KHR_materials_unlit",     "KHR_texture_transform",
-                                        "KHR_mesh_quantization",   "EXT_texture_webp"};
+static const char *const supported[] = {"KHR_lights_punctual",   "KHR_materials_emissive_strength",
+                                        "KHR_materials_unlit",   "KHR_texture_transform",
+                                        "KHR_mesh_quantization", "EXT_texture_webp"};
 
 int cs_is_gltf(const cs_bytes *bytes, const char *path)
 {
@@ -118,7 +118,8 @@ static clshear_status open_binary(gltf_reader *reader, const cs_bytes *bytes, co
                        bytes->size, whole);
     *size = word_at(bytes->data + 12);
     if (memcmp(bytes->data + 16, "JSON", 4) != 0 || *size > bytes->size - 20)
-        return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: its first chunk is no whole JSON", path);
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: its first chunk is no whole JSON",
+                       path);
     *text = bytes->data + 20;
     const size_t next = 20 + *size;
     if (bytes->size - next < 8) return CLSHEAR_OK;

@@ -65,17 +65,12 @@ static clshear_status decode_data(const gltf_reader *reader, const char *place, 
 clshear_status gltf_uri(const gltf_reader *reader, const char *place, long long index,
                         const char *uri, char **owned, size_t *size)
 {
-    char name[CS_FILE_PATH], found[CS_FILE_PATH];
+    char found[CS_FILE_PATH];
     const char *folders[] = {reader->folder};
     cs_bytes bytes = {0};
     if (gltf_is_data(uri)) return decode_data(reader, place, index, uri, owned, size);
-    if (strlen(uri) >= sizeof name) return gltf_complain(reader, place, index, "its URI is too long");
-    strcpy(name, uri);
-    if (!cs_find_file(name, folders, 1, found)) {
-        cs_decode_percent(name);
-        if (!cs_find_file(name, folders, 1, found))
-            return gltf_complain(reader, place, index, "its file %.200s is not there", uri);
-    }
+    if (!cs_find_file(uri, folders, 1, found))
+        return gltf_complain(reader, place, index, "its file %.200s is not there", uri);
     const clshear_status status = cs_bytes_read(found, &bytes, reader->error);
     *owned = bytes.data;
     *size = bytes.size;
@@ -105,7 +100,8 @@ static clshear_status load_buffer(gltf_reader *reader, long long index)
         if (status != CLSHEAR_OK) return status;
         buffer->data = (const unsigned char *)buffer->owned;
     }
-    if (length < 0) return gltf_complain(reader, "buffers", index, "has no byteLength of 0 or more");
+    if (length < 0)
+        return gltf_complain(reader, "buffers", index, "has no byteLength of 0 or more");
     if ((size_t)length > buffer->size)
         return gltf_complain(reader, "buffers", index, "has %zu bytes, but byteLength says %lld",
                              buffer->size, length);
@@ -174,9 +170,9 @@ static clshear_status point_into(gltf_reader *reader, const json_t *json, long l
     const size_t begin = offset > 0 ? (size_t)offset : 0;
     span->stride = stride > 0 ? stride : item;
     if (offset == -2 || span->stride < item)
-        return gltf_complain(reader, "accessors", accessor, "its byteOffset or byteStride cannot be");
-    if (span->count > 0 &&
-        (begin > size || (span->count - 1) * span->stride + item > size - begin))
+        return gltf_complain(reader, "accessors", accessor,
+                             "its byteOffset or byteStride cannot be");
+    if (span->count > 0 && (begin > size || (span->count - 1) * span->stride + item > size - begin))
         return gltf_complain(reader, "accessors", accessor,
                              "%zu items do not fit into the %zu bytes of its bufferView",
                              span->count, size);
@@ -211,11 +207,23 @@ static double component_at(const unsigned char *at, const gltf_span *span)
     double value = (double)word, most = 1.0;
     float single;
     switch (span->type) {
-    case 5120: value = (double)(int8_t)word; most = 127.0; break;
-    case 5121: most = 255.0; break;
-    case 5122: value = (double)(int16_t)word; most = 32767.0; break;
-    case 5123: most = 65535.0; break;
-    case 5125: most = 4294967295.0; break;
+    case 5120:
+        value = (double)(int8_t)word;
+        most = 127.0;
+        break;
+    case 5121:
+        most = 255.0;
+        break;
+    case 5122:
+        value = (double)(int16_t)word;
+        most = 32767.0;
+        break;
+    case 5123:
+        most = 65535.0;
+        break;
+    case 5125:
+        most = 4294967295.0;
+        break;
     default:
         memcpy(&single, &word, sizeof single);
         return (double)single;
@@ -229,9 +237,8 @@ static void copy_item(const gltf_span *span, size_t item, size_t most, float *ta
     for (size_t c = 0; c < span->components && c < most; c++)
         target[c] = span->data == NULL
                         ? 0.0f
-                        : (float)component_at(span->data + item * span->stride +
-                                                  c * size_of(span->type),
-                                              span);
+                        : (float)component_at(
+                              span->data + item * span->stride + c * size_of(span->type), span);
 }
 
 /* Replaces the items that the sparse part names. */
@@ -253,8 +260,8 @@ static clshear_status apply_sparse(gltf_reader *reader, long long index, const j
     for (size_t i = 0; i < (size_t)count && status == CLSHEAR_OK; i++) {
         const double place = component_at(which.data + i * which.stride, &which);
         if (place >= (double)span->count)
-            return gltf_complain(reader, "accessors", index, "its sparse part names item %.0f of %zu",
-                                 place, span->count);
+            return gltf_complain(reader, "accessors", index,
+                                 "its sparse part names item %.0f of %zu", place, span->count);
         copy_item(&what, i, most, values + (size_t)place * most);
     }
     return status;

@@ -9,18 +9,12 @@
 
 /* ----- Images ----- */
 
-static clshear_status add_file(gltf_reader *reader, long long index, const char *uri, int *image)
+static clshear_status add_file(gltf_reader *reader, const char *uri, int *image)
 {
-    char name[CS_FILE_PATH], found[CS_FILE_PATH];
+    char found[CS_FILE_PATH];
     const char *folders[] = {reader->folder};
-    snprintf(name, sizeof name, "%s", uri);
-    int there = cs_find_file(name, folders, 1, found);
-    if (!there) {
-        cs_decode_percent(name);
-        there = cs_find_file(name, folders, 1, found);
-    }
-    (void)index;
-    return cs_model_add_image(reader->model, there ? found : "", there ? found : name, NULL, 0,
+    const int there = cs_find_file(uri, folders, 1, found);
+    return cs_model_add_image(reader->model, there ? found : "", there ? found : uri, NULL, 0,
                               image, reader->error);
 }
 
@@ -34,7 +28,7 @@ static clshear_status add_image(gltf_reader *reader, long long index, int *image
     const unsigned char *data = NULL;
     size_t size = 0, stride = 0;
     clshear_status status;
-    if (uri != NULL && !gltf_is_data(uri)) return add_file(reader, index, uri, image);
+    if (uri != NULL && !gltf_is_data(uri)) return add_file(reader, uri, image);
     snprintf(label, sizeof label, "embedded image %lld", index);
     if (uri != NULL) {
         status = gltf_uri(reader, "images", index, uri, &owned, &size);
@@ -156,8 +150,7 @@ static void read_extensions(const json_t *json, cs_material_description *materia
                   {"KHR_materials_dispersion", "dispersion"},
                   {"KHR_materials_diffuse_transmission", "diffuse transmission"}};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (gltf_extension(json, others[i].name) != NULL)
-            cs_material_ask(material, others[i].word);
+        if (gltf_extension(json, others[i].name) != NULL) cs_material_ask(material, others[i].word);
 }
 
 static clshear_status read_surface(gltf_reader *reader, const json_t *json,

@@ -12,7 +12,7 @@ typedef struct gltf_primitive {
     gltf_reader *reader;
     char place[64]; /* for messages */
     const double *matrix;
-    size_t count; /* vertices */
+    size_t count;                                         /* vertices */
     uint32_t first_position, first_normal, first_texture; /* CS_NO_INDEX: none */
     uint32_t material;
 } gltf_primitive;
@@ -41,7 +41,8 @@ static clshear_status add_positions(gltf_primitive *primitive, long long accesso
         status = cs_model_full(reader->model, reader->error);
     for (size_t i = 0; i < primitive->count && status == CLSHEAR_OK; i++)
         for (int axis = 0; axis < 3; axis++)
-            added[i][axis] = m[axis] * (double)values[3 * i] + m[4 + axis] * (double)values[3 * i + 1] +
+            added[i][axis] = m[axis] * (double)values[3 * i] +
+                             m[4 + axis] * (double)values[3 * i + 1] +
                              m[8 + axis] * (double)values[3 * i + 2] + m[12 + axis];
     free(values);
     return status;
@@ -121,7 +122,8 @@ static clshear_status add_colours(gltf_primitive *primitive, long long accessor)
     if (count != primitive->count) status = wrong_count(primitive, "colours", count);
     for (size_t i = 0; i < count && status == CLSHEAR_OK; i++) {
         for (size_t c = 0; c < 3; c++)
-            if (!(values[3 * i + c] >= 0.0f && values[3 * i + c] <= 1e15f)) values[3 * i + c] = 0.0f;
+            if (!(values[3 * i + c] >= 0.0f && values[3 * i + c] <= 1e15f))
+                values[3 * i + c] = 0.0f;
         status = cs_model_set_colour(reader->model, primitive->first_position + i, values + 3 * i,
                                      reader->error);
     }
@@ -162,8 +164,8 @@ static clshear_status add_triangles(const gltf_primitive *primitive, int mode,
             clshear_status status = corner_of(primitive, indices, places[k], &corners[k]);
             if (status != CLSHEAR_OK) return status;
         }
-        clshear_status status = cs_model_add_polygon(reader->model, corners, 3, primitive->material,
-                                                     0, reader->error);
+        clshear_status status =
+            cs_model_add_polygon(reader->model, corners, 3, primitive->material, 0, reader->error);
         if (status != CLSHEAR_OK) return status;
     }
     return CLSHEAR_OK;
@@ -205,8 +207,7 @@ static clshear_status find_material(gltf_primitive *primitive, const json_t *jso
 
 static void warn_of_motion(gltf_reader *reader, const json_t *json)
 {
-    const int skinned =
-        json_object_get(json_object_get(json, "attributes"), "JOINTS_0") != NULL;
+    const int skinned = json_object_get(json_object_get(json, "attributes"), "JOINTS_0") != NULL;
     if (reader->warned_motion || (!skinned && json_object_get(json, "targets") == NULL)) return;
     reader->warned_motion = 1;
     cs_warn(reader->model->log, "%s: skins and morph targets are not applied", reader->model->path);

@@ -93,7 +93,8 @@ static clshear_status add_camera(gltf_reader *reader, long long index, const jso
 static clshear_status add_light(gltf_reader *reader, long long index, const json_t *node,
                                 const double *m)
 {
-    const json_t *all = json_object_get(gltf_extension(reader->root, "KHR_lights_punctual"), "lights");
+    const json_t *all =
+        json_object_get(gltf_extension(reader->root, "KHR_lights_punctual"), "lights");
     const json_t *json = index >= 0 ? json_array_get(all, (size_t)index) : NULL;
     if (json == NULL)
         return gltf_complain(reader, "lights", -1, "%lld is asked for, but there are %zu", index,
@@ -163,8 +164,9 @@ static clshear_status visit_node(gltf_reader *reader, cs_array *waiting, const g
     if (camera != -1) CS_TRY(add_camera(reader, camera, node, matrix));
     if (light != NULL) CS_TRY(add_light(reader, gltf_index(light, "light"), node, matrix));
     if (gltf_extension(node, "EXT_mesh_gpu_instancing") != NULL)
-        cs_warn(reader->model->log, "%s: nodes[%lld]: EXT_mesh_gpu_instancing is not supported; one "
-                                    "instance is read",
+        cs_warn(reader->model->log,
+                "%s: nodes[%lld]: EXT_mesh_gpu_instancing is not supported; one "
+                "instance is read",
                 reader->model->path, visit->node);
     CS_TRY(push(reader, waiting, json_object_get(node, "children"), matrix));
 done:
@@ -213,8 +215,7 @@ clshear_status gltf_nodes(gltf_reader *reader)
     if (gltf_count(reader, "scenes") > 0 || chosen >= 0) {
         const json_t *scene = gltf_at(reader, "scenes", chosen >= 0 ? chosen : 0);
         if (scene == NULL) status = CLSHEAR_BAD_FILE;
-        if (scene != NULL)
-            status = push(reader, &waiting, json_object_get(scene, "nodes"), start);
+        if (scene != NULL) status = push(reader, &waiting, json_object_get(scene, "nodes"), start);
     } else {
         status = push_roots(reader, &waiting, start);
     }

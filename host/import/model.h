@@ -45,7 +45,7 @@ typedef struct cs_model_light {
     char name[CS_MODEL_NAME];
     cs_model_light_kind kind;
     double position[3];
-    double axis[3]; /* where a directional or spot light shines to; any length */
+    double axis[3];  /* where a directional or spot light shines to; any length */
     float colour[3]; /* radiant intensity; directional: irradiance */
     float cone[2];   /* of a spot: inner and outer half angle, radians */
     float range;     /* 0: none */
@@ -60,18 +60,18 @@ typedef struct cs_model_camera {
 } cs_model_camera;
 
 typedef struct cs_model {
-    const char *path;       /* of the file, for messages */
+    const char *path; /* of the file, for messages */
     const cs_log *log;
-    cs_array positions;     /* double[3] */
-    cs_array colours;       /* float[3], linear, one for each position; or none at all */
-    cs_array normals;       /* float[3] */
-    cs_array textures;      /* float[2] */
-    cs_array triangles;     /* cs_model_triangle */
-    cs_array materials;     /* cs_material_description */
-    cs_array images;        /* cs_image_source */
-    cs_array lights;        /* cs_model_light */
-    cs_array cameras;       /* cs_model_camera */
-    size_t without_area;    /* faces with fewer than three corners: points and lines */
+    cs_array positions;  /* double[3] */
+    cs_array colours;    /* float[3], linear, one for each position; or none at all */
+    cs_array normals;    /* float[3] */
+    cs_array textures;   /* float[2] */
+    cs_array triangles;  /* cs_model_triangle */
+    cs_array materials;  /* cs_material_description */
+    cs_array images;     /* cs_image_source */
+    cs_array lights;     /* cs_model_light */
+    cs_array cameras;    /* cs_model_camera */
+    size_t without_area; /* faces with fewer than three corners: points and lines */
 } cs_model;
 
 void cs_model_init(cs_model *model, const char *path, const cs_log *log);

@@ -53,10 +53,14 @@ typedef struct value_line {
 #define MEMBER(name) offsetof(cs_material_description, name)
 
 static const value_line value_lines[] = {
-    {"Kd", MEMBER(base_colour), 3}, {"Ke", MEMBER(emissive), 3},
-    {"Ks", MEMBER(specular), 3},    {"Ns", MEMBER(shininess), 1},
-    {"Ni", MEMBER(ior), 1},         {"Pr", MEMBER(roughness), 1},
-    {"Pm", MEMBER(metallic), 1},    {"Pc", MEMBER(clearcoat), 1},
+    {"Kd", MEMBER(base_colour), 3},
+    {"Ke", MEMBER(emissive), 3},
+    {"Ks", MEMBER(specular), 3},
+    {"Ns", MEMBER(shininess), 1},
+    {"Ni", MEMBER(ior), 1},
+    {"Pr", MEMBER(roughness), 1},
+    {"Pm", MEMBER(metallic), 1},
+    {"Pc", MEMBER(clearcoat), 1},
     {"Pcr", MEMBER(clearcoat_roughness), 1},
 };
 
@@ -116,12 +120,12 @@ typedef struct map_line {
 } map_line;
 
 static const map_line map_lines[] = {
-    {"map_Kd", MEMBER(base_map)},      {"map_Ke", MEMBER(emissive_map)},
-    {"map_Ks", MEMBER(specular_map)},  {"map_Ns", MEMBER(specular_map)},
-    {"map_d", MEMBER(alpha_map)},      {"map_Tr", MEMBER(alpha_map)},
-    {"map_Pr", MEMBER(roughness_map)}, {"map_Pm", MEMBER(metallic_map)},
-    {"map_bump", MEMBER(bump_map)},    {"bump", MEMBER(bump_map)},
-    {"norm", MEMBER(normal_map)},      {"map_Kn", MEMBER(normal_map)},
+    {"map_Kd", MEMBER(base_map)},       {"map_Ke", MEMBER(emissive_map)},
+    {"map_Ks", MEMBER(specular_map)},   {"map_Ns", MEMBER(specular_map)},
+    {"map_d", MEMBER(alpha_map)},       {"map_Tr", MEMBER(alpha_map)},
+    {"map_Pr", MEMBER(roughness_map)},  {"map_Pm", MEMBER(metallic_map)},
+    {"map_bump", MEMBER(bump_map)},     {"bump", MEMBER(bump_map)},
+    {"norm", MEMBER(normal_map)},       {"map_Kn", MEMBER(normal_map)},
     {"disp", MEMBER(displacement_map)}, {"map_disp", MEMBER(displacement_map)},
 };
 
@@ -129,9 +133,9 @@ static const map_line map_lines[] = {
 static const struct {
     const char *name;
     int numbers;
-} options[] = {{"-s", 3},        {"-o", 3},      {"-t", 3},     {"-mm", 2},    {"-bm", 1},
-               {"-boost", 1},    {"-texres", 1}, {"-clamp", 0}, {"-blendu", 0}, {"-blendv", 0},
-               {"-imfchan", 0},  {"-cc", 0},     {"-type", 0}};
+} options[] = {{"-s", 3},       {"-o", 3},      {"-t", 3},     {"-mm", 2},     {"-bm", 1},
+               {"-boost", 1},   {"-texres", 1}, {"-clamp", 0}, {"-blendu", 0}, {"-blendv", 0},
+               {"-imfchan", 0}, {"-cc", 0},     {"-type", 0}};
 
 /* Takes one option into `map`; 0 where `*at` begins with none. */
 static int take_option(char **at, cs_map *map, double *scale, double *shift)

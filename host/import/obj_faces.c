@@ -93,8 +93,7 @@ static clshear_status read_corner(const obj_reader *reader, const char *word, cs
 }
 
 /* The first place of the corners that is not there, or PLACES. */
-static int missing_place(const cs_model *model, cs_corner *corners, size_t count,
-                         uint32_t *number)
+static int missing_place(const cs_model *model, cs_corner *corners, size_t count, uint32_t *number)
 {
     for (size_t i = 0; i < count; i++)
         for (int place = 0; place < PLACES; place++) {

@@ -40,8 +40,15 @@ static clshear_status read_library(obj_reader *reader, const char *name)
 {
     char found[CS_FILE_PATH];
     if (!is_new(reader, name)) return CLSHEAR_OK;
-    if (find_library(reader, name, found))
-        return cs_mtl_read(found, reader->model, &reader->defined, reader->error);
+    if (find_library(reader, name, found)) {
+        cs_error reason;
+        clshear_status status = cs_mtl_read(found, reader->model, &reader->defined, &reason);
+        if (status == CLSHEAR_OUT_OF_MEMORY) return cs_model_full(reader->model, reader->error);
+        if (status == CLSHEAR_OK) return status;
+        cs_warn(reader->model->log, "%s; its materials are mid-grey", reason.message);
+        reader->missing++;
+        return CLSHEAR_OK;
+    }
     cs_warn(reader->model->log, "%s: material file %s not found; its materials are mid-grey",
             reader->model->path, name);
     reader->missing++;

@@ -10,16 +10,16 @@ typedef struct obj_reader {
     cs_model *model;
     cs_error *error;
     cs_lines lines;
-    uint32_t group;        /* of the faces that follow */
-    uint32_t material;     /* the same: number of a name in `used`, or CS_NO_INDEX */
-    cs_index_map used;     /* names of usemtl, char[CS_MATERIAL_NAME] */
-    cs_index_map libraries; /* names of mtllib that were read or are missing, char[256] */
-    cs_array defined;      /* cs_material_description, of the libraries */
-    cs_array corners;      /* cs_corner, of the current face */
-    cs_array waiting;      /* obj_face: those that name what comes later */
+    uint32_t group;           /* of the faces that follow */
+    uint32_t material;        /* the same: number of a name in `used`, or CS_NO_INDEX */
+    cs_index_map used;        /* names of usemtl, char[CS_MATERIAL_NAME] */
+    cs_index_map libraries;   /* names of mtllib that were read or are missing, char[256] */
+    cs_array defined;         /* cs_material_description, of the libraries */
+    cs_array corners;         /* cs_corner, of the current face */
+    cs_array waiting;         /* obj_face: those that name what comes later */
     cs_array waiting_corners; /* cs_corner */
-    size_t missing;        /* libraries that are not there */
-    size_t free_form;      /* lines of curves and surfaces */
+    size_t missing;           /* libraries that are not there */
+    size_t free_form;         /* lines of curves and surfaces */
 } obj_reader;
 
 void cs_obj_begin(obj_reader *reader);

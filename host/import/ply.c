@@ -259,8 +259,8 @@ static clshear_status check_count(const ply_reader *reader, const cs_ply_element
     for (size_t p = 0; p < element->property_count; p++) {
         const cs_ply_property *property = &element->properties[p];
         const int is_list = property->count_type != CS_PLY_NO_TYPE;
-        least += cs_ply_least_size(reader->head.format,
-                                   is_list ? property->count_type : property->type);
+        least +=
+            cs_ply_least_size(reader->head.format, is_list ? property->count_type : property->type);
         least += reader->head.format == CS_PLY_ASCII; /* a blank */
     }
     const size_t left = (size_t)(reader->cursor.end - reader->cursor.at) + 1;
@@ -383,8 +383,8 @@ clshear_status cs_read_ply(cs_bytes *bytes, cs_model *model, cs_error *error)
     reader->texts.item_size = sizeof(double);
     clshear_status status = CLSHEAR_OK;
     if (bytes->size < 3 || memcmp(bytes->data, "ply", 3) != 0)
-        status = cs_fail(error, CLSHEAR_BAD_FILE, "%s:1: a PLY file begins with \"ply\"",
-                         model->path);
+        status =
+            cs_fail(error, CLSHEAR_BAD_FILE, "%s:1: a PLY file begins with \"ply\"", model->path);
     if (status == CLSHEAR_OK) status = read_elements(reader, bytes);
     cs_array_free(&reader->corners);
     cs_array_free(&reader->texts);

@@ -10,13 +10,12 @@
 static const struct {
     const char *name;
     cs_ply_type type;
-} type_names[] = {
-    {"char", CS_PLY_INT8},     {"int8", CS_PLY_INT8},      {"uchar", CS_PLY_UINT8},
-    {"uint8", CS_PLY_UINT8},   {"short", CS_PLY_INT16},    {"int16", CS_PLY_INT16},
-    {"ushort", CS_PLY_UINT16}, {"uint16", CS_PLY_UINT16},  {"int", CS_PLY_INT32},
-    {"int32", CS_PLY_INT32},   {"uint", CS_PLY_UINT32},    {"uint32", CS_PLY_UINT32},
-    {"float", CS_PLY_FLOAT},   {"float32", CS_PLY_FLOAT},  {"double", CS_PLY_DOUBLE},
-    {"float64", CS_PLY_DOUBLE}};
+} type_names[] = {{"char", CS_PLY_INT8},     {"int8", CS_PLY_INT8},     {"uchar", CS_PLY_UINT8},
+                  {"uint8", CS_PLY_UINT8},   {"short", CS_PLY_INT16},   {"int16", CS_PLY_INT16},
+                  {"ushort", CS_PLY_UINT16}, {"uint16", CS_PLY_UINT16}, {"int", CS_PLY_INT32},
+                  {"int32", CS_PLY_INT32},   {"uint", CS_PLY_UINT32},   {"uint32", CS_PLY_UINT32},
+                  {"float", CS_PLY_FLOAT},   {"float32", CS_PLY_FLOAT}, {"double", CS_PLY_DOUBLE},
+                  {"float64", CS_PLY_DOUBLE}};
 
 static const struct {
     const char *name;
@@ -60,8 +59,7 @@ static cs_ply_role role_called(const char *name, int is_list)
 {
     for (size_t i = 0; i < sizeof role_names / sizeof *role_names; i++) {
         const int for_list = role_names[i].role >= CS_PLY_SCALARS;
-        if (for_list == is_list && strcmp(name, role_names[i].name) == 0)
-            return role_names[i].role;
+        if (for_list == is_list && strcmp(name, role_names[i].name) == 0) return role_names[i].role;
     }
     return CS_PLY_NO_ROLE;
 }
@@ -100,7 +98,8 @@ static const char *read_property(cs_ply_head *head, char *at)
     const int is_list = type != NULL && strcmp(type, "list") == 0;
     if (head->element_count == 0) return "a property comes before any element";
     cs_ply_element *element = &head->elements[head->element_count - 1];
-    if (element->property_count == CS_PLY_PROPERTIES) return "an element has more than 64 properties";
+    if (element->property_count == CS_PLY_PROPERTIES)
+        return "an element has more than 64 properties";
     if (is_list) {
         property.count_type = type_called(cs_next_word(&at));
         type = cs_next_word(&at);
@@ -214,12 +213,24 @@ int cs_ply_next(cs_ply_cursor *cursor, cs_ply_type type, double *value)
     float single;
     memcpy(&single, &word, sizeof single);
     switch (type) {
-    case CS_PLY_INT8: *value = (double)(int8_t)word; break;
-    case CS_PLY_INT16: *value = (double)(int16_t)word; break;
-    case CS_PLY_INT32: *value = (double)(int32_t)word; break;
-    case CS_PLY_FLOAT: *value = (double)single; break;
-    case CS_PLY_DOUBLE: memcpy(value, &bits, sizeof bits); break;
-    default: *value = (double)word; break;
+    case CS_PLY_INT8:
+        *value = (double)(int8_t)word;
+        break;
+    case CS_PLY_INT16:
+        *value = (double)(int16_t)word;
+        break;
+    case CS_PLY_INT32:
+        *value = (double)(int32_t)word;
+        break;
+    case CS_PLY_FLOAT:
+        *value = (double)single;
+        break;
+    case CS_PLY_DOUBLE:
+        memcpy(value, &bits, sizeof bits);
+        break;
+    default:
+        *value = (double)word;
+        break;
     }
     return 1;
 }

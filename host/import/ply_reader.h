@@ -43,7 +43,7 @@ typedef enum cs_ply_role {
     CS_PLY_GREEN,
     CS_PLY_BLUE,
     CS_PLY_TEXTURE_NUMBER,
-    CS_PLY_SCALARS, /* number of roles of one number */
+    CS_PLY_SCALARS,                  /* number of roles of one number */
     CS_PLY_INDICES = CS_PLY_SCALARS, /* list */
     CS_PLY_COORDINATES,              /* list */
     CS_PLY_NO_ROLE
@@ -68,7 +68,7 @@ typedef struct cs_ply_head {
     cs_ply_element elements[CS_PLY_ELEMENTS];
     size_t texture_count;
     char textures[CS_PLY_TEXTURES][256]; /* names of image files */
-    size_t size; /* bytes, to the first number */
+    size_t size;                         /* bytes, to the first number */
 } cs_ply_head;
 
 /* Reads the head. `path` is for messages. */

@@ -31,8 +31,8 @@ static void flatten(const double (*positions)[3], const cs_corner *corners, size
         const double *q = positions[corners[(i + 1) % count].position];
         for (int k = 0; k < 3; k++) {
             const int u = (k + 1) % 3, v = (k + 2) % 3;
-            normal[k] += (p[u] - origin[u]) * (q[v] - origin[v]) -
-                         (p[v] - origin[v]) * (q[u] - origin[u]);
+            normal[k] +=
+                (p[u] - origin[u]) * (q[v] - origin[v]) - (p[v] - origin[v]) * (q[u] - origin[u]);
         }
     }
     int axis = fabs(normal[1]) > fabs(normal[0]) ? 1 : 0;

@@ -22,11 +22,11 @@ typedef struct part {
 
 typedef struct smoothing {
     cs_model *model;
-    part *parts;        /* three for each triangle */
-    uint32_t *first;    /* of each place, in `order`; one more at the end */
-    uint32_t *order;    /* corners, sorted by place */
-    cs_index_map places;  /* positions */
-    cs_index_map kinds;   /* (place, group), or normals: what gets a normal of its own */
+    part *parts;         /* three for each triangle */
+    uint32_t *first;     /* of each place, in `order`; one more at the end */
+    uint32_t *order;     /* corners, sorted by place */
+    cs_index_map places; /* positions */
+    cs_index_map kinds;  /* (place, group), or normals: what gets a normal of its own */
 } smoothing;
 
 static int lacks_normals(const cs_model_triangle *triangle)

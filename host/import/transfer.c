@@ -7,11 +7,17 @@
 
 void cs_scene_arrays(cs_scene *scene, cs_array *arrays[CS_SCENE_ARRAYS])
 {
-    cs_array *all[CS_SCENE_ARRAYS] = {
-        &scene->positions,          &scene->vertices,       &scene->colours,
-        &scene->indices,            &scene->triangle_materials, &scene->triangle_flags,
-        &scene->materials,          &scene->textures,       &scene->texels,
-        &scene->lights,             &scene->cameras};
+    cs_array *all[CS_SCENE_ARRAYS] = {&scene->positions,
+                                      &scene->vertices,
+                                      &scene->colours,
+                                      &scene->indices,
+                                      &scene->triangle_materials,
+                                      &scene->triangle_flags,
+                                      &scene->materials,
+                                      &scene->textures,
+                                      &scene->texels,
+                                      &scene->lights,
+                                      &scene->cameras};
     memcpy(arrays, all, sizeof all);
 }
 

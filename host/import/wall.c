@@ -17,7 +17,7 @@
 extern char **environ;
 
 enum {
-    LINE = 1024,          /* bytes of a warning or message, at most */
+    LINE = 1024,             /* bytes of a warning or message, at most */
     PIECE = 16 * 1024 * 1024 /* bytes that are made room for at once */
 };
 
@@ -131,7 +131,8 @@ static int take_record(child *from, const cs_record *record, cs_scene *scene, co
         if (record->size < 4 || !receive(from, &failure, sizeof failure) ||
             !receive_line(from, record->size - 4, line))
             return 0;
-        state->failure = failure == CLSHEAR_OUT_OF_MEMORY ? CLSHEAR_OUT_OF_MEMORY : CLSHEAR_BAD_FILE;
+        state->failure =
+            failure == CLSHEAR_OUT_OF_MEMORY ? CLSHEAR_OUT_OF_MEMORY : CLSHEAR_BAD_FILE;
         cs_fail(error, state->failure, "%s", line);
         return 1;
     case CS_RECORD_FRAME:
@@ -164,7 +165,8 @@ static clshear_status explain(const child *from, int has_ended, int ended, cs_er
         return cs_fail(error, CLSHEAR_BAD_FILE,
                        "%s: the importer crashed (%s); the file is damaged, or needs more memory",
                        from->path, strsignal(WTERMSIG(ended)));
-    return cs_fail(error, CLSHEAR_BAD_FILE, "%s: the importer ended before it was done", from->path);
+    return cs_fail(error, CLSHEAR_BAD_FILE, "%s: the importer ended before it was done",
+                   from->path);
 }
 
 clshear_status cs_import_behind_wall(const char *helper, const char *path,

@@ -60,15 +60,13 @@ clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *sett
     clshear_status status = CLSHEAR_OK;
     int number = -1;
     CS_TRY(choose_camera(scene, settings, &number, error));
-    const cs_view view =
-        cs_camera_of_scene(&scene->scene, number, (int)cs_integer(settings, WIDTH),
-                           (int)cs_integer(settings, HEIGHT));
+    const cs_view view = cs_camera_of_scene(&scene->scene, number, (int)cs_integer(settings, WIDTH),
+                                            (int)cs_integer(settings, HEIGHT));
     if (!cs_is_set(settings, EYE))
         CS_TRY(set_vector(settings, CLSHEAR_EYE, view.eye, origin, error));
     if (!cs_is_set(settings, TARGET))
         CS_TRY(set_vector(settings, CLSHEAR_TARGET, view.target, origin, error));
-    if (!cs_is_set(settings, UP))
-        CS_TRY(set_vector(settings, CLSHEAR_UP, view.up, nowhere, error));
+    if (!cs_is_set(settings, UP)) CS_TRY(set_vector(settings, CLSHEAR_UP, view.up, nowhere, error));
     if (!cs_is_set(settings, FOV)) CS_TRY(set_one(settings, CLSHEAR_FOV, view.fov_deg, error));
 done:
     return status;

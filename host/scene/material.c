@@ -21,12 +21,11 @@ void cs_material_init(cs_material_description *description, const char *name)
         .ior = 1.5f,
     };
     snprintf(description->name, sizeof description->name, "%s", name);
-    cs_map *maps[] = {&description->base_map,         &description->metallic_map,
-                      &description->roughness_map,    &description->emissive_map,
-                      &description->normal_map,       &description->bump_map,
-                      &description->occlusion_map,    &description->displacement_map,
-                      &description->alpha_map,        &description->transmission_map,
-                      &description->specular_map};
+    cs_map *maps[] = {
+        &description->base_map,         &description->metallic_map,     &description->roughness_map,
+        &description->emissive_map,     &description->normal_map,       &description->bump_map,
+        &description->occlusion_map,    &description->displacement_map, &description->alpha_map,
+        &description->transmission_map, &description->specular_map};
     for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
         cs_map_init(maps[i]);
 }
@@ -62,8 +61,8 @@ void cs_material_unsupported(const cs_material_description *d, char *text, size_
         {d->asks_gloss && d->metallic > 0.0f, "metal"},
         {d->asks_gloss && d->roughness < 1.0f, "gloss"},
         {is_coloured(d->specular) && d->shininess > 0.0f, "highlights"},
-        {is_mapped(&d->metallic_map) || is_mapped(&d->roughness_map) ||
-             is_mapped(&d->specular_map), "a gloss map"},
+        {is_mapped(&d->metallic_map) || is_mapped(&d->roughness_map) || is_mapped(&d->specular_map),
+         "a gloss map"},
         {is_mapped(&d->emissive_map), "textured emission (taken as even)"},
         {is_mapped(&d->normal_map), "a normal map"},
         {is_mapped(&d->bump_map), "a bump map"},

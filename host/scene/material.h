@@ -20,13 +20,13 @@ typedef enum cs_wrap {
 
 /* A use of an image. cs_map_init gives the defaults. */
 typedef struct cs_map {
-    int image;            /* index into the importer's images, or CS_NO_IMAGE */
-    int missing;          /* 1: the file names an image that is not there */
-    cs_wrap wrap[2];      /* across, up */
-    int set;              /* of texture coordinates */
-    double across[3];     /* coordinate s of the image = across . (s, t, 1) of the vertex */
-    double up[3];         /* coordinate t of the image, which grows upwards */
-    float base;           /* texel = base + gain * texel of the file */
+    int image;        /* index into the importer's images, or CS_NO_IMAGE */
+    int missing;      /* 1: the file names an image that is not there */
+    cs_wrap wrap[2];  /* across, up */
+    int set;          /* of texture coordinates */
+    double across[3]; /* coordinate s of the image = across . (s, t, 1) of the vertex */
+    double up[3];     /* coordinate t of the image, which grows upwards */
+    float base;       /* texel = base + gain * texel of the file */
     float gain;
 } cs_map;
 
@@ -57,13 +57,13 @@ typedef struct cs_material_description {
     cs_map transmission_map;
     float clearcoat, clearcoat_roughness;
     float sheen_colour[3], sheen_roughness;
-    float specular[3];  /* MTL's Ks */
-    float shininess;    /* MTL's Ns */
+    float specular[3]; /* MTL's Ks */
+    float shininess;   /* MTL's Ns */
     cs_map specular_map;
     int unlit;
     int double_sided;
-    int asks_gloss;     /* the file gives metallic, roughness or a gloss that counts */
-    char other[128];    /* further things asked for, by name, separated by ", " */
+    int asks_gloss;  /* the file gives metallic, roughness or a gloss that counts */
+    char other[128]; /* further things asked for, by name, separated by ", " */
 } cs_material_description;
 
 void cs_map_init(cs_map *map);

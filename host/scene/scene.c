@@ -97,7 +97,8 @@ clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, uint
                     "%s: triangle %zu names vertex %u, but there are %zu; repair the mesh", name, i,
                     corner[k], mesh->vertex_count);
         const float *p = mesh->positions;
-        if (!cs_triangle_has_area(p + 3 * corner[0], p + 3 * corner[1], p + 3 * corner[2])) continue;
+        if (!cs_triangle_has_area(p + 3 * corner[0], p + 3 * corner[1], p + 3 * corner[2]))
+            continue;
         for (int k = 0; k < 3; k++)
             indices[kept][k] = (uint32_t)first_vertex + corner[k];
         materials[kept] = material;

@@ -226,13 +226,13 @@ typedef struct clshear_scene_info {
  * textures, invalid colours (negative or not finite), degenerate triangles.
  *
  * The file is read by the program clshear-import, in a process with limits on time and memory, so
- * that a damaged one ends in a message. It is looked for beside the library, in libexec/clshear, and
- * where the environment variable CLSHEAR_IMPORT says; without it OBJ, glTF, PLY and STL are read in
- * the calling process, and other formats are refused.
+ * that a damaged one ends in a message. It is looked for beside the library, in libexec/clshear,
+ * and where the environment variable CLSHEAR_IMPORT says; without it OBJ, glTF, PLY and STL are
+ * read in the calling process, and other formats are refused.
  *
  * A scene that lies far from the origin is moved there, with a warning, since the device computes
- * with floats. Cameras and lights in settings stay in the coordinates of the file; lights and meshes
- * that are added by functions are relative to clshear_scene_origin. */
+ * with floats. Cameras and lights in settings stay in the coordinates of the file; lights and
+ * meshes that are added by functions are relative to clshear_scene_origin. */
 CLSHEAR_API clshear_status clshear_scene_load(clshear_context *context, const char *path,
                                               clshear_scene **scene);
 
@@ -273,10 +273,11 @@ CLSHEAR_API void clshear_scene_free(clshear_scene *scene);
  * --------------------------------------------------------------------------------------------- */
 
 /* Sets what the settings leave open: eye, target, up and field of view from the scene file's
- * camera (the one that CLSHEAR_CAMERA names, else the first), or else so that the bounding box fills the picture from the front (looking down -Z);
- * focus on CLSHEAR_FOCUS_PIXEL, or else on the middle pixel, or the depth of the box's centre where
- * that sees nothing; the lens radius from CLSHEAR_F_STOP, or else so that a point at infinity blurs
- * over 3 % of the shorter image axis. A render does the same, without changing the settings. */
+ * camera (the one that CLSHEAR_CAMERA names, else the first), or else so that the bounding box
+ * fills the picture from the front (looking down -Z); focus on CLSHEAR_FOCUS_PIXEL, or else on the
+ * middle pixel, or the depth of the box's centre where that sees nothing; the lens radius from
+ * CLSHEAR_F_STOP, or else so that a point at infinity blurs over 3 % of the shorter image axis. A
+ * render does the same, without changing the settings. */
 CLSHEAR_API clshear_status clshear_camera_complete(const clshear_scene *scene,
                                                    clshear_settings *settings);
 
