@@ -239,6 +239,10 @@ clshear_status cs_read_other(cs_bytes *bytes, cs_model *model, cs_error *error)
 {
     const struct aiScene *file = aiImportFile(model->path, 0);
     (void)bytes;
+    if (file == NULL && strstr(aiGetErrorString(), "bad_alloc") != NULL)
+        return cs_fail(error, CLSHEAR_BAD_FILE,
+                       "%s: asks for more memory than a file of its size may; it is damaged",
+                       model->path);
     if (file == NULL)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %.*s", model->path,
                        (int)strcspn(aiGetErrorString(), "\n"), aiGetErrorString());

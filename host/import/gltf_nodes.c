@@ -212,7 +212,7 @@ clshear_status gltf_nodes(gltf_reader *reader)
     CS_REQUIRE(seen != NULL, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", reader->model->path);
     identity(start);
     const long long chosen = gltf_index(reader->root, "scene");
-    if (gltf_count(reader, "scenes") > 0 || chosen >= 0) {
+    if (gltf_count(reader, "scenes") > 0) {
         const json_t *scene = gltf_at(reader, "scenes", chosen >= 0 ? chosen : 0);
         if (scene == NULL) status = CLSHEAR_BAD_FILE;
         if (scene != NULL) status = push(reader, &waiting, json_object_get(scene, "nodes"), start);

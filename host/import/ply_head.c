@@ -128,8 +128,7 @@ static const char *read_line(cs_ply_head *head, char *at)
             snprintf(head->textures[head->texture_count++], 256, "%s", cs_rest_of_line(at));
         return NULL;
     }
-    if (strcmp(key, "obj_info") == 0) return NULL;
-    return "this is no line of a PLY head";
+    return NULL; /* obj_info, and what exporters leave there without "comment" */
 }
 
 /* The end of a line: what follows behind its line break. */
