@@ -278,11 +278,11 @@ static void material_lines(void **state)
 static void vertex_colours_of_obj(void **state)
 {
     (void)state;
-    cs_scene scene = load_text("colours.obj", "v -1 -1 0 1 0 0\nv 1 -1 0 1 0 1 0\nv 1 1 0 0 0 1\n"
+    cs_scene scene = load_text("colours.obj", "v -1 -1 0 1 0 0\nv 1 -1 0 1 0 0.5 0\nv 1 1 0 0 0 2\n"
                                               "v -2 2 0 2\nf 1 2 3\nf 1 3 4\n");
     expect_close(colour_of(&scene, 0, 0), 1, 0, 0);
-    expect_close(colour_of(&scene, 0, 1), 0, 1, 0);
-    expect_close(colour_of(&scene, 0, 2), 0, 0, 1);
+    expect_close(colour_of(&scene, 0, 1), 0, 0.21404f, 0); /* the sRGB curve */
+    expect_close(colour_of(&scene, 0, 2), 0, 0, 2);
     expect_close(colour_of(&scene, 1, 2), 1, 1, 1); /* none given */
     expect_close(position_of(&scene, 1, 2), -1, 1, 0);
     const uint8_t *flags = scene.triangle_flags.items;

@@ -6,6 +6,7 @@
 #include <strings.h>
 
 #include "base/number.h"
+#include "import/colour.h"
 #include "import/obj_reader.h"
 #include "import/readers.h"
 
@@ -56,7 +57,9 @@ static clshear_status read_position(obj_reader *reader, char *at)
         position[axis] = n[axis] / w;
     if (count < 6) return CLSHEAR_OK;
     const double *rgb = n + (count >= 7 ? 4 : 3);
-    const float colour[3] = {(float)rgb[0], (float)rgb[1], (float)rgb[2]};
+    float colour[3];
+    for (int c = 0; c < 3; c++) /* programs write what they show */
+        colour[c] = cs_colour_value(rgb[c], 1);
     return cs_model_set_colour(model, model->positions.count - 1, colour, reader->error);
 }
 
