@@ -77,11 +77,6 @@ void clshear_scene_describe(const clshear_scene *scene, clshear_scene_info *info
     cs_struct_out(info, &described, sizeof described);
 }
 
-void clshear_scene_origin(const clshear_scene *scene, double origin[3])
-{
-    memcpy(origin, scene->scene.origin, sizeof scene->scene.origin);
-}
-
 const char *clshear_scene_camera(const clshear_scene *scene, size_t index)
 {
     const cs_scene_camera *cameras = scene->scene.cameras.items;

@@ -382,7 +382,9 @@ clshear_status cs_read_ply(cs_bytes *bytes, cs_model *model, cs_error *error)
     reader->corners.item_size = sizeof(cs_corner);
     reader->texts.item_size = sizeof(double);
     clshear_status status = CLSHEAR_OK;
-    if (bytes->size < 3 || memcmp(bytes->data, "ply", 3) != 0)
+    if (bytes->size > 0 && (unsigned char)bytes->data[0] >= 0xef) /* a byte order mark */
+        status = cs_bytes_to_utf8(bytes, model->path, error);
+    if (status == CLSHEAR_OK && (bytes->size < 3 || memcmp(bytes->data, "ply", 3) != 0))
         status =
             cs_fail(error, CLSHEAR_BAD_FILE, "%s:1: a PLY file begins with \"ply\"", model->path);
     if (status == CLSHEAR_OK) status = read_elements(reader, bytes);

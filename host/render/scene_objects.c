@@ -92,7 +92,10 @@ done:
 
 clshear_status cs_scene_light(clshear_scene *scene, const clshear_light *light, cs_error *error)
 {
-    clshear_status status = cs_scene_add_light(&scene->scene, light, error);
+    clshear_light moved = *light; /* lights are given in coordinates of the file */
+    for (int axis = 0; axis < 3; axis++)
+        moved.position[axis] = (float)((double)light->position[axis] - scene->scene.origin[axis]);
+    clshear_status status = cs_scene_add_light(&scene->scene, &moved, error);
     if (status != CLSHEAR_OK || !scene->is_complete) return status;
     return cs_scene_upload_lights(&scene->device_scene, scene->context->device, &scene->scene,
                                   error);

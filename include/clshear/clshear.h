@@ -231,8 +231,7 @@ typedef struct clshear_scene_info {
  * read in the calling process, and other formats are refused.
  *
  * A scene that lies far from the origin is moved there, with a warning, since the device computes
- * with floats. Cameras and lights in settings stay in the coordinates of the file; lights and
- * meshes that are added by functions are relative to clshear_scene_origin. */
+ * with floats. Cameras and lights, in settings and added, stay in the coordinates of the file. */
 CLSHEAR_API clshear_status clshear_scene_load(clshear_context *context, const char *path,
                                               clshear_scene **scene);
 
@@ -240,9 +239,6 @@ CLSHEAR_API clshear_status clshear_scene_load(clshear_context *context, const ch
 CLSHEAR_API clshear_status clshear_scene_load_with(clshear_context *context, const char *path,
                                                    const clshear_settings *settings,
                                                    clshear_scene **scene);
-
-/* Where, in coordinates of its file, the scene was moved to the origin from: 0,0,0 for most. */
-CLSHEAR_API void clshear_scene_origin(const clshear_scene *scene, double origin[3]);
 
 /* Cameras of the scene's file: the name of number `index` from 0, or NULL past the last one. Owned
  * by the scene. CLSHEAR_CAMERA chooses one. */
