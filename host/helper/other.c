@@ -243,6 +243,11 @@ clshear_status cs_read_other(cs_bytes *bytes, cs_model *model, cs_error *error)
         return cs_fail(error, CLSHEAR_BAD_FILE,
                        "%s: asks for more memory than a file of its size may; it is damaged",
                        model->path);
+    if (file == NULL && strstr(aiGetErrorString(), "No suitable reader") != NULL)
+        return cs_fail(error, CLSHEAR_BAD_FILE,
+                       "%s: no reader knows this format by its name or its first bytes; OBJ, glTF, "
+                       "PLY and STL are read",
+                       model->path);
     if (file == NULL)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %.*s", model->path,
                        (int)strcspn(aiGetErrorString(), "\n"), aiGetErrorString());

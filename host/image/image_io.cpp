@@ -393,11 +393,6 @@ clshear_status write_picture(const char *path, const cs_picture *picture, cs_err
     const bool is_large = extension != "png" && extension != "jpg" && extension != "jpeg";
     const ImageBuf buffer = buffer_for(extension, picture);
     cs_output_file file;
-    const bool is_jpeg = extension == "jpg" || extension == "jpeg";
-    if (is_jpeg && (picture->width > most_of_jpeg || picture->height > most_of_jpeg))
-        return cs_fail(error, CLSHEAR_BAD_FILE,
-                       "%s: %d x %d pixels: JPEG holds at most %d a side; write PNG or EXR", path,
-                       picture->width, picture->height, most_of_jpeg);
     if (buffer.has_error())
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,
                        first_line(buffer.geterror()).c_str());
@@ -450,15 +445,29 @@ extern "C" void cs_image_free(cs_loaded_picture *loaded)
     *loaded = cs_loaded_picture{};
 }
 
-extern "C" int cs_image_can_write(const char *path)
+extern "C" clshear_status cs_image_check(const char *path, int width, int height, cs_error *error)
 {
-    for (const char *known : {"exr", "png", "jpg", "jpeg", "tif", "tiff"})
-        if (extension_of(path) == known) return 1;
-    return 0;
+    return guarded(path, error, [&] {
+        const std::string extension = extension_of(path);
+        bool known = false;
+        for (const char *one : {"exr", "png", "jpg", "jpeg", "tif", "tiff"})
+            known |= extension == one;
+        if (!known)
+            return cs_fail(error, CLSHEAR_BAD_FILE,
+                           "%s: unknown image format; use .exr, .png, .jpg or .tif", path);
+        const bool is_jpeg = extension == "jpg" || extension == "jpeg";
+        if (is_jpeg && (width > most_of_jpeg || height > most_of_jpeg))
+            return cs_fail(error, CLSHEAR_BAD_FILE,
+                           "%s: %d x %d pixels: JPEG holds at most %d a side; write PNG or EXR",
+                           path, width, height, most_of_jpeg);
+        return CLSHEAR_OK;
+    });
 }
 
 extern "C" clshear_status cs_image_write(const char *path, const cs_picture *picture,
                                          cs_error *error)
 {
+    clshear_status status = cs_image_check(path, picture->width, picture->height, error);
+    if (status != CLSHEAR_OK) return status;
     return guarded(path, error, [&] { return write_picture(path, picture, error); });
 }

@@ -75,8 +75,9 @@ typedef struct cs_loaded_picture {
 clshear_status cs_image_read(const char *path, cs_loaded_picture *loaded, cs_error *error);
 void cs_image_free(cs_loaded_picture *loaded);
 
-/* Whether the extension of `path` names a format that can be written. */
-int cs_image_can_write(const char *path);
+/* Whether the extension of `path` names a format that can be written, and holds a picture of this
+ * size: JPEG has 16 bits for it. */
+clshear_status cs_image_check(const char *path, int width, int height, cs_error *error);
 
 /* Writes .exr: all planes in float32. Others: planes R, G, B with the sRGB curve, 8 bits (TIFF 16).
  * The file appears under its name only when it is complete. */

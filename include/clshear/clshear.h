@@ -376,6 +376,10 @@ CLSHEAR_API clshear_status clshear_film_read(const char *path, clshear_film **fi
  * existing file is replaced only once the new one is complete. */
 CLSHEAR_API clshear_status clshear_film_write(clshear_film *film, const char *path);
 
+/* Whether clshear_film_write can write a picture of this size under a name with this extension, to
+ * be asked before a render: JPEG holds at most 65500 pixels a side. */
+CLSHEAR_API clshear_status clshear_film_check_path(const char *path, int width, int height);
+
 /* Writes one channel as a picture in false colours (.png, .jpg, .tif): its logarithm from 1/16
  * (blue) over 1 (white) to 16 (orange). */
 CLSHEAR_API clshear_status clshear_film_write_ratio(clshear_film *film, const char *channel,
