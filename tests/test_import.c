@@ -27,6 +27,9 @@
 
 static char warnings[8192];
 
+static const char *gltf_square(const char *attributes, const char *material, const char *nodes,
+                               const char *more);
+
 static void collect(void *user, const char *line)
 {
     const size_t used = strlen(warnings);
@@ -235,6 +238,24 @@ static void map_options_are_obeyed(void **state)
     assert_int_equal(texel[0], 0x3a00); /* 0.75 */
     assert_int_equal(texel[1], 0x3400); /* 0.25 */
     assert_string_equal(warnings, "");
+    cs_scene_free(&scene);
+}
+
+/* Exporters of MTL leave Kd 0 beside a map; in glTF black is black. */
+static void black_beside_a_map(void **state)
+{
+    (void)state;
+    write_picture("four.ppm");
+    write_text("black.mtl", "newmtl t\nKd 0 0 0\nmap_Kd four.ppm\n");
+    cs_scene scene = load_text("black.obj", "mtllib black.mtl\n" TEXTURED);
+    expect_close(material_of(&scene, 0)->diffuse, 1, 1, 1);
+    cs_scene_free(&scene);
+    write_picture("my four.ppm");
+    scene = load(gltf_square(",\"TEXCOORD_0\":1",
+                             "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},"
+                             "\"baseColorFactor\":[0,0,0,1]}}",
+                             "{\"mesh\":0}", ""));
+    expect_close(material_of(&scene, 0)->diffuse, 0, 0, 0);
     cs_scene_free(&scene);
 }
 
@@ -806,6 +827,7 @@ int main(void)
         cmocka_unit_test(marks_line_ends_and_encodings),
         cmocka_unit_test(maps_are_found_wherever_they_are),
         cmocka_unit_test(map_options_are_obeyed),
+        cmocka_unit_test(black_beside_a_map),
         cmocka_unit_test(what_is_missing_is_told_once),
         cmocka_unit_test(material_lines),
         cmocka_unit_test(vertex_colours_of_obj),

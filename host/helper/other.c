@@ -84,7 +84,9 @@ static clshear_status add_material(const importing *work, const struct aiMateria
     material->normal_map.missing = aiGetMaterialTextureCount(source, aiTextureType_NORMALS) > 0;
     material->bump_map.missing = aiGetMaterialTextureCount(source, aiTextureType_HEIGHT) > 0;
     material->alpha_map.missing = aiGetMaterialTextureCount(source, aiTextureType_OPACITY) > 0;
-    return take_map(work, source, &material->base_map);
+    clshear_status status = take_map(work, source, &material->base_map);
+    cs_material_whiten(material);
+    return status;
 }
 
 /* ----- Meshes ----- */

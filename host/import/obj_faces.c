@@ -103,7 +103,7 @@ static int missing_place(const cs_model *model, cs_corner *corners, size_t count
     return PLACES;
 }
 
-static clshear_status wait(obj_reader *reader)
+static clshear_status put_off(obj_reader *reader)
 {
     const obj_face face = {reader->waiting_corners.count, reader->corners.count,
                            reader->lines.number, reader->material, reader->group};
@@ -128,7 +128,7 @@ clshear_status cs_obj_face(obj_reader *reader, char *at)
     }
     cs_corner *corners = reader->corners.items;
     const size_t count = reader->corners.count;
-    if (missing_place(reader->model, corners, count, &number) != PLACES) return wait(reader);
+    if (missing_place(reader->model, corners, count, &number) != PLACES) return put_off(reader);
     return cs_model_add_polygon(reader->model, corners, count, reader->material, reader->group,
                                 reader->error);
 }

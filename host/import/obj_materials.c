@@ -94,6 +94,7 @@ clshear_status cs_obj_materials(obj_reader *reader)
     }
     size_t undefined = 0;
     for (size_t i = 0; i < count; i++) {
+        cs_material_whiten(&made[i]);
         if (made[i].name[0] != '\0') continue;
         cs_material_init(&made[i], names[i]);
         if (reader->missing == 0 && undefined++ < 8)

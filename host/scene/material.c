@@ -52,6 +52,14 @@ static int is_coloured(const float *colour)
     return colour[0] > 0.0f || colour[1] > 0.0f || colour[2] > 0.0f;
 }
 
+void cs_material_whiten(cs_material_description *description)
+{
+    float *base = description->base_colour;
+    if (!is_mapped(&description->base_map) || is_coloured(base)) return;
+    for (int c = 0; c < 3; c++)
+        base[c] = 1.0f;
+}
+
 void cs_material_unsupported(const cs_material_description *d, char *text, size_t size)
 {
     const struct {
@@ -85,15 +93,10 @@ cs_material cs_material_make(const cs_material_description *description, cs_i32 
 {
     cs_material made = {.texture = texture};
     const float *base = description->base_colour;
-    const int black = base[0] + base[1] + base[2] == 0.0f;
     for (int c = 0; c < 3; c++) {
         made.diffuse[c] = base[c];
-        if (is_mapped(&description->base_map)) {
-            if (texture == CS_NO_TEXTURE)
-                made.diffuse[c] = mid_grey;
-            else if (black) /* exporters leave Kd 0 beside a map */
-                made.diffuse[c] = 1.0f;
-        }
+        if (is_mapped(&description->base_map) && texture == CS_NO_TEXTURE)
+            made.diffuse[c] = mid_grey;
         made.emission[c] = description->emissive[c] * description->emissive_strength;
     }
     return made;

@@ -72,6 +72,10 @@ void cs_material_init(cs_material_description *description, const char *name);
 /* Notes something that the material asks for and that has no member here; each name once. */
 void cs_material_ask(cs_material_description *description, const char *name);
 
+/* Makes a black colour that multiplies a map white: what exporters of MTL and others leave there.
+ */
+void cs_material_whiten(cs_material_description *description);
+
 /* What the material asks for and the device lacks, as words separated by ", "; "" if nothing. */
 void cs_material_unsupported(const cs_material_description *description, char *text, size_t size);
 
