@@ -7,7 +7,7 @@
 
 void cs_model_init(cs_model *model, const char *path, const cs_log *log)
 {
-    *model = (cs_model){.path = path, .log = log};
+    *model = (cs_model){.path = path, .log = log, .cutting = 1e9};
     model->positions.item_size = 3 * sizeof(double);
     model->colours.item_size = 3 * sizeof(float);
     model->normals.item_size = 3 * sizeof(float);
@@ -102,7 +102,7 @@ clshear_status cs_model_add_polygon(cs_model *model, const cs_corner *corners, s
     cs_model_triangle *triangles = cs_model_extend(&model->triangles, count - 2);
     if (count > 4) cut = malloc(3 * (count - 2) * sizeof *cut);
     if (triangles == NULL || cut == NULL) return cs_model_full(model, error);
-    cs_polygon_cut(positions, corners, count, cut);
+    cs_polygon_cut(positions, corners, count, &model->cutting, cut);
     for (size_t i = 0; i < count - 2; i++) {
         for (int k = 0; k < 3; k++)
             triangles[i].corner[k] = corners[cut[3 * i + (size_t)k]];

@@ -3,15 +3,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum {
-    MOST_BY_EARS = 1024 /* corners: the work grows with their square, mostly */
-};
-
 /* A polygon in its plane: a ring of corners that are left. */
 typedef struct ring {
     double (*points)[2]; /* anticlockwise */
     uint32_t *next;
     uint32_t *before;
+    double *budget; /* points that may still be looked at */
 } ring;
 
 /* Twice the area of a triangle, positive if it is anticlockwise. */
@@ -45,13 +42,14 @@ static void flatten(const double (*positions)[3], const cs_corner *corners, size
     }
 }
 
-static int is_ear(const ring *left, uint32_t tip)
+static int is_ear(ring *left, uint32_t tip)
 {
     const double *a = left->points[left->before[tip]], *b = left->points[tip];
     const double *c = left->points[left->next[tip]];
     if (!(area(a, b, c) > 0.0)) return 0;
     for (uint32_t i = left->next[left->next[tip]]; i != left->before[tip]; i = left->next[i]) {
         const double *p = left->points[i];
+        if ((*left->budget)-- < 0.0) return 1;
         const int corner = (p[0] == a[0] && p[1] == a[1]) || (p[0] == b[0] && p[1] == b[1]) ||
                            (p[0] == c[0] && p[1] == c[1]);
         if (!corner && area(a, b, p) >= 0.0 && area(b, c, p) >= 0.0 && area(c, a, p) >= 0.0)
@@ -103,10 +101,10 @@ static int is_convex(const double (*points)[2], size_t count)
 }
 
 void cs_polygon_cut(const double (*positions)[3], const cs_corner *corners, size_t count,
-                    uint32_t *triangles)
+                    double *budget, uint32_t *triangles)
 {
     cut_fan(count, triangles);
-    if (count == 3 || count > MOST_BY_EARS) return;
+    if (count == 3) return;
     double few_points[8][2];
     uint32_t few_links[16];
     double(*points)[2] = count <= 8 ? few_points : malloc(count * sizeof *points);
@@ -114,7 +112,7 @@ void cs_polygon_cut(const double (*positions)[3], const cs_corner *corners, size
     if (points != NULL && links != NULL) {
         flatten(positions, corners, count, points);
         if (!is_convex((const double(*)[2])points, count)) {
-            ring left = {points, links, links + count};
+            ring left = {points, links, links + count, budget};
             for (uint32_t i = 0; i < count; i++) {
                 left.next[i] = i + 1 < count ? i + 1 : 0;
                 left.before[i] = i > 0 ? i - 1 : (uint32_t)count - 1;
