@@ -2,6 +2,7 @@
 
 #include "import/build.h"
 #include "import/readers.h"
+#include "import/transfer.h"
 #include "import/wall.h"
 
 static clshear_status refuse(cs_bytes *bytes, cs_model *model, cs_error *error)
@@ -42,10 +43,22 @@ done:
     return status;
 }
 
+/* Gives back what growing arrays have too much. */
+static void trim(cs_scene *scene)
+{
+    cs_array *arrays[CS_SCENE_ARRAYS];
+    cs_scene_arrays(scene, arrays);
+    for (int i = 0; i < CS_SCENE_ARRAYS; i++)
+        cs_array_trim(arrays[i]);
+}
+
 clshear_status cs_scene_import(const char *path, const cs_import_options *options, cs_scene *scene,
                                const cs_log *log, cs_error *error)
 {
     char helper[CS_HELPER_PATH];
-    if (!cs_find_helper(helper)) return cs_import_here(path, options, NULL, scene, log, error);
-    return cs_import_behind_wall(helper, path, options, scene, log, error);
+    const clshear_status status =
+        cs_find_helper(helper) ? cs_import_behind_wall(helper, path, options, scene, log, error)
+                               : cs_import_here(path, options, NULL, scene, log, error);
+    if (status == CLSHEAR_OK) trim(scene);
+    return status;
 }
