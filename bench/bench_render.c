@@ -111,7 +111,7 @@ static void open_scene(bench *state)
     state->open_s = cs_now_s() - state->start_s;
     const double start_s = cs_now_s();
     if (state->scene_file != NULL)
-        bench_must(clshear_scene_load(state->context, state->scene_file, &state->scene));
+        bench_must(clshear_scene_load(state->context, state->scene_file, NULL, &state->scene));
     else
         make_mesh(state);
     state->load_s = cs_now_s() - (state->scene_file != NULL ? start_s : state->start_s);

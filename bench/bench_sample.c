@@ -34,7 +34,7 @@ static double draw_s(const bench *state, const cs_pattern *pattern, const cs_buf
     int64_t shear_kind = 0;
     cs_view view;
     bench_must(clshear_settings_get_integer(state->settings, CLSHEAR_SHEAR, &shear_kind));
-    cs_view_of(state->settings, &view);
+    cs_view_of(state->settings, NULL, &view);
     cs_launch frame = {.pattern = *pattern,
                        .pixel_count = SIDE * SIDE,
                        .shear_mode = cs_shear_mode((clshear_shear)shear_kind)};
@@ -100,7 +100,7 @@ static void open_scene(bench *state)
     bench_set(state->settings, CLSHEAR_SPP, state->spp);
     bench_set(state->settings, CLSHEAR_REPLICATES, 1);
     bench_must(clshear_context_create(NULL, &state->context));
-    bench_must(clshear_scene_load(state->context, state->scene_file, &state->scene));
+    bench_must(clshear_scene_load(state->context, state->scene_file, NULL, &state->scene));
 }
 
 int main(int argc, char **argv)

@@ -79,6 +79,11 @@ expect 1 "folder no/such/ cannot be written" -- "$cornell" --out no/such/folder.
 output=$(OCL_ICD_VENDORS=/nonexistent "$program" "$cornell" --quiet --out refused.exr 2>&1)
 case $?$output in 1*"no OpenCL device found; install"*) ;; *) wrong "no driver: $output" ;; esac
 
+# Full outputs and formats that are too small.
+output=$("$program" --list-samplers 2>&1 >/dev/full)
+case $?$output in 1*"standard output: cannot be written"*) ;; *) wrong "/dev/full: $output" ;; esac
+expect 1 "65500" -- "$cornell" --quiet --spp 1 --width 65536 --height 1 --out wide.jpg
+
 # Renders. Settings beside the scene are read and said; the command line wins.
 # shellcheck disable=SC2086
 {

@@ -156,7 +156,7 @@ clshear_status test_make_mesh(const char *name, size_t triangles, cs_scene *scen
     cs_material *grey = cs_array_extend(&scene->materials, 1);
     CS_REQUIRE(grey != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     *grey = (cs_material){.diffuse = {0.7f, 0.7f, 0.7f}, .texture = CS_NO_TEXTURE};
-    CS_TRY(cs_scene_add_mesh(scene, &made, NULL, 0, name, error));
+    CS_TRY(cs_scene_add_mesh(scene, &made, 0, name, error));
     CS_TRY(cs_scene_finish(scene, name, error));
 done:
     cs_array_free(&mesh.positions);

@@ -164,7 +164,7 @@ clshear_scene *test_floor(clshear_context *context, float half, float albedo)
 clshear_scene *test_cornell(clshear_context *context)
 {
     clshear_scene *scene = NULL;
-    test_ok(clshear_scene_load(context, SCENES "/cornell.obj", &scene));
+    test_ok(clshear_scene_load(context, SCENES "/cornell.obj", NULL, &scene));
     return scene;
 }
 

@@ -9,7 +9,7 @@
 static cs_view view_of(const clshear_settings *settings)
 {
     cs_view view;
-    cs_view_of(settings, &view);
+    cs_view_of(settings, NULL, &view);
     return view;
 }
 

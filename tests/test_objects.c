@@ -70,9 +70,9 @@ static void null_is_refused(void **state)
     expect_null(clshear_context_create_from(NULL, NULL, NULL, NULL, &context),
                 "clshear_context_create_from");
     expect_null(clshear_list_devices(NULL, NULL), "clshear_list_devices");
-    expect_null(clshear_scene_load(NULL, "a", &scene), "clshear_scene_load");
-    expect_null(clshear_scene_load(made->context, NULL, &scene), "clshear_scene_load");
-    expect_null(clshear_scene_load(made->context, "a", NULL), "clshear_scene_load");
+    expect_null(clshear_scene_load(NULL, "a", NULL, &scene), "clshear_scene_load");
+    expect_null(clshear_scene_load(made->context, NULL, NULL, &scene), "clshear_scene_load");
+    expect_null(clshear_scene_load(made->context, "a", NULL, NULL), "clshear_scene_load");
     expect_null(clshear_scene_create(NULL, &scene), "clshear_scene_create");
     expect_null(clshear_scene_add_mesh(made->scene, NULL), "clshear_scene_add_mesh");
     expect_null(clshear_scene_add_light(made->scene, NULL), "clshear_scene_add_light");
@@ -98,7 +98,7 @@ static void *fail_elsewhere(void *argument)
 {
     clshear_scene *scene = NULL;
     assert_string_equal(clshear_message(), "");
-    clshear_scene_load(argument, "/no/such/elsewhere.obj", &scene);
+    clshear_scene_load(argument, "/no/such/elsewhere.obj", NULL, &scene);
     return (void *)(uintptr_t)(strstr(clshear_message(), "elsewhere.obj") != NULL);
 }
 
@@ -112,7 +112,8 @@ static void messages_have_owners(void **state)
     pthread_t thread;
     void *seen;
     assert_string_equal(clshear_context_message(context), "");
-    assert_int_equal(clshear_scene_load(context, "/no/such/here.obj", &scene), CLSHEAR_BAD_FILE);
+    assert_int_equal(clshear_scene_load(context, "/no/such/here.obj", NULL, &scene),
+                     CLSHEAR_BAD_FILE);
     assert_int_equal(pthread_create(&thread, NULL, fail_elsewhere, context), 0);
     assert_int_equal(pthread_join(thread, &seen), 0);
     assert_non_null(seen);
@@ -218,7 +219,8 @@ static void failures_leave_results_alone(void **state)
     test_set(settings, CLSHEAR_REPLICATES, "17");
     assert_int_equal(clshear_render(made->scene, settings, &film), CLSHEAR_BAD_ARGUMENT);
     assert_int_equal(clshear_film_read(test_path("none.exr"), &film), CLSHEAR_BAD_FILE);
-    assert_int_equal(clshear_scene_load(made->context, "/none.obj", &scene), CLSHEAR_BAD_FILE);
+    assert_int_equal(clshear_scene_load(made->context, "/none.obj", NULL, &scene),
+                     CLSHEAR_BAD_FILE);
     assert_ptr_equal(film, before);
     assert_ptr_equal(scene, made->scene);
     clshear_film_free(film);

@@ -31,7 +31,7 @@ static clshear_scene *load(fixture *made, const char *path)
 {
     clshear_scene *scene = NULL;
     test_warnings();
-    test_ok(clshear_scene_load(made->context, path, &scene));
+    test_ok(clshear_scene_load(made->context, path, NULL, &scene));
     return scene;
 }
 
@@ -39,7 +39,7 @@ static void refuse_file(fixture *made, const char *path)
 {
     clshear_scene *scene = NULL;
     const char *name = strrchr(path, '/') + 1;
-    assert_int_equal(clshear_scene_load(made->context, path, &scene), CLSHEAR_BAD_FILE);
+    assert_int_equal(clshear_scene_load(made->context, path, NULL, &scene), CLSHEAR_BAD_FILE);
     assert_null(scene);
     if (strstr(clshear_context_message(made->context), name) == NULL)
         fail_msg("\"%s\" does not name %s", clshear_context_message(made->context), name);
@@ -280,7 +280,7 @@ static void gltf_with_camera_and_light(void **state)
     clshear_settings *settings = test_settings(NULL, 300, 200, 256);
     cs_view view;
     test_ok(clshear_camera_complete(scene, settings));
-    cs_view_of(settings, &view);
+    cs_view_of(settings, NULL, &view);
     clshear_settings_free(settings);
     assert_near(view.eye[0], 0.25f, 1e-5f);
     assert_near(view.eye[2], 3.0f, 1e-5f);

@@ -156,7 +156,7 @@ static void *load_good(void *argument)
     task *task = argument;
     for (int round = 0; round < 2 * ROUNDS && task->wrong == NULL; round++) {
         clshear_scene *scene = NULL;
-        if (clshear_scene_load(task->context, task->path, &scene) != CLSHEAR_OK)
+        if (clshear_scene_load(task->context, task->path, NULL, &scene) != CLSHEAR_OK)
             task->wrong = "a good file is refused";
         else if (strcmp(clshear_message(), "") != 0 ||
                  strcmp(clshear_scene_message(scene), "") != 0)
@@ -174,7 +174,7 @@ static void *load_broken(void *argument)
     task *task = argument;
     for (int round = 0; round < 8 * ROUNDS && task->wrong == NULL; round++) {
         clshear_scene *scene = NULL;
-        if (clshear_scene_load(task->context, task->path, &scene) != CLSHEAR_BAD_FILE)
+        if (clshear_scene_load(task->context, task->path, NULL, &scene) != CLSHEAR_BAD_FILE)
             task->wrong = "a broken file is not refused";
         else if (strstr(clshear_message(), "broken_thread.obj") == NULL ||
                  strstr(clshear_context_message(task->context), "broken_thread.obj") == NULL)

@@ -33,7 +33,7 @@ static void place_camera(bench_view *view, cs_error *error)
     const float eye[3] = {0.5f, 0.5f, 2.2f}, target[3] = {0.5f, 0.5f, 0.5f};
     const float light[3] = {0.5f, 0.95f, 0.5f};
     cs_view *camera = &view->camera;
-    *camera = cs_camera_of_scene(&view->scene, view->size, view->size);
+    *camera = cs_camera_of_scene(&view->scene, -1, view->size, view->size);
     memcpy(camera->eye, eye, sizeof eye);
     memcpy(camera->target, target, sizeof target);
     memcpy(view->light, light, sizeof light);

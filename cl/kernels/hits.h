@@ -29,6 +29,20 @@ static inline void cs_apply_texture(const cs_scene_buffers *scene, CS_GLOBAL con
         surface->albedo[c] = mine ? surface->albedo[c] * colour[c].all : surface->albedo[c];
 }
 
+/* Multiplies the albedo of the lanes in `mine` by the vertex colours at barycentrics (b1, b2). */
+static inline void cs_apply_colour(const cs_scene_buffers *scene, CS_GLOBAL const cs_face *face,
+                                   cs_vfloat b1, cs_vfloat b2, cs_vint mine, cs_surface *surface)
+{
+    CS_GLOBAL const cs_f32 *c0 = scene->colours[face->vertex[0]].value;
+    CS_GLOBAL const cs_f32 *c1 = scene->colours[face->vertex[1]].value;
+    CS_GLOBAL const cs_f32 *c2 = scene->colours[face->vertex[2]].value;
+    for (int c = 0; c < 3; c++) {
+        cs_vfloat colour = c0[c] + b1 * (c1[c] - c0[c]) + b2 * (c2[c] - c0[c]);
+        surface->albedo[c] =
+            mine ? surface->albedo[c] * cs_max(colour, (cs_vfloat)(0.0f)) : surface->albedo[c];
+    }
+}
+
 /* Interpolates the vertex normals over the lanes in `mine`, turned to the viewer's side. */
 static inline void cs_apply_smooth_normal(const cs_scene_buffers *scene,
                                           CS_GLOBAL const cs_face *face, cs_vfloat b1, cs_vfloat b2,
@@ -98,6 +112,7 @@ static inline void cs_describe_triangle(const cs_scene_buffers *scene, const cs_
         cs_apply_smooth_normal(scene, face, b1, b2, mine, surface);
     if (triangle->flags & CS_FACE_TEXTURED)
         cs_apply_texture(scene, face, (cs_u32)material->texture, b1, b2, mine, surface);
+    if (triangle->flags & CS_FACE_COLOURED) cs_apply_colour(scene, face, b1, b2, mine, surface);
 }
 
 /* The surfaces that a packet hit, one distinct triangle after another: mostly there are few. */

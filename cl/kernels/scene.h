@@ -24,6 +24,7 @@ enum {
     X(TRIANGLES, triangles, cs_triangle) \
     X(FACES, faces, cs_face)             \
     X(VERTICES, vertices, cs_vertex)     \
+    X(COLOURS, colours, cs_colour)       \
     X(MATERIALS, materials, cs_material) \
     X(TEXTURES, textures, cs_texture)    \
     X(TEXELS, texels, half)              \
@@ -59,11 +60,12 @@ typedef struct cs_triangle {
 CS_SHARED_WORDS(cs_triangle, 16);
 
 enum {
-    CS_FACE_SMOOTH = 1,  /* its vertices have normals */
-    CS_FACE_TEXTURED = 2 /* its material has a texture */
+    CS_FACE_SMOOTH = 1,   /* its vertices have normals */
+    CS_FACE_TEXTURED = 2, /* its material has a texture */
+    CS_FACE_COLOURED = 4  /* its vertices have colours */
 };
 
-/* The vertices of a smooth or textured triangle. */
+/* The vertices of a smooth, textured or coloured triangle. */
 typedef struct cs_face {
     cs_u32 vertex[3];
 } cs_face;
@@ -76,6 +78,13 @@ typedef struct cs_vertex {
 } cs_vertex;
 CS_SHARED_WORDS(cs_vertex, 5);
 
+/* Linear colour of a vertex, which multiplies the albedo. The buffer is empty where no vertex has
+ * one. */
+typedef struct cs_colour {
+    cs_f32 value[3];
+} cs_colour;
+CS_SHARED_WORDS(cs_colour, 3);
+
 typedef struct cs_material {
     cs_f32 diffuse[3];  /* albedo, linear Rec.709; multiplies the texture if there is one */
     cs_i32 texture;     /* index, or CS_NO_TEXTURE */
@@ -85,11 +94,20 @@ typedef struct cs_material {
 } cs_material;
 CS_SHARED_WORDS(cs_material, 12);
 
+/* How coordinates outside an image are taken. */
+enum {
+    CS_TEXTURE_REPEAT = 0,
+    CS_TEXTURE_CLAMP = 1,
+    CS_TEXTURE_MIRROR = 2,
+    CS_TEXTURE_WRAP_BITS = 2, /* of each of the two in cs_texture.wrap */
+    CS_TEXTURE_WRAP_MASK = 3
+};
+
 typedef struct cs_texture {
     cs_u32 first; /* index of its top left texel; texels are 4 halves, linear Rec.709 */
     cs_u32 width;
     cs_u32 height;
-    cs_u32 padding;
+    cs_u32 wrap; /* CS_TEXTURE_ kind across, and shifted by CS_TEXTURE_WRAP_BITS the one up */
 } cs_texture;
 CS_SHARED_WORDS(cs_texture, 4);
 

@@ -28,14 +28,36 @@ static inline cs_texel_pair cs_texels_at(cs_vfloat place, cs_u32 size)
     return pair;
 }
 
-/* Bilinear, repeating, at the texture coordinates (s, t) of the lanes that are `wanted`; (0, 0) is
+/* The same for coordinates that do not repeat: beyond its edges the image has the colour of its
+ * border, or is seen in a mirror. */
+static inline cs_texel_pair cs_texels_within(cs_vfloat place, cs_u32 size, cs_u32 wrap)
+{
+    cs_f32 last = (cs_f32)size - 1.0f;
+    cs_vfloat turns = place - 2.0f * floor(0.5f * place); /* 0 to 2 */
+    cs_vfloat inside = wrap == CS_TEXTURE_MIRROR ? 1.0f - fabs(1.0f - turns) : place;
+    cs_vfloat centre =
+        cs_min(cs_max(inside * (cs_f32)size - 0.5f, (cs_vfloat)(0.0f)), (cs_vfloat)(last));
+    cs_vfloat before = floor(centre);
+    cs_texel_pair pair;
+    pair.first.all = CS_OVER_LANES(convert_int)(before);
+    pair.second.all = CS_OVER_LANES(convert_int)(cs_min(before + 1.0f, (cs_vfloat)(last)));
+    pair.part.all = centre - before;
+    return pair;
+}
+
+/* Bilinear, at the texture coordinates (s, t) of the lanes that are `wanted`; (0, 0) is
  * the lower left corner of the image. */
 static inline void cs_texels(const cs_scene_buffers *scene, cs_u32 texture, cs_vfloat s,
                              cs_vfloat t, cs_int_lanes wanted, cs_float_lanes *colour)
 {
     CS_GLOBAL const cs_texture *image = scene->textures + texture;
-    cs_texel_pair x = cs_texels_at(s, image->width);
-    cs_texel_pair y = cs_texels_at(1.0f - (t - floor(t)), image->height);
+    cs_u32 wrap_s = image->wrap & CS_TEXTURE_WRAP_MASK;
+    cs_u32 wrap_t = image->wrap >> CS_TEXTURE_WRAP_BITS;
+    cs_texel_pair x = wrap_s == CS_TEXTURE_REPEAT ? cs_texels_at(s, image->width)
+                                                  : cs_texels_within(s, image->width, wrap_s);
+    cs_texel_pair y = wrap_t == CS_TEXTURE_REPEAT
+                          ? cs_texels_at(1.0f - (t - floor(t)), image->height)
+                          : cs_texels_within(1.0f - t, image->height, wrap_t);
     y.first.all *= (cs_i32)image->width;
     y.second.all *= (cs_i32)image->width;
     CS_GLOBAL const half *texels = scene->texels + 4u * (size_t)image->first;

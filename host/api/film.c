@@ -4,6 +4,7 @@
 
 #include "api/arguments.h"
 #include "film/film.h"
+#include "image/image_io.h"
 
 void clshear_film_describe(const clshear_film *film, clshear_film_info *info)
 {
@@ -65,6 +66,12 @@ clshear_status clshear_film_write(clshear_film *film, const char *path)
     CS_NEEDS(film);
     CS_NEEDS(path);
     return cs_message_keep(&film->message, cs_film_write(film, path));
+}
+
+clshear_status clshear_film_check_path(const char *path, int width, int height)
+{
+    CS_NEEDS(path);
+    return cs_image_check(path, width, height, cs_thread_error());
 }
 
 clshear_status clshear_film_write_ratio(clshear_film *film, const char *channel, const char *path)

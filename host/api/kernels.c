@@ -144,7 +144,7 @@ clshear_status clshear_lens_create(const clshear_settings *settings, clshear_len
     cs_view view;
     clshear_lens *lens = calloc(1, sizeof *lens);
     if (lens == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    cs_view_of(settings, &view);
+    cs_view_of(settings, NULL, &view);
     const clshear_status status =
         cs_optics_make(&view, (clshear_filter)cs_integer(settings, FILTER),
                        (float)cs_number(settings, FILTER_WIDTH), &lens->made, error);

@@ -2,9 +2,10 @@
 #include "api/arguments.h"
 #include "render/camera_choice.h"
 #include "render/objects.h"
+#include "settings/settings.h"
 
 clshear_status clshear_scene_load(clshear_context *context, const char *path,
-                                  clshear_scene **result)
+                                  const clshear_settings *settings, clshear_scene **result)
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
@@ -13,7 +14,7 @@ clshear_status clshear_scene_load(clshear_context *context, const char *path,
     CS_NEEDS(path);
     CS_NEEDS(result);
     CS_TRY(cs_scene_new(context, &scene, error));
-    CS_TRY(cs_scene_read(scene, path, error));
+    CS_TRY(cs_scene_read(scene, path, settings, error));
     CS_TRY(cs_scene_complete(scene, error));
     *result = scene;
     scene = NULL;
@@ -62,6 +63,12 @@ void clshear_scene_describe(const clshear_scene *scene, clshear_scene_info *info
     described.lights = scene->scene.lights.count;
     described.emitters = scene->device_scene.emitters;
     cs_struct_out(info, &described, sizeof described);
+}
+
+const char *clshear_scene_camera(const clshear_scene *scene, size_t index)
+{
+    const cs_scene_camera *cameras = scene->scene.cameras.items;
+    return index < scene->scene.cameras.count ? cameras[index].name : NULL;
 }
 
 const char *clshear_scene_message(const clshear_scene *scene)

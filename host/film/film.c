@@ -160,15 +160,14 @@ static clshear_status write_channels(const clshear_film *film, const char *path,
 
 clshear_status cs_film_write(clshear_film *film, const char *path)
 {
-    if (!cs_image_can_write(path))
-        return cs_fail(cs_thread_error(), CLSHEAR_BAD_FILE,
-                       "%s: unknown image format; use .exr, .png, .jpg or .tif", path);
+    clshear_status status =
+        cs_image_check(path, film->info.width, film->info.height, cs_thread_error());
+    if (status != CLSHEAR_OK) return status;
     const char **names = malloc(film->channels.count * sizeof *names);
     const float **planes = malloc(film->channels.count * sizeof *planes);
-    clshear_status status =
-        names != NULL && planes != NULL
-            ? write_channels(film, path, names, planes)
-            : cs_fail(cs_thread_error(), CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
+    status = names != NULL && planes != NULL
+                 ? write_channels(film, path, names, planes)
+                 : cs_fail(cs_thread_error(), CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
     free(names);
     free(planes);
     return status;

@@ -28,8 +28,7 @@ clshear_status cs_film_write_ratio(clshear_film *film, const char *channel, cons
     CS_REQUIRE(planes != NULL, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
     CS_REQUIRE(values != NULL, CLSHEAR_BAD_ARGUMENT, "%s: the film has no channel %s", path,
                channel);
-    CS_REQUIRE(cs_image_can_write(path), CLSHEAR_BAD_FILE,
-               "%s: unknown image format; use .png, .jpg or .tif", path);
+    CS_TRY(cs_image_check(path, film->info.width, film->info.height, error));
     for (size_t i = 0; i < pixels; i++) {
         float rgb[3];
         colour_of(values[i], rgb);

@@ -51,9 +51,9 @@ void forget(const char *path)
     OIIO::ImageCache::create(true)->invalidate(OIIO::ustring(path), true);
 }
 
-/* Converts any number of channels to linear RGBA. Grey is repeated; alpha is kept but not
- * applied. */
-ImageBuf linear_rgba(const ImageBuf &source)
+/* Any number of channels as linear RGBA: grey is repeated, alpha counts as 1. Files of integers
+ * (`is_integer`) that say nothing of their curve have that of sRGB. */
+ImageBuf linear_rgba(const ImageBuf &source, bool is_integer)
 {
     const int channels = source.nchannels();
     const int grey = channels < 3;
@@ -61,44 +61,112 @@ ImageBuf linear_rgba(const ImageBuf &source)
     const float fill[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     ImageBuf rgba = OIIO::ImageBufAlgo::channels(source, 4, order, fill);
     std::string space = source.spec().get_string_attribute("oiio:ColorSpace");
-    const bool is_integer = !source.spec().format.is_floating_point();
     if (space.empty()) space = is_integer ? "sRGB" : "linear";
     if (space != "sRGB") return rgba;
     return OIIO::ImageBufAlgo::colorconvert(rgba, "sRGB", "linear", false);
 }
 
-/* Reads a file, or `memory` unless it is null, as linear RGBA. */
-clshear_status read_rgba(const char *path, const void *memory, size_t size, ImageBuf &rgba,
-                         cs_error *error)
+/* An image to read: a file, or `size` bytes of one at `memory` if that is not null. */
+struct Source {
+    const char *path;
+    const char *label; /* what messages call it */
+    const void *memory;
+    size_t size;
+};
+
+/* The usual extension for the first bytes of an image, since OpenImageIO goes by names. */
+const char *extension_for(const void *memory, size_t size)
 {
-    if (memory == nullptr && cs_is_special_file(path))
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: is not a regular file", path);
-    forget(path);
-    OIIO::Filesystem::IOMemReader reader(const_cast<void *>(memory), size);
-    ImageBuf source(path, 0, 0, nullptr, nullptr, memory != nullptr ? &reader : nullptr);
+    static const struct {
+        const char *magic;
+        size_t length;
+        const char *extension;
+    } known[] = {{"\x89PNG", 4, "png"}, {"\xff\xd8\xff", 3, "jpg"},
+                 {"RIFF", 4, "webp"},   {"\x76\x2f\x31\x01", 4, "exr"},
+                 {"#?", 2, "hdr"},      {"GIF8", 4, "gif"},
+                 {"II*", 3, "tif"},     {"MM", 2, "tif"},
+                 {"BM", 2, "bmp"}};
+    for (const auto &entry : known)
+        if (size >= entry.length && std::memcmp(memory, entry.magic, entry.length) == 0)
+            return entry.extension;
+    return "png";
+}
+
+/* First line of what OpenImageIO says, without the file's name, which our messages begin with. */
+std::string reason_of(const ImageBuf &image, const std::string &path)
+{
+    std::string reason = first_line(image.geterror());
+    const size_t advice = reason.find(" Also, it is not the name of an image format");
+    if (advice != std::string::npos) reason.resize(advice);
+    for (const std::string &named : {"Invalid image file \"" + path + "\": ", " (" + path + ")",
+                                     " (\"" + path + "\")", "\"" + path + "\" ", path})
+        for (size_t at = reason.find(named); at != std::string::npos; at = reason.find(named))
+            reason.erase(at, named.size());
+    return reason.empty() ? "not an image that can be read" : reason;
+}
+
+/* Colours as the file has them, not multiplied by alpha: alpha is no part of a colour here. */
+ImageBuf without_alpha(ImageBuf &&source)
+{
+    const ImageSpec &spec = source.spec();
+    const std::string format(source.file_format_name());
+    const bool associated = format == "openexr" || format == "tiff";
+    if (spec.alpha_channel < 0 || !associated ||
+        spec.get_int_attribute("oiio:UnassociatedAlpha") != 0)
+        return std::move(source);
+    return OIIO::ImageBufAlgo::unpremult(source);
+}
+
+/* Texels in one image: more are a damaged head rather than a picture. */
+constexpr uint64_t most_texels = uint64_t(1) << 28;
+
+/* An image as linear RGBA. */
+clshear_status read_rgba(const Source &from, ImageBuf &rgba, cs_error *error)
+{
+    if (from.memory == nullptr && cs_is_special_file(from.path))
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: is not a regular file", from.label);
+    std::string path = from.path;
+    if (from.memory != nullptr)
+        path = std::string("embedded.") + extension_for(from.memory, from.size);
+    else
+        forget(from.path);
+    OIIO::Filesystem::IOMemReader reader(const_cast<void *>(from.memory), from.size);
+    ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    ImageBuf source(path, 0, 0, nullptr, &config, from.memory != nullptr ? &reader : nullptr);
+    if (!source.init_spec(path, 0, 0))
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
+                       reason_of(source, path).c_str());
+    const uint64_t width = static_cast<uint64_t>(source.spec().width);
+    const uint64_t height = static_cast<uint64_t>(source.spec().height);
+    if (width == 0 || height == 0 || width > most_texels / height)
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %d x %d texels: must be 1 to 2^28", from.label,
+                       source.spec().width, source.spec().height);
     if (!source.read(0, 0, true, TypeDesc::FLOAT))
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,
-                       first_line(source.geterror()).c_str());
-    rgba = linear_rgba(source);
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
+                       reason_of(source, path).c_str());
+    const bool is_integer = !source.nativespec().format.is_floating_point();
+    rgba = linear_rgba(without_alpha(std::move(source)), is_integer);
     if (rgba.has_error())
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
                        first_line(rgba.geterror()).c_str());
     return CLSHEAR_OK;
 }
 
-clshear_status read_texels(const char *path, const void *memory, size_t size, cs_texels *texels,
+clshear_status read_texels(const Source &from, float base, float gain, cs_texels *texels,
                            cs_error *error)
 {
     ImageBuf rgba;
-    clshear_status status = read_rgba(path, memory, size, rgba, error);
+    clshear_status status = read_rgba(from, rgba, error);
     if (status != CLSHEAR_OK) return status;
+    if (base != 0.0f || gain != 1.0f) rgba = OIIO::ImageBufAlgo::mad(rgba, gain, base);
     const size_t width = static_cast<size_t>(rgba.spec().width);
     const size_t height = static_cast<size_t>(rgba.spec().height);
     auto *halves = static_cast<uint16_t *>(std::malloc(width * height * 4 * sizeof(uint16_t)));
     if (halves == nullptr) throw std::bad_alloc();
     if (!rgba.get_pixels(rgba.roi(), TypeDesc::HALF, halves)) {
         std::free(halves);
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
                        first_line(rgba.geterror()).c_str());
     }
     texels->width = static_cast<uint32_t>(width);
@@ -112,7 +180,7 @@ clshear_status read_luminance(const char *path, int most, float **luminance, int
                               int *height, cs_error *error)
 {
     ImageBuf rgba;
-    clshear_status status = read_rgba(path, nullptr, 0, rgba, error);
+    clshear_status status = read_rgba({path, path, nullptr, 0}, rgba, error);
     if (status != CLSHEAR_OK) return status;
     const int full_width = rgba.spec().width, full_height = rgba.spec().height;
     const int longer = full_width > full_height ? full_width : full_height;
@@ -318,6 +386,9 @@ std::string write_by_memory(const std::string &extension, const ImageBuf &buffer
     return written ? std::string() : std::strerror(reason);
 }
 
+/* Pixels a side, beyond which libjpeg ends the process. */
+constexpr int most_of_jpeg = 65500;
+
 clshear_status write_picture(const char *path, const cs_picture *picture, cs_error *error)
 {
     const std::string extension = extension_of(path);
@@ -340,10 +411,13 @@ clshear_status write_picture(const char *path, const cs_picture *picture, cs_err
 
 } // namespace
 
-extern "C" clshear_status cs_image_read_texels(const char *path, const void *memory, size_t size,
-                                               cs_texels *texels, cs_error *error)
+extern "C" clshear_status cs_image_read_texels(const char *path, const char *label,
+                                               const void *memory, size_t size, float base,
+                                               float gain, cs_texels *texels, cs_error *error)
 {
-    return guarded(path, error, [&] { return read_texels(path, memory, size, texels, error); });
+    return guarded(label, error, [&] {
+        return read_texels({path, label, memory, size}, base, gain, texels, error);
+    });
 }
 
 clshear_status cs_image_read_luminance(const char *path, int most, float **luminance, int *width,
@@ -373,15 +447,29 @@ extern "C" void cs_image_free(cs_loaded_picture *loaded)
     *loaded = cs_loaded_picture{};
 }
 
-extern "C" int cs_image_can_write(const char *path)
+extern "C" clshear_status cs_image_check(const char *path, int width, int height, cs_error *error)
 {
-    for (const char *known : {"exr", "png", "jpg", "jpeg", "tif", "tiff"})
-        if (extension_of(path) == known) return 1;
-    return 0;
+    return guarded(path, error, [&] {
+        const std::string extension = extension_of(path);
+        bool known = false;
+        for (const char *one : {"exr", "png", "jpg", "jpeg", "tif", "tiff"})
+            known |= extension == one;
+        if (!known)
+            return cs_fail(error, CLSHEAR_BAD_FILE,
+                           "%s: unknown image format; use .exr, .png, .jpg or .tif", path);
+        const bool is_jpeg = extension == "jpg" || extension == "jpeg";
+        if (is_jpeg && (width > most_of_jpeg || height > most_of_jpeg))
+            return cs_fail(error, CLSHEAR_BAD_FILE,
+                           "%s: %d x %d pixels: JPEG holds at most %d a side; write PNG or EXR",
+                           path, width, height, most_of_jpeg);
+        return CLSHEAR_OK;
+    });
 }
 
 extern "C" clshear_status cs_image_write(const char *path, const cs_picture *picture,
                                          cs_error *error)
 {
+    clshear_status status = cs_image_check(path, picture->width, picture->height, error);
+    if (status != CLSHEAR_OK) return status;
     return guarded(path, error, [&] { return write_picture(path, picture, error); });
 }

@@ -18,10 +18,12 @@ typedef struct cs_texels {
     uint16_t *halves; /* 4 a texel; owned */
 } cs_texels;
 
-/* Reads an image file, or `size` encoded bytes at `memory` unless it is NULL; `path` then only
- * names them in messages. Integer images are sRGB unless their metadata says otherwise. */
-clshear_status cs_image_read_texels(const char *path, const void *memory, size_t size,
-                                    cs_texels *texels, cs_error *error);
+/* Reads an image file, or where `memory` is not NULL the `size` bytes of one; `label` is what
+ * messages call it. Texels are base + gain * those of the file, whatever its alpha. Images of
+ * integers are taken as sRGB unless they say otherwise. */
+clshear_status cs_image_read_texels(const char *path, const char *label, const void *memory,
+                                    size_t size, float base, float gain, cs_texels *texels,
+                                    cs_error *error);
 
 /* Reads the linear luminance of an image, with negative values clamped to 0, reduced to at most
  * `most` texels a side. The caller frees `luminance` with free(). */
@@ -73,8 +75,9 @@ typedef struct cs_loaded_picture {
 clshear_status cs_image_read(const char *path, cs_loaded_picture *loaded, cs_error *error);
 void cs_image_free(cs_loaded_picture *loaded);
 
-/* Returns 1 if the extension of `path` names a supported output format, else 0. */
-int cs_image_can_write(const char *path);
+/* Whether the extension of `path` names a format that can be written, and holds a picture of this
+ * size: JPEG has 16 bits for it. */
+clshear_status cs_image_check(const char *path, int width, int height, cs_error *error);
 
 /* Writes .exr with all planes as float32, or other formats with the planes R, G, B under the sRGB
  * curve (8 bits; TIFF 16). The file appears under its name only when it is complete. */

@@ -7,6 +7,7 @@
 #include <strings.h>
 
 #include "base/array.h"
+#include "base/number.h"
 #include "base/output_file.h"
 #include "image/image_io.h"
 #include "points/points.h"
@@ -49,8 +50,9 @@ static clshear_status read_point(text_reader *reader, const char *text)
     float point[sizeof CS_POINT_NAMES];
     size_t dimensions = 0;
     for (text += strspn(text, " \t\r\n"); *text != '\0'; text += strspn(text, " \t\r\n,;")) {
-        char *end;
-        const float value = strtof(text, &end);
+        double wide;
+        const char *end = cs_parse_number(text, text + strcspn(text, " \t\r\n,;"), &wide);
+        const float value = (float)wide;
         if (end == text) return complain(reader, "a coordinate is not a number");
         if (dimensions == sizeof CS_POINT_NAMES - 1)
             return complain(reader, "more than six coordinates");
@@ -116,11 +118,12 @@ static clshear_status read_text(const char *path, clshear_points *points, cs_err
 static int print_points(const clshear_points *points, const char *separator, FILE *stream)
 {
     const float *value = points->values;
+    char text[32];
     for (size_t set = 0; set < points->sets && !ferror(stream); set++) {
         if (set > 0) fputs("#\n", stream);
         for (size_t i = 0; i < points->count; i++)
             for (size_t d = 0; d < points->dimensions; d++)
-                fprintf(stream, "%.9g%s", (double)*value++,
+                fprintf(stream, "%s%s", cs_format_number(text, sizeof text, (double)*value++, 9),
                         d + 1 < points->dimensions ? separator : "\n");
     }
     return fflush(stream) == 0 && !ferror(stream);

@@ -1,6 +1,8 @@
 #include "render/camera_choice.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "base/vec.h"
 #include "scene/camera.h"
@@ -22,22 +24,49 @@ static clshear_status set_one(clshear_settings *settings, clshear_setting settin
 }
 
 static clshear_status set_vector(clshear_settings *settings, clshear_setting setting,
-                                 const float *vector, cs_error *error)
+                                 const float *vector, const double *origin, cs_error *error)
 {
-    const double numbers[3] = {(double)vector[0], (double)vector[1], (double)vector[2]};
+    double numbers[3];
+    for (int axis = 0; axis < 3; axis++)
+        numbers[axis] = (double)vector[axis] + origin[axis];
     return cs_settings_set(settings, setting, numbers, 3, error);
+}
+
+/* The file's camera that the settings name: the first one if they name none, -1 without any. */
+static clshear_status choose_camera(const clshear_scene *scene, const clshear_settings *settings,
+                                    int *number, cs_error *error)
+{
+    const cs_array *cameras = &scene->scene.cameras;
+    *number = cameras->count > 0 ? 0 : -1;
+    if (!cs_is_set(settings, CAMERA)) return CLSHEAR_OK;
+    const char *name = cs_text(settings, CAMERA);
+    *number = cs_camera_find(&scene->scene, name);
+    if (*number >= 0) return CLSHEAR_OK;
+    if (cameras->count == 0)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "camera %.60s: the scene has no cameras", name);
+    char names[512] = "";
+    for (size_t i = 0; i < cameras->count && i < 8; i++)
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%zu \"%.40s\"",
+                 i > 0 ? ", " : "", i, ((const cs_scene_camera *)cameras->items)[i].name);
+    return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "camera %.60s: the scene has %zu: %s", name,
+                   cameras->count, names);
 }
 
 clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *settings,
                               cs_error *error)
 {
+    static const double nowhere[3] = {0, 0, 0};
+    const double *origin = scene->scene.origin;
     clshear_status status = CLSHEAR_OK;
-    const cs_view view = cs_camera_of_scene(&scene->scene, (int)cs_integer(settings, WIDTH),
+    int number = -1;
+    CS_TRY(choose_camera(scene, settings, &number, error));
+    const cs_view view = cs_camera_of_scene(&scene->scene, number, (int)cs_integer(settings, WIDTH),
                                             (int)cs_integer(settings, HEIGHT));
-    if (!cs_is_set(settings, EYE)) CS_TRY(set_vector(settings, CLSHEAR_EYE, view.eye, error));
+    if (!cs_is_set(settings, EYE))
+        CS_TRY(set_vector(settings, CLSHEAR_EYE, view.eye, origin, error));
     if (!cs_is_set(settings, TARGET))
-        CS_TRY(set_vector(settings, CLSHEAR_TARGET, view.target, error));
-    if (!cs_is_set(settings, UP)) CS_TRY(set_vector(settings, CLSHEAR_UP, view.up, error));
+        CS_TRY(set_vector(settings, CLSHEAR_TARGET, view.target, origin, error));
+    if (!cs_is_set(settings, UP)) CS_TRY(set_vector(settings, CLSHEAR_UP, view.up, nowhere, error));
     if (!cs_is_set(settings, FOV)) CS_TRY(set_one(settings, CLSHEAR_FOV, view.fov_deg, error));
 done:
     return status;
@@ -55,7 +84,7 @@ static clshear_status depth_at(const clshear_scene *scene, const clshear_setting
     if (x < 0 || y < 0 || x >= width || y >= height)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "pixel %d,%d is outside the %d x %d image", x,
                        y, width, height);
-    cs_view_of(settings, &view);
+    cs_view_of(settings, scene->scene.origin, &view);
     clshear_status status = cs_camera_frame(&view, width, height, &camera, error);
     if (status == CLSHEAR_OK)
         status = cs_accel_depth(scene->accel, &camera, NULL, window, 0, &found, error);
@@ -100,16 +129,17 @@ static clshear_status choose_focus(const clshear_scene *scene, clshear_settings 
     clshear_status status = depth_at(scene, settings, (int)cs_integer(settings, WIDTH) / 2,
                                      (int)cs_integer(settings, HEIGHT) / 2, &depth, error);
     if (status != CLSHEAR_OK) return status;
-    cs_view_of(settings, &view);
+    cs_view_of(settings, scene->scene.origin, &view);
     if (!isfinite(depth)) depth = depth_of_centre(&scene->scene, &view);
     return set_one(settings, CLSHEAR_FOCAL_DISTANCE, depth, error);
 }
 
-static clshear_status choose_lens(clshear_settings *settings, cs_error *error)
+static clshear_status choose_lens(const clshear_scene *scene, clshear_settings *settings,
+                                  cs_error *error)
 {
     cs_view view;
     if (cs_is_set(settings, LENS_RADIUS)) return CLSHEAR_OK;
-    cs_view_of(settings, &view);
+    cs_view_of(settings, scene->scene.origin, &view);
     float radius =
         0.5f * blur_at_infinity * 2.0f * view.focal_distance * tangent_of_half_fov(&view);
     if (cs_is_set(settings, F_STOP)) {
@@ -125,5 +155,5 @@ clshear_status cs_camera_complete(const clshear_scene *scene, clshear_settings *
 {
     clshear_status status = cs_camera_pose(scene, settings, error);
     if (status == CLSHEAR_OK) status = choose_focus(scene, settings, error);
-    return status == CLSHEAR_OK ? choose_lens(settings, error) : status;
+    return status == CLSHEAR_OK ? choose_lens(scene, settings, error) : status;
 }

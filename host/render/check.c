@@ -83,7 +83,7 @@ static clshear_status make_camera(cs_job *job, cs_error *error)
     clshear_status status = CLSHEAR_OK;
     const clshear_settings *settings = &job->settings;
     cs_view view;
-    cs_view_of(settings, &view);
+    cs_view_of(settings, job->scene->scene.origin, &view);
     CS_TRY(check_lens(&view, error));
     CS_TRY(cs_optics_make(&view, (clshear_filter)cs_integer(settings, FILTER),
                           (float)cs_number(settings, FILTER_WIDTH), &job->optics, error));

@@ -35,6 +35,7 @@ clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const 
     CS_TRY(upload(world, device, CS_SCENE_TRIANGLES, &bvh->triangles, error));
     CS_TRY(upload(world, device, CS_SCENE_FACES, faces, error));
     CS_TRY(upload(world, device, CS_SCENE_VERTICES, vertices, error));
+    CS_TRY(upload(world, device, CS_SCENE_COLOURS, &scene->colours, error));
     CS_TRY(upload(world, device, CS_SCENE_MATERIALS, &scene->materials, error));
     CS_TRY(upload(world, device, CS_SCENE_TEXTURES, &scene->textures, error));
     CS_TRY(upload(world, device, CS_SCENE_TEXELS, &scene->texels, error));

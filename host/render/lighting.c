@@ -7,11 +7,13 @@ enum {
     NUMBERS = 6 /* of a light in the settings: position, colour */
 };
 
-static clshear_status point_light(const double *numbers, cs_light *light, cs_error *error)
+/* Settings are in coordinates of the file. */
+static clshear_status point_light(const double *numbers, const double *origin, cs_light *light,
+                                  cs_error *error)
 {
     clshear_light point = {.struct_size = sizeof point, .kind = CLSHEAR_LIGHT_POINT};
     for (int i = 0; i < 3; i++) {
-        point.position[i] = (float)numbers[i];
+        point.position[i] = (float)(numbers[i] - origin[i]);
         point.colour[i] = (float)numbers[3 + i];
     }
     return cs_light_make(&point, light, error);
@@ -34,7 +36,8 @@ clshear_status cs_lighting_make(const clshear_scene *scene, const clshear_settin
     CS_REQUIRE(all != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu lights", count);
     if (own->count > 0) memcpy(all, own->items, own->count * sizeof *all);
     for (size_t i = own->count; i < count; i++)
-        CS_TRY(point_light(added->numbers + NUMBERS * (i - own->count), &all[i], error));
+        CS_TRY(point_light(added->numbers + NUMBERS * (i - own->count), scene->scene.origin,
+                           &all[i], error));
     CS_TRY(cs_buffer_create(scene->context->device, count * sizeof *all, all, &lighting->lights,
                             error));
     lighting->count = (cs_u32)count;

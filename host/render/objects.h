@@ -29,8 +29,9 @@ struct clshear_scene {
 clshear_status cs_scene_new(clshear_context *context, clshear_scene **scene, cs_error *error);
 void cs_scene_destroy(clshear_scene *scene);
 
-/* Reads a file into an empty scene. */
-clshear_status cs_scene_read(clshear_scene *scene, const char *path, cs_error *error);
+/* Reads a file into an empty scene. `settings` may be NULL. */
+clshear_status cs_scene_read(clshear_scene *scene, const char *path,
+                             const clshear_settings *settings, cs_error *error);
 
 /* From triangles to something that can be rendered: hierarchy and device buffers. */
 clshear_status cs_scene_complete(clshear_scene *scene, cs_error *error);

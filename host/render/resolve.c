@@ -120,8 +120,9 @@ done:
     return status;
 }
 
-/* World to camera space for row vectors: x right, y up, z forward, as OpenEXR has it. */
-static void world_to_camera(const cs_camera *camera, float *matrix)
+/* World to camera space for row vectors: x right, y up, z forward, as OpenEXR has it. The world has
+ * the coordinates of the file, whose `origin` is that of the scene. */
+static void world_to_camera(const cs_camera *camera, const double *origin, float *matrix)
 {
     memset(matrix, 0, 16 * sizeof *matrix);
     matrix[15] = 1.0f;
@@ -129,7 +130,8 @@ static void world_to_camera(const cs_camera *camera, float *matrix)
         const float columns[3] = {camera->right[axis], -camera->down[axis], camera->forward[axis]};
         for (int column = 0; column < 3; column++) {
             matrix[4 * axis + column] = columns[column];
-            matrix[12 + column] -= camera->eye[axis] * columns[column];
+            matrix[12 + column] -=
+                (float)((double)camera->eye[axis] + origin[axis]) * columns[column];
         }
     }
 }
@@ -140,7 +142,7 @@ static clshear_status describe(const cs_job *job, clshear_film *film)
     clshear_status status = CLSHEAR_OK;
     const cs_device *device = job->scene->context->device;
     float matrix[16];
-    world_to_camera(&job->camera, matrix);
+    world_to_camera(&job->camera, job->scene->scene.origin, matrix);
     CS_TRY(cs_film_annotate(film, "Software", "clshear " CLSHEAR_VERSION_STRING));
     CS_TRY(cs_film_annotate(film, "clshear.version", CLSHEAR_VERSION_STRING));
     CS_TRY(cs_record_settings(&job->settings, film));

@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "import/import.h"
 #include "render/objects.h"
 #include "render/pass.h"
-#include "scene/import.h"
+#include "settings/settings.h"
 
 clshear_status cs_scene_new(clshear_context *context, clshear_scene **result, cs_error *error)
 {
@@ -31,10 +32,15 @@ void cs_scene_destroy(clshear_scene *scene)
     free(scene);
 }
 
-clshear_status cs_scene_read(clshear_scene *scene, const char *path, cs_error *error)
+clshear_status cs_scene_read(clshear_scene *scene, const char *path,
+                             const clshear_settings *settings, cs_error *error)
 {
     const double start_s = cs_now_s();
-    clshear_status status = cs_scene_import(path, &scene->scene, &scene->context->log, error);
+    cs_import_options options = {.smooth_degrees = -1.0};
+    if (settings != NULL && cs_is_set(settings, SMOOTH))
+        options.smooth_degrees = cs_number(settings, SMOOTH);
+    clshear_status status =
+        cs_scene_import(path, &options, &scene->scene, &scene->context->log, error);
 #ifdef __GLIBC__
     malloc_trim(0); /* importing takes several times what it leaves */
 #endif
@@ -57,7 +63,7 @@ clshear_status cs_scene_append(clshear_scene *scene, const clshear_mesh *mesh, c
     memcpy(material->diffuse, mesh->diffuse, sizeof material->diffuse);
     memcpy(material->emission, mesh->emission, sizeof material->emission);
     const clshear_status status =
-        cs_scene_add_mesh(into, mesh, NULL, (uint32_t)(into->materials.count - 1), "mesh", error);
+        cs_scene_add_mesh(into, mesh, (uint32_t)(into->materials.count - 1), "mesh", error);
     if (status != CLSHEAR_OK) into->materials.count--;
     return status == CLSHEAR_BAD_FILE ? CLSHEAR_BAD_ARGUMENT : status; /* there is no file */
 }
@@ -79,7 +85,7 @@ clshear_status cs_scene_complete(clshear_scene *scene, cs_error *error)
     info->nodes = bvh.nodes.count;
     info->references = bvh.triangles.count;
     info->device_bytes = scene->device_scene.geometry_bytes;
-    info->file_camera = scene->scene.has_camera;
+    info->file_camera = scene->scene.cameras.count > 0;
     info->build_s = cs_now_s() - compiled_s;
     scene->is_complete = 1;
 done:
@@ -89,7 +95,10 @@ done:
 
 clshear_status cs_scene_light(clshear_scene *scene, const clshear_light *light, cs_error *error)
 {
-    clshear_status status = cs_scene_add_light(&scene->scene, light, error);
+    clshear_light moved = *light; /* lights are given in coordinates of the file */
+    for (int axis = 0; axis < 3; axis++)
+        moved.position[axis] = (float)((double)light->position[axis] - scene->scene.origin[axis]);
+    clshear_status status = cs_scene_add_light(&scene->scene, &moved, error);
     if (status != CLSHEAR_OK || !scene->is_complete) return status;
     return cs_scene_upload_lights(&scene->device_scene, scene->context->device, &scene->scene,
                                   error);

@@ -1,58 +1,14 @@
 #include "scene/camera.h"
 
-#include <assimp/camera.h>
-#include <assimp/cimport.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/vec.h"
 #include "optics/optics.h"
-#include "scene/node.h"
 
 static const float default_fov_deg = 40.0f;
 static const float degrees = CS_PI / 180.0f;
-
-static int is_gltf(const struct aiScene *file)
-{
-    const struct aiMetadata *data = file->mMetaData;
-    for (unsigned i = 0; data != NULL && i < data->mNumProperties; i++)
-        if (strcmp(data->mKeys[i].data, "SourceAsset_Format") == 0)
-            return strstr(((const struct aiString *)data->mValues[i].mData)->data, "glTF") != NULL;
-    return 0;
-}
-
-/* Vertical field of view, radians. Assimp 5.2 multiplies glTF's vertical angle by the aspect ratio
- * and calls that the horizontal one. */
-static float vertical_fov(const struct aiCamera *source, int gltf)
-{
-    float aspect = source->mAspect > 0.0f ? source->mAspect : 1.0f;
-    if (gltf) return source->mHorizontalFOV / aspect;
-    return 2.0f * atanf(tanf(0.5f * source->mHorizontalFOV) / aspect);
-}
-
-int cs_camera_import(cs_scene *scene, const struct aiScene *file)
-{
-    const struct aiCamera *source = file->mCameras[0];
-    cs_view *camera = &scene->camera;
-    const struct aiMatrix4x4 matrix = cs_node_matrix(file, source->mName.data);
-    struct aiVector3D eye = source->mPosition, target = source->mLookAt, up = source->mUp, origin;
-    /* A glTF camera is at the origin of its node; Assimp 5.2 repeats the node's translation here.
-     */
-    if (is_gltf(file)) eye = (struct aiVector3D){0, 0, 0};
-    aiVector3Add(&target, &eye);
-    aiVector3Add(&up, &eye);
-    aiTransformVecByMatrix4(&eye, &matrix);
-    aiTransformVecByMatrix4(&target, &matrix);
-    aiTransformVecByMatrix4(&up, &matrix);
-    origin = eye;
-    aiVector3Subtract(&up, &origin);
-    memcpy(camera->eye, &eye.x, sizeof camera->eye);
-    memcpy(camera->target, &target.x, sizeof camera->target);
-    memcpy(camera->up, &up.x, sizeof camera->up);
-    camera->fov_deg = vertical_fov(source, is_gltf(file)) / degrees;
-    scene->has_camera = camera->fov_deg > 0.0f && camera->fov_deg < 180.0f;
-    return scene->has_camera;
-}
 
 /* The angle along the shorter axis: for upright pictures the horizontal one. */
 static float shorter_fov_deg(float vertical_deg, float aspect)
@@ -61,14 +17,26 @@ static float shorter_fov_deg(float vertical_deg, float aspect)
     return 2.0f * atanf(tanf(0.5f * vertical_deg * degrees) * aspect) / degrees;
 }
 
-cs_view cs_camera_of_scene(const cs_scene *scene, int width, int height)
+int cs_camera_find(const cs_scene *scene, const char *name)
 {
-    cs_view camera = scene->camera;
+    const cs_scene_camera *cameras = scene->cameras.items;
+    char *end;
+    for (size_t i = 0; i < scene->cameras.count; i++)
+        if (strncmp(cameras[i].name, name, CS_CAMERA_NAME - 1) == 0) return (int)i;
+    const unsigned long number = strtoul(name, &end, 10);
+    if (name[0] < '0' || name[0] > '9' || *end != '\0' || number >= scene->cameras.count) return -1;
+    return (int)number;
+}
+
+cs_view cs_camera_of_scene(const cs_scene *scene, int number, int width, int height)
+{
+    cs_view camera = {0};
+    if (number >= 0) camera = ((const cs_scene_camera *)scene->cameras.items)[number].view;
     const float aspect = (float)width / (float)height;
     camera.lens_radius = -1.0f;
     camera.focal_distance = 0.0f;
     camera.aperture = CLSHEAR_APERTURE_DISK;
-    if (scene->has_camera) {
+    if (number >= 0) {
         camera.fov_deg = shorter_fov_deg(camera.fov_deg, aspect);
         return camera;
     }

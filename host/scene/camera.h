@@ -5,13 +5,12 @@
 #include "clshear/device/camera.h"
 #include "scene/scene.h"
 
-struct aiScene;
+/* Place of the file's camera called `name`, or of that number from 0; -1 if there is none. */
+int cs_camera_find(const cs_scene *scene, const char *name);
 
-/* Takes over the first camera of a scene file; 0 if it has no field of view that can be used. */
-int cs_camera_import(cs_scene *scene, const struct aiScene *file);
-
-/* The file's camera, or one that frames the bounding box, for an image of this size. */
-cs_view cs_camera_of_scene(const cs_scene *scene, int width, int height);
+/* Camera `number` of the file, or where that is negative one that frames the bounding box, for an
+ * image of this size. Relative to the scene's origin, as all of the scene. */
+cs_view cs_camera_of_scene(const cs_scene *scene, int number, int width, int height);
 
 /* Checks `camera` and computes its frame, but for the optics, which are all zeros. A focal distance
  * that is not chosen counts as 1: for pinhole rays it does not matter. */

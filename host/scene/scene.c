@@ -16,7 +16,8 @@ void cs_scene_init(cs_scene *scene)
     scene->materials.item_size = sizeof(cs_material);
     scene->textures.item_size = sizeof(cs_texture);
     scene->texels.item_size = 4 * sizeof(uint16_t);
-    scene->texture_names.item_size = CS_TEXTURE_NAME;
+    scene->colours.item_size = sizeof(cs_colour);
+    scene->cameras.item_size = sizeof(cs_scene_camera);
     scene->lights.item_size = sizeof(cs_light);
 }
 
@@ -30,7 +31,8 @@ void cs_scene_free(cs_scene *scene)
     cs_array_free(&scene->materials);
     cs_array_free(&scene->textures);
     cs_array_free(&scene->texels);
-    cs_array_free(&scene->texture_names);
+    cs_array_free(&scene->colours);
+    cs_array_free(&scene->cameras);
     cs_array_free(&scene->lights);
 }
 
@@ -39,14 +41,8 @@ size_t cs_scene_triangle_count(const cs_scene *scene)
     return scene->indices.count;
 }
 
-/* Texture coordinates repeat; beyond a million turns a float has no fraction left to look up. */
-static float usable_coordinate(float value)
-{
-    return fabsf(value) < 1e6f ? value : 0.0f; /* NaN too */
-}
-
-static clshear_status add_vertices(cs_scene *scene, const clshear_mesh *mesh, const float *texture,
-                                   const char *name, cs_error *error)
+static clshear_status add_vertices(cs_scene *scene, const clshear_mesh *mesh, const char *name,
+                                   cs_error *error)
 {
     for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
         if (!isfinite(mesh->positions[i]))
@@ -60,15 +56,13 @@ static clshear_status add_vertices(cs_scene *scene, const clshear_mesh *mesh, co
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         if (mesh->normals != NULL)
             memcpy(vertices[i].normal, mesh->normals + 3 * i, sizeof vertices[i].normal);
-        for (size_t k = 0; k < 2 && texture != NULL; k++)
-            vertices[i].texture[k] = usable_coordinate(texture[3 * i + k]);
     }
     return CLSHEAR_OK;
 }
 
 /* Whether the three corners span an area: more than a ten-millionth of the square of their edges,
  * and neither too small nor too large for the square of a float's cross product. */
-static int has_area(const float *a, const float *b, const float *c)
+int cs_triangle_has_area(const float *a, const float *b, const float *c)
 {
     double e1[3], e2[3], normal[3];
     cs_vec_subtract_double(b, a, e1);
@@ -106,7 +100,8 @@ static clshear_status add_triangles(cs_scene *scene, const clshear_mesh *mesh, s
     for (size_t i = 0; i < mesh->triangle_count; i++) {
         const uint32_t *corner = mesh->indices + 3 * i;
         const float *p = mesh->positions;
-        if (!has_area(p + 3 * corner[0], p + 3 * corner[1], p + 3 * corner[2])) continue;
+        if (!cs_triangle_has_area(p + 3 * corner[0], p + 3 * corner[1], p + 3 * corner[2]))
+            continue;
         for (int k = 0; k < 3; k++)
             indices[kept][k] = (uint32_t)first_vertex + corner[k];
         materials[kept] = material;
@@ -120,19 +115,16 @@ static clshear_status add_triangles(cs_scene *scene, const clshear_mesh *mesh, s
     return CLSHEAR_OK;
 }
 
-clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, const float *texture,
-                                 uint32_t material, const char *name, cs_error *error)
+clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, uint32_t material,
+                                 const char *name, cs_error *error)
 {
     const size_t vertices = scene->positions.count, triangles = scene->indices.count;
-    const cs_material *look = (const cs_material *)scene->materials.items + material;
-    const int textured = texture != NULL && look->texture != CS_NO_TEXTURE;
-    const int flag =
-        (mesh->normals != NULL ? CS_FACE_SMOOTH : 0) | (textured ? CS_FACE_TEXTURED : 0);
+    const uint8_t flag = mesh->normals != NULL ? CS_FACE_SMOOTH : 0;
     if (mesh->triangle_count == 0) return CLSHEAR_OK;
     clshear_status status = check_indices(mesh, name, error);
-    if (status == CLSHEAR_OK) status = add_vertices(scene, mesh, texture, name, error);
+    if (status == CLSHEAR_OK) status = add_vertices(scene, mesh, name, error);
     if (status == CLSHEAR_OK)
-        status = add_triangles(scene, mesh, vertices, material, (uint8_t)flag, name, error);
+        status = add_triangles(scene, mesh, vertices, material, flag, name, error);
     if (status == CLSHEAR_OK) return status;
     scene->positions.count = scene->vertices.count = vertices; /* nothing of it stays */
     scene->indices.count = scene->triangle_materials.count = triangles;

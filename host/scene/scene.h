@@ -10,24 +10,30 @@
 #include "optics/view.h"
 
 enum {
-    CS_TEXTURE_NAME = 512
+    CS_CAMERA_NAME = 64
 };
+
+/* A camera of the file. */
+typedef struct cs_scene_camera {
+    char name[CS_CAMERA_NAME];
+    cs_view view; /* its fov is vertical until an image size is known */
+} cs_scene_camera;
 
 typedef struct cs_scene {
     cs_array positions;          /* float[3] a vertex */
     cs_array vertices;           /* cs_vertex; as many as positions */
+    cs_array colours;            /* cs_colour; as many as positions, or none */
     cs_array indices;            /* uint32_t[3] a triangle */
     cs_array triangle_materials; /* uint32_t a triangle */
     cs_array triangle_flags;     /* uint8_t a triangle, CS_FACE_ */
     cs_array materials;          /* cs_material */
     cs_array textures;           /* cs_texture */
     cs_array texels;             /* uint16_t[4] */
-    cs_array texture_names;      /* char[CS_TEXTURE_NAME], of the textures: each is read once */
     cs_array lights;             /* cs_light */
+    cs_array cameras;            /* cs_scene_camera, of the file */
     size_t degenerate;           /* triangles left out */
     float bounds[2][3];          /* low and high corner */
-    int has_camera;
-    cs_view camera; /* of the file; its fov is vertical until an image size is known */
+    double origin[3]; /* in coordinates of the file; all others here are relative to it */
 } cs_scene;
 
 void cs_scene_init(cs_scene *scene);
@@ -35,10 +41,13 @@ void cs_scene_free(cs_scene *scene);
 
 size_t cs_scene_triangle_count(const cs_scene *scene);
 
-/* Appends the triangles of `mesh`, whose texture coordinates (3 floats a vertex, or NULL) and
- * material are already known. `name` is for messages. Drops triangles without area. */
-clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, const float *texture,
-                                 uint32_t material, const char *name, cs_error *error);
+/* Appends the triangles of `mesh` with a material that is already known. `name` is for messages.
+ * Drops triangles without area. */
+clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, uint32_t material,
+                                 const char *name, cs_error *error);
+
+/* Whether three corners span an area that can be rendered. */
+int cs_triangle_has_area(const float *a, const float *b, const float *c);
 
 /* Checks that there is something to render and computes the bounds. */
 clshear_status cs_scene_finish(cs_scene *scene, const char *name, cs_error *error);

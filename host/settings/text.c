@@ -1,11 +1,11 @@
 /* Conversion of settings to and from text. */
-#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "settings/settings.h"
 
 static const char *const count_words[] = {"", "a", "two", "three", "four", "five", "six"};
@@ -80,9 +80,7 @@ static clshear_status refuse(const cs_setting *setting, const char *text, cs_err
 static size_t read_numbers(const char *text, size_t capacity, double *numbers)
 {
     for (size_t i = 0; i < capacity; i++) {
-        char *end;
-        if (isspace((unsigned char)*text)) return 0;
-        numbers[i] = strtod(text, &end);
+        const char *end = cs_parse_number(text, text + strcspn(text, ","), &numbers[i]);
         if (end == text || !isfinite(numbers[i])) return 0;
         if (*end == '\0') return i + 1;
         if (*end != ',') return 0;
@@ -160,6 +158,7 @@ void cs_settings_print(const clshear_settings *settings, size_t index, char *tex
 {
     const cs_setting *entry = &cs_setting_table[index];
     const cs_setting_value *value = &settings->values[index];
+    char number[40];
     *text = '\0';
     if (!value->is_set && *entry->fallback == '\0') return;
     if (entry->kind == CLSHEAR_TEXT)
@@ -168,6 +167,7 @@ void cs_settings_print(const clshear_settings *settings, size_t index, char *tex
         append(text, size, "%s", entry->choices[(int)value->numbers[0]].name);
     else
         for (size_t i = 0; i < value->count; i++)
-            append(text, size, "%s%.*g", i > 0 ? "," : "", entry->kind == CLSHEAR_NUMBER ? 9 : 17,
-                   value->numbers[i]);
+            append(text, size, "%s%s", i > 0 ? "," : "",
+                   cs_format_number(number, sizeof number, value->numbers[i],
+                                    entry->kind == CLSHEAR_NUMBER ? 9 : 17));
 }

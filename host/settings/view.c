@@ -1,16 +1,14 @@
 #include "settings/view.h"
 
-static void take_vector(const double *numbers, float *vector)
+void cs_view_of(const clshear_settings *settings, const double *origin, cs_view *view)
 {
-    for (int axis = 0; axis < 3; axis++)
-        vector[axis] = (float)numbers[axis];
-}
-
-void cs_view_of(const clshear_settings *settings, cs_view *view)
-{
-    take_vector(cs_numbers(settings, EYE), view->eye);
-    take_vector(cs_numbers(settings, TARGET), view->target);
-    take_vector(cs_numbers(settings, UP), view->up);
+    static const double zero[3] = {0.0, 0.0, 0.0};
+    if (origin == NULL) origin = zero;
+    for (int axis = 0; axis < 3; axis++) {
+        view->eye[axis] = (float)(cs_numbers(settings, EYE)[axis] - origin[axis]);
+        view->target[axis] = (float)(cs_numbers(settings, TARGET)[axis] - origin[axis]);
+        view->up[axis] = (float)cs_numbers(settings, UP)[axis];
+    }
     view->fov_deg = (float)cs_number(settings, FOV);
     view->lens_radius = (float)cs_number(settings, LENS_RADIUS);
     view->focal_distance = (float)cs_number(settings, FOCAL_DISTANCE);

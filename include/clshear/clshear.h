@@ -226,11 +226,25 @@ typedef struct clshear_scene_info {
     double build_s;      /* time spent building the hierarchy */
 } clshear_scene_info;
 
-/* Reads OBJ, glTF 2.0, PLY, STL or another format that Assimp supports, and completes the scene.
- * Repairs are reported to the context's warning callback: missing material files and textures,
- * invalid colours (negative or not finite), degenerate triangles. */
+/* Reads OBJ, glTF 2.0, PLY, STL or another format that Assimp supports, and completes the scene. Of
+ * the settings (NULL: fallbacks) CLSHEAR_SMOOTH counts. Repairs are reported to the context's
+ * warning callback: missing material files and textures, invalid colours (negative or not finite),
+ * degenerate triangles.
+ *
+ * The program clshear-import reads the file, in a process with limits on time and memory, so that a
+ * damaged file ends in a message. It is looked for beside the library, in libexec/clshear, and at
+ * the path in the environment variable CLSHEAR_IMPORT. Without it, OBJ, glTF, PLY and STL are read
+ * in the calling process, and other formats are refused.
+ *
+ * A scene that lies far from the origin is moved there, with a warning, since the device computes
+ * with floats. Cameras and lights, in settings and added, stay in the coordinates of the file. */
 CLSHEAR_API clshear_status clshear_scene_load(clshear_context *context, const char *path,
+                                              const clshear_settings *settings,
                                               clshear_scene **scene);
+
+/* Cameras of the scene's file: the name of number `index` from 0, or NULL past the last one. Owned
+ * by the scene. CLSHEAR_CAMERA chooses one. */
+CLSHEAR_API const char *clshear_scene_camera(const clshear_scene *scene, size_t index);
 
 /* Creates an empty scene. Add meshes to it and then complete it. */
 CLSHEAR_API clshear_status clshear_scene_create(clshear_context *context, clshear_scene **scene);
@@ -258,7 +272,8 @@ CLSHEAR_API void clshear_scene_free(clshear_scene *scene);
 
 /* Sets every camera setting that is not set yet; a render does the same on its own copy of the
  * settings.
- * - Eye, target, up and field of view: from the scene file's camera. Without one, the bounding box
+ * - Eye, target, up and field of view: from the scene file's camera, the one that
+ *   CLSHEAR_CAMERA names or else the first. Without one, the bounding box
  *   fills the picture as seen from the front (looking down -Z).
  * - Focal distance: from CLSHEAR_FOCUS_PIXEL, or from the middle pixel. If that pixel's ray hits
  *   nothing, from the centre of the bounding box.
@@ -364,6 +379,10 @@ CLSHEAR_API clshear_status clshear_film_read(const char *path, clshear_film **fi
 /* Writes all channels as float32 (.exr), or R G B with the sRGB curve (.png, .jpg, .tif). An
  * existing file is replaced only when the new one is complete. */
 CLSHEAR_API clshear_status clshear_film_write(clshear_film *film, const char *path);
+
+/* Whether clshear_film_write can write a picture of this size under a name with this extension, to
+ * be asked before a render: JPEG holds at most 65500 pixels a side. */
+CLSHEAR_API clshear_status clshear_film_check_path(const char *path, int width, int height);
 
 /* Writes one channel in false colours (.png, .jpg, .tif), on a logarithmic scale from 1/16 (blue)
  * over 1 (white) to 16 (orange). */

@@ -42,7 +42,7 @@
  *             use, argument, help)
  *
  * number    value of the enumerator; never reused, because compiled programs depend on it. It also
- *           gives the group in lists: 1 samples, 20 image, 40 camera, 50 lens, 60 light, 80 device,
+ *           gives the group in lists: 1 samples, 20 image, 40 camera, 50 lens, 60 light, 70 reading, 80 device,
  *           and all numbers up to the next group
  * name      name of the flag, without dashes
  * aliases   other names of the flag, separated by spaces
@@ -107,6 +107,8 @@
       RECIPE, "D", "depth of the plane in focus") \
     X(FOCUS_PIXEL, 45, "focus-pixel", "", INTEGER, 2, 1, "", 0, 65535, none, PRIVATE, "X,Y", \
       "focus on the depth at this pixel") \
+    X(CAMERA, 46, "camera", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "NAME|N", \
+      "the file's camera of that name or number from 0") \
     /* Lens */ \
     X(LENS_RADIUS, 50, "lens-radius", "aperture-radius", NUMBER, 1, 1, "", 0, 1e12, none, RECIPE, \
       "R", "lens radius in scene units; 0: pinhole") \
@@ -125,6 +127,9 @@
     /* Light */ \
     X(LIGHT, 60, "light", "", NUMBER, 6, 64, "", -1e15, 1e15, none, PRIVATE, "X,Y,Z,R,G,B", \
       "add a point light; repeatable") \
+    /* Scene file */ \
+    X(SMOOTH, 70, "smooth", "", NUMBER, 1, 1, "", 0, 180, none, PRIVATE, "DEG", \
+      "smooth faces without normals that meet at less") \
     /* Device */ \
     X(DEVICE, 80, "device", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "NAME", \
       "OpenCL device: number or part of its name") \

@@ -87,7 +87,7 @@ static clshear_status make_film(const render_job *job, clshear_scene *scene, cls
     if (status != CLSHEAR_OK) return status;
     progress_line progress = progress_start(job->options.quiet);
     clshear_settings_set_progress(job->options.settings, progress_report, &progress);
-    catch_interrupt();
+    catch_interrupts();
     status = base != NULL ? clshear_render_extend(scene, job->options.settings, base, film)
                           : clshear_render(scene, job->options.settings, film);
     progress_end(&progress);
@@ -104,7 +104,27 @@ static int render(const render_job *job, const scene_view *view)
     int code = film_files_write(&job->files, &job->options, film);
     if (code == EXIT_DONE && job->stats) report_statistics(view->context, view->scene, film);
     clshear_film_free(film);
-    return code == EXIT_DONE && !info.complete ? EXIT_INTERRUPTED : code;
+    return code == EXIT_DONE && !info.complete ? EXIT_SIGNAL + interrupting_signal() : code;
+}
+
+/* Whether the formats of the outputs hold a picture of this size. */
+static int check_formats(const render_job *job)
+{
+    const clshear_settings *settings = job->options.settings;
+    double crop[4];
+    size_t count = 0;
+    int64_t width = 0, height = 0;
+    clshear_settings_get_integer(settings, CLSHEAR_WIDTH, &width);
+    clshear_settings_get_integer(settings, CLSHEAR_HEIGHT, &height);
+    if (clshear_settings_is_set(settings, CLSHEAR_CROP) &&
+        clshear_settings_get_numbers(settings, CLSHEAR_CROP, crop, 4, &count) == CLSHEAR_OK) {
+        width = (int64_t)(crop[1] - crop[0]);
+        height = (int64_t)(crop[3] - crop[2]);
+    }
+    for (size_t i = 0; i < job->files.out.count; i++)
+        if (clshear_film_check_path(job->files.out.items[i], (int)width, (int)height) != CLSHEAR_OK)
+            return complain_of_library();
+    return EXIT_DONE;
 }
 
 static int run(void *user)
@@ -124,6 +144,7 @@ static int run(void *user)
     if (job->files.out.count == 0) job->files.out.items[job->files.out.count++] = name;
     if (job->files.gain.count > 0) clshear_settings_set_integer(options->settings, CLSHEAR_GAIN, 1);
     int code = check_places("out", job->files.out.items, job->files.out.count);
+    if (code == EXIT_DONE) code = check_formats(job);
     if (code == EXIT_DONE)
         code = check_places("gain", job->files.gain.items, job->files.gain.count);
     if (code == EXIT_DONE) code = scene_view_open(options, &view);

@@ -40,13 +40,13 @@ static void tell_choices(const program_options *options, const clshear_scene *sc
     clshear_settings_get_number(settings, CLSHEAR_FOCAL_DISTANCE, &distance);
     clshear_settings_get_numbers(settings, CLSHEAR_EYE, eye, 3, &count);
     if (!given->has_focus && radius > 0.0)
-        fprintf(stderr, "clshear: focused on the middle of the picture, --focal-distance %g\n",
+        fprintf(stderr, "clshear: focused on the middle of the picture, --focal-distance %.9g\n",
                 distance);
     if (!given->has_lens)
-        fprintf(stderr, "clshear: no lens given, a moderate blur: --lens-radius %g\n", radius);
+        fprintf(stderr, "clshear: no lens given, a moderate blur: --lens-radius %.9g\n", radius);
     if (!info.file_camera && !given->has_eye)
-        fprintf(stderr, "clshear: no camera given, the scene is framed: --eye %g,%g,%g\n", eye[0],
-                eye[1], eye[2]);
+        fprintf(stderr, "clshear: no camera given, the scene is framed: --eye %.9g,%.9g,%.9g\n",
+                eye[0], eye[1], eye[2]);
     if (info.lights + info.emitters == 0 && !clshear_settings_is_set(settings, CLSHEAR_LIGHT))
         fprintf(stderr, "clshear: no light given, a point light above the scene's middle\n");
 }
@@ -57,7 +57,8 @@ int scene_view_open(program_options *options, scene_view *view)
     if (clshear_context_create(options->settings, &view->context) != CLSHEAR_OK)
         return complain_of_library();
     clshear_context_set_warning(view->context, warn, options);
-    if (clshear_scene_load(view->context, options->scene, &view->scene) != CLSHEAR_OK ||
+    if (clshear_scene_load(view->context, options->scene, options->settings, &view->scene) !=
+            CLSHEAR_OK ||
         clshear_camera_complete(view->scene, options->settings) != CLSHEAR_OK)
         return complain_of_library();
     if (!options->quiet) tell_choices(options, view->scene, &given);

@@ -8,7 +8,7 @@ enum {
     EXIT_DONE = 0,
     EXIT_FAILED = 1,
     EXIT_USAGE = 2,
-    EXIT_INTERRUPTED = 130
+    EXIT_SIGNAL = 128 /* plus the signal that interrupted the program: 130 for Ctrl-C */
 };
 
 /* Prints one line, "clshear: ...", on standard error and returns `code`. */

@@ -9,11 +9,10 @@ static volatile sig_atomic_t interrupted;
 
 static void note_interrupt(int signal_number)
 {
-    (void)signal_number;
-    interrupted = 1;
+    interrupted = signal_number;
 }
 
-void catch_interrupt(void)
+void catch_interrupts(void)
 {
     struct sigaction action;
     memset(&action, 0, sizeof action);
@@ -21,11 +20,13 @@ void catch_interrupt(void)
     action.sa_flags = (int)SA_RESETHAND | SA_RESTART; /* the second time, the default: stop */
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    sigaction(SIGHUP, &action, NULL);
 }
 
-int is_interrupted(void)
+int interrupting_signal(void)
 {
-    return interrupted != 0;
+    return interrupted;
 }
 
 progress_line progress_start(int quiet)
@@ -41,7 +42,7 @@ int progress_report(void *user, const clshear_progress *progress)
     int step = state->on_terminal ? 1 : 10;
     long left_s = (long)(progress->remaining_s + 0.5);
     if (state->quiet || (percent / step == state->last_percent / step && state->last_percent >= 0))
-        return is_interrupted();
+        return interrupting_signal();
     state->last_percent = percent;
     fprintf(stderr, "%s%3d %%  %.2f Msamples/s",
             state->on_terminal ? "\r" : "clshear: ", percent / step * step,
@@ -49,7 +50,7 @@ int progress_report(void *user, const clshear_progress *progress)
     if (progress->fraction > 0.0) /* else a pilot, which does not know what is left */
         fprintf(stderr, "  %ld:%02ld:%02ld left", left_s / 3600, left_s / 60 % 60, left_s % 60);
     fputs(state->on_terminal ? "   " : "\n", stderr);
-    return is_interrupted();
+    return interrupting_signal();
 }
 
 void progress_end(const progress_line *progress)

@@ -1,4 +1,4 @@
-/* Progress on standard error, and Ctrl-C. */
+/* Progress on standard error, and signals that ask the program to stop. */
 #ifndef CS_PROGRAM_REPORT_PROGRESS_H
 #define CS_PROGRAM_REPORT_PROGRESS_H
 
@@ -10,9 +10,12 @@ typedef struct progress_line {
     int last_percent;
 } progress_line;
 
-/* From here on, Ctrl-C asks the render to stop; a second one ends the process. */
-void catch_interrupt(void);
-int is_interrupted(void);
+/* From here on, Ctrl-C, SIGTERM and SIGHUP ask the render to stop; the second time each ends the
+ * process. */
+void catch_interrupts(void);
+
+/* The signal that asked for it; 0: none. */
+int interrupting_signal(void);
 
 progress_line progress_start(int quiet);
 

@@ -1,6 +1,6 @@
 /* Nodes of an Assimp scene: where things are in the world. */
-#ifndef CS_SCENE_NODE_H
-#define CS_SCENE_NODE_H
+#ifndef CS_HELPER_NODE_H
+#define CS_HELPER_NODE_H
 
 #include <assimp/scene.h>
 

@@ -1,4 +1,4 @@
-#include "scene/node.h"
+#include "helper/node.h"
 
 #include <assimp/cimport.h>
 #include <limits.h>

@@ -1,0 +1,38 @@
+/* C++ because C has no conversion of numbers that is independent of the locale. */
+#include "base/number.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <system_error>
+
+/* Whether a number that no double can hold is too small rather than too large. */
+static bool is_tiny(const char *text, const char *end)
+{
+    for (; text != end; text++)
+        if ((*text == 'e' || *text == 'E') && text + 1 != end) return text[1] == '-';
+    return false;
+}
+
+extern "C" const char *cs_parse_number(const char *text, const char *end, double *value)
+{
+    const char *begin = text != end && *text == '+' ? text + 1 : text;
+    if (begin != text && begin != end && *begin == '-') return text;
+    const std::from_chars_result found = std::from_chars(begin, end, *value);
+    if (found.ptr == begin) return text;
+    if (found.ec == std::errc::result_out_of_range) {
+        const double size =
+            is_tiny(begin, found.ptr) ? 0.0 : std::numeric_limits<double>::infinity();
+        *value = *begin == '-' ? -size : size;
+    }
+    return found.ptr;
+}
+
+extern "C" const char *cs_format_number(char *text, size_t size, double value, int digits)
+{
+    if (size == 0) return text;
+    const std::to_chars_result made =
+        std::to_chars(text, text + size - 1, value, std::chars_format::general, digits);
+    *(made.ec == std::errc() ? made.ptr : text) = '\0';
+    return text;
+}

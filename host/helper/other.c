@@ -1,0 +1,262 @@
+#include "helper/other.h"
+
+#include <assimp/cimport.h>
+#include <assimp/material.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "helper/node.h"
+#include "import/find_file.h"
+
+typedef struct importing {
+    cs_model *model;
+    const struct aiScene *file;
+    cs_error *error;
+} importing;
+
+static void take_colour(const struct aiMaterial *material, const char *key, float *colour)
+{
+    struct aiColor4D value;
+    if (aiGetMaterialColor(material, key, 0, 0, &value) == aiReturn_SUCCESS)
+        memcpy(colour, &value.r, 3 * sizeof *colour);
+}
+
+/* The image inside the scene file that `name` means: "*N", or the name of one; NULL if none. */
+static const struct aiTexture *embedded_image(const struct aiScene *file, const char *name)
+{
+    for (unsigned i = 0; i < file->mNumTextures; i++) {
+        char number[16];
+        snprintf(number, sizeof number, "*%u", i);
+        if (strcmp(name, number) == 0 || strcmp(name, file->mTextures[i]->mFilename.data) == 0)
+            return file->mTextures[i];
+    }
+    return NULL;
+}
+
+static cs_wrap wrap_of(enum aiTextureMapMode mode)
+{
+    return mode == aiTextureMapMode_Clamp    ? CS_WRAP_CLAMP
+           : mode == aiTextureMapMode_Mirror ? CS_WRAP_MIRROR
+                                             : CS_WRAP_REPEAT;
+}
+
+static clshear_status take_map(const importing *work, const struct aiMaterial *source, cs_map *map)
+{
+    struct aiString name;
+    enum aiTextureMapMode modes[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap,
+                                      aiTextureMapMode_Wrap};
+    unsigned set = 0;
+    char folder[CS_FILE_PATH], found[CS_FILE_PATH];
+    const char *folders[] = {folder};
+    if (aiGetMaterialTexture(source, aiTextureType_DIFFUSE, 0, &name, NULL, &set, NULL, NULL, modes,
+                             NULL) != aiReturn_SUCCESS &&
+        aiGetMaterialTexture(source, aiTextureType_BASE_COLOR, 0, &name, NULL, &set, NULL, NULL,
+                             modes, NULL) != aiReturn_SUCCESS)
+        return CLSHEAR_OK;
+    map->wrap[0] = wrap_of(modes[0]);
+    map->wrap[1] = wrap_of(modes[1]);
+    map->set = set < AI_MAX_NUMBER_OF_TEXTURECOORDS ? (int)set : 0;
+    const struct aiTexture *embedded = embedded_image(work->file, name.data);
+    if (embedded != NULL && embedded->mHeight == 0)
+        return cs_model_add_image(work->model, "", name.data, embedded->pcData, embedded->mWidth,
+                                  &map->image, work->error);
+    cs_folder_of(work->model->path, folder, sizeof folder);
+    const int there = cs_find_file(name.data, folders, 1, found);
+    return cs_model_add_image(work->model, there ? found : "", there ? found : name.data, NULL, 0,
+                              &map->image, work->error);
+}
+
+static clshear_status add_material(const importing *work, const struct aiMaterial *source)
+{
+    struct aiString name = {0};
+    cs_material_description *material = cs_model_extend(&work->model->materials, 1);
+    if (material == NULL) return cs_model_full(work->model, work->error);
+    aiGetMaterialString(source, "?mat.name", 0, 0, &name);
+    cs_material_init(material, name.data);
+    take_colour(source, "$clr.diffuse", material->base_colour);
+    take_colour(source, "$clr.base", material->base_colour);
+    take_colour(source, "$clr.emissive", material->emissive);
+    material->emissive_map.missing = aiGetMaterialTextureCount(source, aiTextureType_EMISSIVE) > 0;
+    material->normal_map.missing = aiGetMaterialTextureCount(source, aiTextureType_NORMALS) > 0;
+    material->bump_map.missing = aiGetMaterialTextureCount(source, aiTextureType_HEIGHT) > 0;
+    material->alpha_map.missing = aiGetMaterialTextureCount(source, aiTextureType_OPACITY) > 0;
+    clshear_status status = take_map(work, source, &material->base_map);
+    cs_material_whiten(material);
+    return status;
+}
+
+/* ----- Meshes ----- */
+
+static void transform(const struct aiMatrix4x4 *m, const struct aiVector3D *v, double one,
+                      double *result)
+{
+    const double x = (double)v->x, y = (double)v->y, z = (double)v->z;
+    result[0] = (double)m->a1 * x + (double)m->a2 * y + (double)m->a3 * z + one * (double)m->a4;
+    result[1] = (double)m->b1 * x + (double)m->b2 * y + (double)m->b3 * z + one * (double)m->b4;
+    result[2] = (double)m->c1 * x + (double)m->c2 * y + (double)m->c3 * z + one * (double)m->c4;
+}
+
+static clshear_status add_vertices(const importing *work, const struct aiMesh *source,
+                                   const struct aiMatrix4x4 *matrix, const struct aiVector3D *st)
+{
+    cs_model *model = work->model;
+    const size_t count = source->mNumVertices, first = model->positions.count;
+    struct aiMatrix4x4 turn = *matrix;
+    aiMatrix4Inverse(&turn); /* normals transform by the inverse transpose */
+    aiTransposeMatrix4(&turn);
+    double(*positions)[3] = cs_model_extend(&model->positions, count);
+    float(*normals)[3] = cs_model_extend(&model->normals, source->mNormals != NULL ? count : 0);
+    float(*textures)[2] = cs_model_extend(&model->textures, st != NULL ? count : 0);
+    if (positions == NULL || normals == NULL || textures == NULL)
+        return cs_model_full(model, work->error);
+    for (size_t i = 0; i < count; i++) {
+        transform(matrix, &source->mVertices[i], 1.0, positions[i]);
+        if (source->mNormals != NULL) {
+            double normal[3];
+            transform(&turn, &source->mNormals[i], 0.0, normal);
+            for (int axis = 0; axis < 3; axis++)
+                normals[i][axis] = isfinite(normal[axis]) ? (float)normal[axis] : 0.0f;
+        }
+        if (st != NULL) {
+            textures[i][0] = st[i].x;
+            textures[i][1] = st[i].y;
+        }
+        if (source->mColors[0] == NULL) continue;
+        clshear_status status =
+            cs_model_set_colour(model, first + i, &source->mColors[0][i].r, work->error);
+        if (status != CLSHEAR_OK) return status;
+    }
+    return CLSHEAR_OK;
+}
+
+static clshear_status add_face(const importing *work, const struct aiMesh *source,
+                               const struct aiFace *face, const cs_corner *first, cs_array *corners)
+{
+    corners->count = 0;
+    cs_corner *corner = cs_array_extend(corners, face->mNumIndices);
+    if (corner == NULL) return cs_model_full(work->model, work->error);
+    for (unsigned k = 0; k < face->mNumIndices; k++) {
+        const uint32_t index = face->mIndices[k];
+        if (index >= source->mNumVertices)
+            return cs_fail(work->error, CLSHEAR_BAD_FILE,
+                           "%s: a face names vertex %u, but there are %u; repair the mesh",
+                           work->model->path, index, source->mNumVertices);
+        corner[k] = (cs_corner){first->position + index, CS_NO_INDEX, CS_NO_INDEX};
+        if (first->normal != CS_NO_INDEX) corner[k].normal = first->normal + index;
+        if (first->texture != CS_NO_INDEX) corner[k].texture = first->texture + index;
+    }
+    return cs_model_add_polygon(work->model, corner, face->mNumIndices, source->mMaterialIndex, 0,
+                                work->error);
+}
+
+static clshear_status add_instance(void *user, const struct aiMesh *source,
+                                   const struct aiMatrix4x4 *matrix)
+{
+    const importing *work = user;
+    const cs_model *model = work->model;
+    const cs_material_description *materials = model->materials.items;
+    cs_array corners = {.item_size = sizeof(cs_corner)};
+    int set = 0;
+    if (source->mMaterialIndex < model->materials.count)
+        set = materials[source->mMaterialIndex].base_map.set;
+    const struct aiVector3D *st = source->mTextureCoords[set];
+    const cs_corner first = {(uint32_t)model->positions.count,
+                             source->mNormals != NULL ? (uint32_t)model->normals.count
+                                                      : CS_NO_INDEX,
+                             st != NULL ? (uint32_t)model->textures.count : CS_NO_INDEX};
+    clshear_status status = add_vertices(work, source, matrix, st);
+    for (unsigned i = 0; i < source->mNumFaces && status == CLSHEAR_OK; i++)
+        if (source->mFaces[i].mNumIndices > 0)
+            status = add_face(work, source, &source->mFaces[i], &first, &corners);
+    cs_array_free(&corners);
+    return status;
+}
+
+/* ----- Lights and cameras ----- */
+
+static clshear_status add_light(const importing *work, const struct aiLight *source)
+{
+    const struct aiMatrix4x4 matrix = cs_node_matrix(work->file, source->mName.data);
+    cs_model_light light = {.kind = CS_MODEL_POINT};
+    double fade = (double)source->mAttenuationQuadratic;
+    snprintf(light.name, sizeof light.name, "%.*s", CS_MODEL_NAME - 1, source->mName.data);
+    if (source->mType == aiLightSource_DIRECTIONAL)
+        light.kind = CS_MODEL_DIRECTIONAL;
+    else if (source->mType == aiLightSource_SPOT)
+        light.kind = CS_MODEL_SPOT;
+    else if (source->mType != aiLightSource_POINT) {
+        cs_warn(work->model->log, "%s: light \"%s\" is of a kind that is not supported; left out",
+                work->model->path, light.name);
+        return CLSHEAR_OK;
+    }
+    if (light.kind == CS_MODEL_DIRECTIONAL || !(fade > 0.0)) fade = 1.0;
+    transform(&matrix, &source->mPosition, 1.0, light.position);
+    transform(&matrix, &source->mDirection, 0.0, light.axis);
+    light.cone[0] = 0.5f * source->mAngleInnerCone;
+    light.cone[1] = 0.5f * source->mAngleOuterCone;
+    light.colour[0] = source->mColorDiffuse.r / (float)fade;
+    light.colour[1] = source->mColorDiffuse.g / (float)fade;
+    light.colour[2] = source->mColorDiffuse.b / (float)fade;
+    cs_model_light *added = cs_model_extend(&work->model->lights, 1);
+    if (added == NULL) return cs_model_full(work->model, work->error);
+    *added = light;
+    return CLSHEAR_OK;
+}
+
+static clshear_status add_camera(const importing *work, const struct aiCamera *source)
+{
+    const struct aiMatrix4x4 matrix = cs_node_matrix(work->file, source->mName.data);
+    cs_model_camera *camera = cs_model_extend(&work->model->cameras, 1);
+    if (camera == NULL) return cs_model_full(work->model, work->error);
+    const double aspect = source->mAspect > 0.0f ? (double)source->mAspect : 1.0;
+    snprintf(camera->name, sizeof camera->name, "%.*s", CS_MODEL_NAME - 1, source->mName.data);
+    transform(&matrix, &source->mPosition, 1.0, camera->eye);
+    transform(&matrix, &source->mLookAt, 0.0, camera->forward);
+    transform(&matrix, &source->mUp, 0.0, camera->up);
+    camera->fov = 2.0 * atan(tan(0.5 * (double)source->mHorizontalFOV) / aspect);
+    return CLSHEAR_OK;
+}
+
+static clshear_status convert(const importing *work)
+{
+    const struct aiScene *file = work->file;
+    clshear_status status = CLSHEAR_OK;
+    for (unsigned i = 0; i < file->mNumMaterials; i++)
+        CS_TRY(add_material(work, file->mMaterials[i]));
+    CS_TRY(cs_node_visit_meshes(file, add_instance, (void *)work));
+    for (unsigned i = 0; i < file->mNumLights; i++)
+        CS_TRY(add_light(work, file->mLights[i]));
+    for (unsigned i = 0; i < file->mNumCameras; i++)
+        CS_TRY(add_camera(work, file->mCameras[i]));
+done:
+    return status;
+}
+
+/* None of Assimp's own steps, which trust the indices: triangles are made from what was checked. */
+clshear_status cs_read_other(cs_bytes *bytes, cs_model *model, cs_error *error)
+{
+    const struct aiScene *file = aiImportFile(model->path, 0);
+    (void)bytes;
+    if (file == NULL && strstr(aiGetErrorString(), "bad_alloc") != NULL)
+        return cs_fail(error, CLSHEAR_BAD_FILE,
+                       "%s: asks for more memory than a file of its size may; it is damaged",
+                       model->path);
+    if (file == NULL && strstr(aiGetErrorString(), "No suitable reader") != NULL)
+        return cs_fail(error, CLSHEAR_BAD_FILE,
+                       "%s: no reader knows this format by its name or its first bytes; OBJ, glTF, "
+                       "PLY and STL are read",
+                       model->path);
+    if (file == NULL)
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %.*s", model->path,
+                       (int)strcspn(aiGetErrorString(), "\n"), aiGetErrorString());
+    const importing work = {model, file, error};
+    clshear_status status = convert(&work);
+    if (status == CLSHEAR_OK && model->triangles.count == 0)
+        status = cs_fail(error, CLSHEAR_BAD_FILE, "%s: there are no triangles in it", model->path);
+    aiReleaseImport(file);
+    return status;
+}

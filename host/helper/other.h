@@ -1,0 +1,11 @@
+/* Formats without a reader of our own, by Assimp. */
+#ifndef CS_HELPER_OTHER_H
+#define CS_HELPER_OTHER_H
+
+#include "import/import.h"
+
+/* In a module of its own, clshear-import-other.so. Reads the model's file itself: `bytes` are not
+ * looked at. */
+clshear_status cs_read_other(cs_bytes *bytes, cs_model *model, cs_error *error);
+
+#endif

@@ -1,0 +1,106 @@
+/* Lights and cameras of a model. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "clshear/device/constants.h"
+#include "import/build_parts.h"
+
+static clshear_status build_light(const cs_model *model, const cs_model_light *source,
+                                  cs_scene *scene, cs_error *error)
+{
+    clshear_light light = {.struct_size = sizeof light, .kind = CLSHEAR_LIGHT_POINT};
+    if (source->kind == CS_MODEL_DIRECTIONAL) light.kind = CLSHEAR_LIGHT_DIRECTIONAL;
+    if (source->kind == CS_MODEL_SPOT)
+        cs_warn(model->log, "%s: spot light \"%s\" is taken as a point light", model->path,
+                source->name);
+    if (source->range > 0.0f)
+        cs_warn(model->log, "%s: the range of light \"%s\" is not used: it shines on", model->path,
+                source->name);
+    for (int i = 0; i < 3; i++) {
+        light.position[i] = (float)(source->position[i] - scene->origin[i]);
+        light.direction[i] = (float)-source->axis[i];
+        light.colour[i] = source->colour[i];
+    }
+    if (!cs_is_colour(light.colour)) {
+        cs_warn(model->log,
+                "%s: light \"%s\" has the colour %g %g %g, which must be 0 to 1e15; left out",
+                model->path, source->name, (double)light.colour[0], (double)light.colour[1],
+                (double)light.colour[2]);
+        return CLSHEAR_OK;
+    }
+    cs_error reason;
+    clshear_status status = cs_scene_add_light(scene, &light, &reason);
+    if (status == CLSHEAR_OUT_OF_MEMORY) return cs_model_full(model, error);
+    if (status != CLSHEAR_OK)
+        cs_warn(model->log, "%s: light \"%s\" is left out: %s", model->path, source->name,
+                reason.message);
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_build_lights(const cs_model *model, cs_scene *scene, cs_error *error)
+{
+    const cs_model_light *lights = model->lights.items;
+    clshear_status status = CLSHEAR_OK;
+    for (size_t i = 0; i < model->lights.count && status == CLSHEAR_OK; i++)
+        status = build_light(model, &lights[i], scene, error);
+    return status;
+}
+
+/* 0 if the camera looks nowhere, or its numbers are no numbers. */
+static int make_view(const cs_model_camera *source, const cs_scene *scene, cs_view *view)
+{
+    int good = source->fov > 1e-5 && source->fov < 3.14;
+    double length = 0.0;
+    for (int i = 0; i < 3; i++)
+        length += source->forward[i] * source->forward[i];
+    good &= length > 0.0 && isfinite(length);
+    length = good ? sqrt(length) : 1.0;
+    double reach = 1.0; /* so that eye and target differ as floats */
+    for (int i = 0; i < 3; i++)
+        if (fabs(source->eye[i] - scene->origin[i]) > 1e3 * reach)
+            reach = fabs(source->eye[i] - scene->origin[i]);
+    for (int i = 0; i < 3; i++) {
+        const double eye = source->eye[i] - scene->origin[i];
+        view->eye[i] = (float)eye;
+        view->target[i] = (float)(eye + source->forward[i] * (reach / length));
+        view->up[i] = (float)source->up[i];
+        good &= fabs(eye) <= 1e12 && isfinite(source->up[i]);
+    }
+    view->fov_deg = (float)source->fov / (CS_PI / 180.0f);
+    return good;
+}
+
+/* Names the cameras of which the first is taken. */
+static void report_choice(const cs_model *model, const cs_scene *scene)
+{
+    const cs_scene_camera *cameras = scene->cameras.items;
+    char names[512] = "";
+    if (scene->cameras.count < 2) return;
+    for (size_t i = 0; i < scene->cameras.count && i < 8; i++) {
+        const size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%zu \"%.40s\"", i > 0 ? ", " : "", i,
+                 cameras[i].name);
+    }
+    cs_warn(model->log, "%s: has %zu cameras, of which the first is used; --camera chooses: %s%s",
+            model->path, scene->cameras.count, names, scene->cameras.count > 8 ? ", ..." : "");
+}
+
+clshear_status cs_build_cameras(const cs_model *model, cs_scene *scene, cs_error *error)
+{
+    const cs_model_camera *cameras = model->cameras.items;
+    for (size_t i = 0; i < model->cameras.count; i++) {
+        cs_scene_camera made = {0};
+        snprintf(made.name, sizeof made.name, "%.*s", CS_CAMERA_NAME - 1, cameras[i].name);
+        if (!make_view(&cameras[i], scene, &made.view)) {
+            cs_warn(model->log, "%s: camera \"%s\" has no perspective; left out", model->path,
+                    made.name);
+            continue;
+        }
+        cs_scene_camera *added = cs_array_extend(&scene->cameras, 1);
+        if (added == NULL) return cs_model_full(model, error);
+        *added = made;
+    }
+    report_choice(model, scene);
+    return CLSHEAR_OK;
+}

@@ -1,0 +1,126 @@
+#include "import/find_file.h"
+
+#include <ctype.h>
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+void cs_folder_of(const char *path, char *folder, size_t size)
+{
+    const char *slash = strrchr(path, '/');
+    snprintf(folder, size, "%.*s", slash != NULL ? (int)(slash - path) + 1 : 0, path);
+}
+
+/* Whether it is there and no folder. What cannot be read either is found out by who opens it. */
+static int is_file(const char *path)
+{
+    struct stat about;
+    return stat(path, &about) == 0 && !S_ISDIR(about.st_mode);
+}
+
+/* Joins without overflow; 0 where the path is too long. */
+static int join(const char *folder, const char *name, char *path)
+{
+    const int length = snprintf(path, CS_FILE_PATH, "%s%s", folder, name);
+    return length >= 0 && length < CS_FILE_PATH;
+}
+
+/* The entry of `folder` that is called like `name` but for the case of letters. */
+static int entry_in_any_case(const char *folder, const char *name, size_t length, char *entry)
+{
+    int found = 0;
+    DIR *listing = opendir(*folder != '\0' ? folder : ".");
+    if (listing == NULL) return 0;
+    for (struct dirent *one = readdir(listing); one != NULL && !found; one = readdir(listing))
+        if (strlen(one->d_name) == length && strncasecmp(one->d_name, name, length) == 0) {
+            memcpy(entry, one->d_name, length + 1);
+            found = 1;
+        }
+    closedir(listing);
+    return found;
+}
+
+/* Follows `name` part by part from `folder`. */
+static int find_in_any_case(const char *folder, const char *name, char *path)
+{
+    if (!join(folder, "", path)) return 0;
+    while (*name != '\0') {
+        const size_t length = strcspn(name, "/"), used = strlen(path);
+        char *entry = path + used;
+        if (length > 255 || used + length + 2 > CS_FILE_PATH) return 0;
+        if (length > 0 && name[0] == '.' && strspn(name, ".") == length) {
+            memcpy(entry, name, length + 1);
+            entry[length] = '\0';
+        } else if (length > 0 && !entry_in_any_case(path, name, length, entry)) {
+            return 0;
+        }
+        name += length;
+        if (*name == '/') {
+            strcat(path, "/");
+            name++;
+        }
+    }
+    return is_file(path);
+}
+
+static int has_drive(const char *name)
+{
+    return isalpha((unsigned char)name[0]) && name[1] == ':' && name[2] == '/';
+}
+
+static int find_as_written(const char *name, const char *const *folders, size_t count, char *found)
+{
+    char slashed[CS_FILE_PATH], first[CS_FILE_PATH];
+    const char *wanted = slashed;
+    snprintf(slashed, sizeof slashed, "%s", name);
+    for (char *letter = slashed; *letter != '\0'; letter++)
+        if (*letter == '\\') *letter = '/';
+    snprintf(first, sizeof first, "%.*s", CS_FILE_PATH - 1, slashed);
+    const char *last_part = strrchr(slashed, '/');
+    if (slashed[0] == '/' && is_file(slashed)) {
+        memcpy(found, slashed, sizeof slashed);
+        return 1;
+    }
+    if ((slashed[0] == '/' || has_drive(slashed)) && last_part != NULL) wanted = last_part + 1;
+    for (size_t i = 0; i < count && *wanted != '\0'; i++)
+        if (join(folders[i], wanted, found) && is_file(found)) return 1;
+    for (size_t i = 0; i < count && *wanted != '\0'; i++) /* names with backslashes in them */
+        if (join(folders[i], name, found) && is_file(found)) return 1;
+    for (size_t i = 0; i < count && *wanted != '\0'; i++)
+        if (find_in_any_case(folders[i], wanted, found)) return 1;
+    memcpy(found, first, sizeof first);
+    return 0;
+}
+
+void cs_decode_percent(char *name)
+{
+    char *target = name;
+    for (const char *source = name; *source != '\0'; source++) {
+        char digits[3] = {0};
+        char *end = digits;
+        long byte = 0;
+        if (*source == '%') {
+            snprintf(digits, sizeof digits, "%s", source + 1);
+            byte = strtol(digits, &end, 16);
+        }
+        const int decoded = end == digits + 2 && byte > 0;
+        *target++ = decoded ? (char)byte : *source;
+        source += decoded ? 2 : 0;
+    }
+    *target = '\0';
+}
+
+int cs_find_file(const char *name, const char *const *folders, size_t count, char *found)
+{
+    char decoded[CS_FILE_PATH], ignored[CS_FILE_PATH];
+    if (find_as_written(name, folders, count, found)) return 1;
+    if (strchr(name, '%') == NULL || strlen(name) >= sizeof decoded) return 0;
+    strcpy(decoded, name);
+    cs_decode_percent(decoded);
+    if (!find_as_written(decoded, folders, count, ignored)) return 0;
+    memcpy(found, ignored, sizeof ignored);
+    return 1;
+}

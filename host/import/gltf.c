@@ -1,0 +1,220 @@
+/* glTF 2.0 and GLB: the container, the JSON, what it requires. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "import/find_file.h"
+#include "import/gltf_reader.h"
+#include "import/readers.h"
+
+static const char *const supported[] = {"KHR_lights_punctual",   "KHR_materials_emissive_strength",
+                                        "KHR_materials_unlit",   "KHR_texture_transform",
+                                        "KHR_mesh_quantization", "EXT_texture_webp"};
+
+int cs_is_gltf(const cs_bytes *bytes, const char *path)
+{
+    const int is_binary = bytes->size >= 4 && memcmp(bytes->data, "glTF", 4) == 0;
+    return is_binary || cs_has_suffix(path, ".gltf") || cs_has_suffix(path, ".glb");
+}
+
+clshear_status gltf_complain(const gltf_reader *reader, const char *place, long long index,
+                             const char *format, ...)
+{
+    char what[512], where[64] = "";
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    if (index >= 0) snprintf(where, sizeof where, "[%lld]", index);
+    return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: %s%s: %s", reader->model->path, place,
+                   where, what);
+}
+
+json_t *gltf_at(const gltf_reader *reader, const char *name, long long index)
+{
+    const json_t *array = json_object_get(reader->root, name);
+    json_t *item = index >= 0 ? json_array_get(array, (size_t)index) : NULL;
+    if (json_is_object(item)) return item;
+    cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: %s[%lld] is asked for, but there are %zu",
+            reader->model->path, name, index, json_array_size(array));
+    return NULL;
+}
+
+size_t gltf_count(const gltf_reader *reader, const char *name)
+{
+    return json_array_size(json_object_get(reader->root, name));
+}
+
+double gltf_number(const json_t *object, const char *key, double fallback)
+{
+    const json_t *value = json_object_get(object, key);
+    return json_is_number(value) ? json_number_value(value) : fallback;
+}
+
+long long gltf_index(const json_t *object, const char *key)
+{
+    const json_t *value = json_object_get(object, key);
+    if (value == NULL) return -1;
+    const double number = json_is_number(value) ? json_number_value(value) : -2.0;
+    if (!(number >= 0.0 && number < 9e15)) return -2;
+    return (long long)number;
+}
+
+const char *gltf_text(const json_t *object, const char *key, const char *fallback)
+{
+    const char *text = json_string_value(json_object_get(object, key));
+    return text != NULL ? text : fallback;
+}
+
+void gltf_numbers(const json_t *object, const char *key, double *numbers, size_t count)
+{
+    const json_t *array = json_object_get(object, key);
+    for (size_t i = 0; i < count && i < json_array_size(array); i++) {
+        const json_t *value = json_array_get(array, i);
+        if (json_is_number(value)) numbers[i] = json_number_value(value);
+    }
+}
+
+void gltf_floats(const json_t *object, const char *key, float *numbers, size_t count)
+{
+    double wide[4];
+    for (size_t i = 0; i < count; i++)
+        wide[i] = (double)numbers[i];
+    gltf_numbers(object, key, wide, count);
+    for (size_t i = 0; i < count; i++)
+        numbers[i] = (float)wide[i];
+}
+
+json_t *gltf_extension(const json_t *object, const char *name)
+{
+    return json_object_get(json_object_get(object, "extensions"), name);
+}
+
+/* ----- Container ----- */
+
+static uint32_t word_at(const char *at)
+{
+    const unsigned char *byte = (const unsigned char *)at;
+    return (uint32_t)byte[0] | (uint32_t)byte[1] << 8 | (uint32_t)byte[2] << 16 |
+           (uint32_t)byte[3] << 24;
+}
+
+/* Finds the JSON in a GLB, and its binary chunk. */
+static clshear_status open_binary(gltf_reader *reader, const cs_bytes *bytes, const char **text,
+                                  size_t *size)
+{
+    const char *path = reader->model->path;
+    if (bytes->size < 20)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE,
+                       "%s: is shorter than the head of a GLB file; it was cut", path);
+    const uint32_t version = word_at(bytes->data + 4), whole = word_at(bytes->data + 8);
+    if (version != 2)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE,
+                       "%s: is glTF of version %u; version 2 is read", path, version);
+    if (whole > bytes->size)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE,
+                       "%s: has %zu bytes of the %u that its head says; it was cut", path,
+                       bytes->size, whole);
+    *size = word_at(bytes->data + 12);
+    if (memcmp(bytes->data + 16, "JSON", 4) != 0 || *size > bytes->size - 20)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: its first chunk is no whole JSON",
+                       path);
+    *text = bytes->data + 20;
+    const size_t next = 20 + *size;
+    if (bytes->size - next < 8) return CLSHEAR_OK;
+    const size_t chunk_size = word_at(bytes->data + next);
+    if (memcmp(bytes->data + next + 4, "BIN", 4) != 0) return CLSHEAR_OK;
+    if (chunk_size > bytes->size - next - 8)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: its binary chunk was cut", path);
+    reader->chunk = (const unsigned char *)bytes->data + next + 8;
+    reader->chunk_size = chunk_size;
+    return CLSHEAR_OK;
+}
+
+static clshear_status parse(gltf_reader *reader, const char *text, size_t size)
+{
+    const char *path = reader->model->path;
+    json_error_t wrong;
+    reader->root = json_loadb(text, size, JSON_DISABLE_EOF_CHECK, &wrong);
+    if (reader->root == NULL)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s:%d:%d: %s", path, wrong.line,
+                       wrong.column, wrong.text);
+    const json_t *asset = json_object_get(reader->root, "asset");
+    const char *version = gltf_text(asset, "version", "1.0");
+    if (!json_is_object(reader->root))
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: is JSON, but no glTF", path);
+    if (strncmp(version, "2.", 2) != 0)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE,
+                       "%s: is glTF of version %.20s; version 2.0 is read", path, version);
+    return CLSHEAR_OK;
+}
+
+/* Extensions without which the file says it cannot be understood. */
+static clshear_status check_required(const gltf_reader *reader)
+{
+    const json_t *required = json_object_get(reader->root, "extensionsRequired");
+    for (size_t i = 0; i < json_array_size(required); i++) {
+        const char *name = json_string_value(json_array_get(required, i));
+        int known = 0;
+        for (size_t k = 0; name != NULL && k < sizeof supported / sizeof *supported; k++)
+            known |= strcmp(name, supported[k]) == 0;
+        if (!known)
+            return cs_fail(reader->error, CLSHEAR_BAD_FILE,
+                           "%s: needs the extension %.80s, which is not supported; export it "
+                           "without",
+                           reader->model->path, name != NULL ? name : "?");
+    }
+    return CLSHEAR_OK;
+}
+
+static clshear_status check(const gltf_reader *reader)
+{
+    if (reader->model->triangles.count > 0) return CLSHEAR_OK;
+    return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: %s", reader->model->path,
+                   reader->model->without_area > 0 ? "holds points and lines only; export triangles"
+                                                   : "there are no triangles in its scene");
+}
+
+static clshear_status read_all(gltf_reader *reader, cs_bytes *bytes)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_error *error = reader->error;
+    const char *text = bytes->data;
+    size_t size = bytes->size;
+    const int is_binary = size >= 4 && memcmp(text, "glTF", 4) == 0;
+    if (is_binary) {
+        CS_TRY(open_binary(reader, bytes, &text, &size));
+    } else {
+        CS_TRY(cs_bytes_to_utf8(bytes, reader->model->path, error));
+        text = bytes->data;
+        size = bytes->size;
+    }
+    CS_TRY(parse(reader, text, size));
+    CS_TRY(check_required(reader));
+    reader->buffer_count = gltf_count(reader, "buffers");
+    reader->buffers = calloc(reader->buffer_count + 1, sizeof *reader->buffers);
+    if (reader->buffers == NULL) return cs_model_full(reader->model, error);
+    CS_TRY(gltf_materials(reader));
+    CS_TRY(gltf_nodes(reader));
+    CS_TRY(check(reader));
+done:
+    return status;
+}
+
+clshear_status cs_read_gltf(cs_bytes *bytes, cs_model *model, cs_error *error)
+{
+    gltf_reader *reader = calloc(1, sizeof *reader);
+    if (reader == NULL) return cs_model_full(model, error);
+    reader->model = model;
+    reader->error = error;
+    reader->default_material = -1;
+    cs_folder_of(model->path, reader->folder, sizeof reader->folder);
+    const clshear_status status = read_all(reader, bytes);
+    for (size_t i = 0; i < reader->buffer_count && reader->buffers != NULL; i++)
+        free(reader->buffers[i].owned);
+    free(reader->buffers);
+    json_decref(reader->root);
+    free(reader);
+    return status;
+}

@@ -1,0 +1,311 @@
+/* Buffers and accessors of glTF. */
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "import/find_file.h"
+#include "import/gltf_reader.h"
+
+/* ----- URIs ----- */
+
+int gltf_is_data(const char *uri)
+{
+    return strncasecmp(uri, "data:", 5) == 0;
+}
+
+static int sextet(char letter)
+{
+    static const char letters[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    if (letter == '-') return 62; /* as in URLs */
+    if (letter == '_') return 63;
+    const char *found = letter != '\0' ? strchr(letters, letter) : NULL;
+    return found != NULL ? (int)(found - letters) : -1;
+}
+
+/* Decodes base64 up to the first letter that is none; returns the number of bytes. */
+static size_t decode_base64(const char *text, char *bytes)
+{
+    size_t size = 0;
+    uint32_t bits = 0;
+    int count = 0;
+    for (; *text != '\0' && *text != '='; text++) {
+        const int value = sextet(*text);
+        if (value < 0) continue; /* line breaks */
+        bits = bits << 6 | (uint32_t)value;
+        count += 6;
+        if (count < 8) continue;
+        count -= 8;
+        bytes[size++] = (char)(bits >> count & 0xff);
+    }
+    return size;
+}
+
+/* data:[type][;...][;base64],... */
+static clshear_status decode_data(const gltf_reader *reader, const char *place, long long index,
+                                  const char *uri, char **owned, size_t *size)
+{
+    const char *comma = strchr(uri, ',');
+    if (comma == NULL)
+        return gltf_complain(reader, place, index, "its data: URI has no comma before the data");
+    const int is_base64 = comma - uri >= 7 && strncasecmp(comma - 7, ";base64", 7) == 0;
+    *owned = malloc(strlen(comma) + 1);
+    if (*owned == NULL) return cs_model_full(reader->model, reader->error);
+    if (is_base64) {
+        *size = decode_base64(comma + 1, *owned);
+    } else {
+        strcpy(*owned, comma + 1);
+        cs_decode_percent(*owned);
+        *size = strlen(*owned);
+    }
+    return CLSHEAR_OK;
+}
+
+clshear_status gltf_uri(const gltf_reader *reader, const char *place, long long index,
+                        const char *uri, char **owned, size_t *size)
+{
+    char found[CS_FILE_PATH];
+    const char *folders[] = {reader->folder};
+    cs_bytes bytes = {0};
+    if (gltf_is_data(uri)) return decode_data(reader, place, index, uri, owned, size);
+    if (!cs_find_file(uri, folders, 1, found))
+        return gltf_complain(reader, place, index, "its file %.200s is not there", uri);
+    const clshear_status status = cs_bytes_read(found, &bytes, reader->error);
+    *owned = bytes.data;
+    *size = bytes.size;
+    return status;
+}
+
+/* ----- Buffers ----- */
+
+static clshear_status load_buffer(gltf_reader *reader, long long index)
+{
+    const json_t *json = gltf_at(reader, "buffers", index);
+    if (json == NULL) return CLSHEAR_BAD_FILE;
+    gltf_buffer *buffer = &reader->buffers[index];
+    const char *uri = gltf_text(json, "uri", NULL);
+    const long long length = gltf_index(json, "byteLength");
+    if (buffer->data != NULL) return CLSHEAR_OK;
+    if (gltf_extension(json, "EXT_meshopt_compression") != NULL && uri == NULL)
+        return gltf_complain(reader, "buffers", index, "is compressed by EXT_meshopt_compression");
+    if (uri == NULL && (index != 0 || reader->chunk == NULL))
+        return gltf_complain(reader, "buffers", index, "has no uri, and the file no binary chunk");
+    if (uri == NULL) {
+        buffer->data = reader->chunk;
+        buffer->size = reader->chunk_size;
+    } else {
+        clshear_status status =
+            gltf_uri(reader, "buffers", index, uri, &buffer->owned, &buffer->size);
+        if (status != CLSHEAR_OK) return status;
+        buffer->data = (const unsigned char *)buffer->owned;
+    }
+    if (length < 0)
+        return gltf_complain(reader, "buffers", index, "has no byteLength of 0 or more");
+    if ((size_t)length > buffer->size)
+        return gltf_complain(reader, "buffers", index, "has %zu bytes, but byteLength says %lld",
+                             buffer->size, length);
+    buffer->size = (size_t)length;
+    return CLSHEAR_OK;
+}
+
+clshear_status gltf_view(gltf_reader *reader, long long index, const unsigned char **data,
+                         size_t *size, size_t *stride)
+{
+    const json_t *json = gltf_at(reader, "bufferViews", index);
+    if (json == NULL) return CLSHEAR_BAD_FILE;
+    const long long number = gltf_index(json, "buffer"), length = gltf_index(json, "byteLength");
+    const long long offset = gltf_index(json, "byteOffset"), step = gltf_index(json, "byteStride");
+    clshear_status status = load_buffer(reader, number);
+    if (status != CLSHEAR_OK) return status;
+    const gltf_buffer *buffer = &reader->buffers[number];
+    const size_t begin = offset > 0 ? (size_t)offset : 0;
+    if (length < 0 || offset == -2 || step == -2 || step > 65535)
+        return gltf_complain(reader, "bufferViews", index, "its numbers cannot be");
+    if (begin > buffer->size || (size_t)length > buffer->size - begin)
+        return gltf_complain(reader, "bufferViews", index,
+                             "ends at byte %zu, but its buffer has %zu", begin + (size_t)length,
+                             buffer->size);
+    *data = buffer->data + begin;
+    *size = (size_t)length;
+    *stride = step > 0 ? (size_t)step : 0;
+    return CLSHEAR_OK;
+}
+
+/* ----- Accessors ----- */
+
+/* Where the numbers of an accessor, or of its sparse part, are. */
+typedef struct gltf_span {
+    const unsigned char *data; /* NULL: zeros */
+    size_t stride;
+    size_t count;
+    size_t components;
+    int type; /* of a component */
+    int normalised;
+} gltf_span;
+
+static size_t size_of(int type)
+{
+    return type == 5120 || type == 5121 ? 1 : type == 5122 || type == 5123 ? 2 : 4;
+}
+
+static size_t components_of(const char *type)
+{
+    static const char *const names[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+    for (size_t i = 0; i < 4; i++)
+        if (strcmp(type, names[i]) == 0) return i + 1;
+    return 0;
+}
+
+/* Points `span`, whose other members are set, at `count` items in a buffer view. */
+static clshear_status point_into(gltf_reader *reader, const json_t *json, long long accessor,
+                                 gltf_span *span)
+{
+    size_t size = 0, stride = 0;
+    const size_t item = span->components * size_of(span->type);
+    const long long offset = gltf_index(json, "byteOffset");
+    clshear_status status =
+        gltf_view(reader, gltf_index(json, "bufferView"), &span->data, &size, &stride);
+    if (status != CLSHEAR_OK) return status;
+    const size_t begin = offset > 0 ? (size_t)offset : 0;
+    span->stride = stride > 0 ? stride : item;
+    if (offset == -2 || span->stride < item)
+        return gltf_complain(reader, "accessors", accessor,
+                             "its byteOffset or byteStride cannot be");
+    if (span->count > 0 && (begin > size || (span->count - 1) * span->stride + item > size - begin))
+        return gltf_complain(reader, "accessors", accessor,
+                             "%zu items do not fit into the %zu bytes of its bufferView",
+                             span->count, size);
+    span->data += begin;
+    return CLSHEAR_OK;
+}
+
+static clshear_status open_accessor(gltf_reader *reader, long long index, const json_t **json,
+                                    gltf_span *span)
+{
+    *json = gltf_at(reader, "accessors", index);
+    if (*json == NULL) return CLSHEAR_BAD_FILE;
+    const long long type = gltf_index(*json, "componentType"), count = gltf_index(*json, "count");
+    *span = (gltf_span){.components = components_of(gltf_text(*json, "type", ""))};
+    span->normalised = json_is_true(json_object_get(*json, "normalized"));
+    if (type < 5120 || type > 5126 || type == 5124 || span->components == 0)
+        return gltf_complain(reader, "accessors", index, "its type or componentType is not known");
+    span->type = (int)type;
+    const int is_there = json_object_get(*json, "bufferView") != NULL;
+    /* What has no bytes in the file must not fill the memory. */
+    if (count < 0 || count > (is_there ? 3LL * CS_MODEL_MOST : 1LL << 24))
+        return gltf_complain(reader, "accessors", index, "a count of %lld cannot be", count);
+    span->count = (size_t)count;
+    return is_there ? point_into(reader, *json, index, span) : CLSHEAR_OK;
+}
+
+static double component_at(const unsigned char *at, const gltf_span *span)
+{
+    uint32_t word = 0;
+    for (size_t i = 0; i < size_of(span->type); i++)
+        word |= (uint32_t)at[i] << 8 * i;
+    double value = (double)word, most = 1.0;
+    float single;
+    switch (span->type) {
+    case 5120:
+        value = (double)(int8_t)word;
+        most = 127.0;
+        break;
+    case 5121:
+        most = 255.0;
+        break;
+    case 5122:
+        value = (double)(int16_t)word;
+        most = 32767.0;
+        break;
+    case 5123:
+        most = 65535.0;
+        break;
+    case 5125:
+        most = 4294967295.0;
+        break;
+    default:
+        memcpy(&single, &word, sizeof single);
+        return (double)single;
+    }
+    if (!span->normalised) return value;
+    return value / most < -1.0 ? -1.0 : value / most;
+}
+
+static void copy_item(const gltf_span *span, size_t item, size_t most, float *target)
+{
+    for (size_t c = 0; c < span->components && c < most; c++)
+        target[c] = span->data == NULL
+                        ? 0.0f
+                        : (float)component_at(
+                              span->data + item * span->stride + c * size_of(span->type), span);
+}
+
+/* Replaces the items that the sparse part names. */
+static clshear_status apply_sparse(gltf_reader *reader, long long index, const json_t *json,
+                                   const gltf_span *span, size_t most, float *values)
+{
+    const json_t *sparse = json_object_get(json, "sparse");
+    if (sparse == NULL) return CLSHEAR_OK;
+    const json_t *places = json_object_get(sparse, "indices");
+    const long long count = gltf_index(sparse, "count"), type = gltf_index(places, "componentType");
+    if (count < 0 || (size_t)count > span->count || (type != 5121 && type != 5123 && type != 5125))
+        return gltf_complain(reader, "accessors", index, "its sparse part cannot be");
+    gltf_span which = {.components = 1, .type = (int)type, .count = (size_t)count};
+    gltf_span what = *span;
+    what.count = (size_t)count;
+    clshear_status status = point_into(reader, places, index, &which);
+    if (status == CLSHEAR_OK)
+        status = point_into(reader, json_object_get(sparse, "values"), index, &what);
+    for (size_t i = 0; i < (size_t)count && status == CLSHEAR_OK; i++) {
+        const double place = component_at(which.data + i * which.stride, &which);
+        if (place >= (double)span->count)
+            return gltf_complain(reader, "accessors", index,
+                                 "its sparse part names item %.0f of %zu", place, span->count);
+        copy_item(&what, i, most, values + (size_t)place * most);
+    }
+    return status;
+}
+
+clshear_status gltf_read_floats(gltf_reader *reader, long long index, size_t most, float **values,
+                                size_t *count, size_t *given)
+{
+    const json_t *json = NULL;
+    gltf_span span;
+    clshear_status status = open_accessor(reader, index, &json, &span);
+    if (status != CLSHEAR_OK) return status;
+    float *made = calloc(span.count + 1, most * sizeof *made);
+    if (made == NULL) return cs_model_full(reader->model, reader->error);
+    for (size_t i = 0; i < span.count; i++)
+        copy_item(&span, i, most, made + i * most);
+    status = apply_sparse(reader, index, json, &span, most, made);
+    if (status != CLSHEAR_OK) {
+        free(made);
+        return status;
+    }
+    *values = made;
+    *count = span.count;
+    *given = span.components;
+    return CLSHEAR_OK;
+}
+
+clshear_status gltf_read_indices(gltf_reader *reader, long long index, uint32_t **values,
+                                 size_t *count)
+{
+    const json_t *json = NULL;
+    gltf_span span;
+    clshear_status status = open_accessor(reader, index, &json, &span);
+    if (status != CLSHEAR_OK) return status;
+    if (span.components != 1 || (span.type != 5121 && span.type != 5123 && span.type != 5125))
+        return gltf_complain(reader, "accessors", index, "its type is none of indices");
+    if (json_object_get(json, "sparse") != NULL)
+        return gltf_complain(reader, "accessors", index, "sparse indices are not supported");
+    span.normalised = 0;
+    uint32_t *made = calloc(span.count + 1, sizeof *made);
+    if (made == NULL) return cs_model_full(reader->model, reader->error);
+    for (size_t i = 0; i < span.count && span.data != NULL; i++)
+        made[i] = (uint32_t)component_at(span.data + i * span.stride, &span);
+    *values = made;
+    *count = span.count;
+    return CLSHEAR_OK;
+}

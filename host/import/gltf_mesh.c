@@ -1,0 +1,263 @@
+/* Meshes of glTF. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/vec.h"
+#include "import/gltf_reader.h"
+
+/* A primitive being added: where its vertices begin in the pools. */
+typedef struct gltf_primitive {
+    gltf_reader *reader;
+    char place[64]; /* for messages */
+    const double *matrix;
+    size_t count;                                         /* vertices */
+    uint32_t first_position, first_normal, first_texture; /* CS_NO_INDEX: none */
+    uint32_t material;
+} gltf_primitive;
+
+static clshear_status wrong_count(const gltf_primitive *primitive, const char *what, size_t count)
+{
+    return gltf_complain(primitive->reader, primitive->place, -1, "has %zu %s for %zu positions",
+                         count, what, primitive->count);
+}
+
+static clshear_status add_positions(gltf_primitive *primitive, long long accessor)
+{
+    gltf_reader *reader = primitive->reader;
+    cs_array *pool = &reader->model->positions;
+    const double *m = primitive->matrix;
+    float *values = NULL;
+    size_t given = 0;
+    clshear_status status =
+        gltf_read_floats(reader, accessor, 3, &values, &primitive->count, &given);
+    if (status != CLSHEAR_OK) return status;
+    primitive->first_position = (uint32_t)pool->count;
+    double(*added)[3] = cs_model_extend(pool, primitive->count);
+    if (given != 3)
+        status = gltf_complain(reader, primitive->place, -1, "its POSITION is no VEC3");
+    else if (added == NULL)
+        status = cs_model_full(reader->model, reader->error);
+    for (size_t i = 0; i < primitive->count && status == CLSHEAR_OK; i++)
+        for (int axis = 0; axis < 3; axis++)
+            added[i][axis] = m[axis] * (double)values[3 * i] +
+                             m[4 + axis] * (double)values[3 * i + 1] +
+                             m[8 + axis] * (double)values[3 * i + 2] + m[12 + axis];
+    free(values);
+    return status;
+}
+
+/* The matrix that moves normals: cofactors, which are the inverse transpose up to a factor. */
+static void normal_matrix(const double *m, double rows[3][3])
+{
+    const double *columns[3] = {m, m + 4, m + 8};
+    double cofactor[3][3];
+    for (int k = 0; k < 3; k++)
+        cs_vec_cross_double(columns[(k + 1) % 3], columns[(k + 2) % 3], cofactor[k]);
+    const double sign = cs_vec_dot_double(columns[0], cofactor[0]) < 0.0 ? -1.0 : 1.0;
+    for (int axis = 0; axis < 3; axis++)
+        for (int k = 0; k < 3; k++)
+            rows[axis][k] = sign * cofactor[k][axis];
+}
+
+static clshear_status add_normals(gltf_primitive *primitive, long long accessor)
+{
+    gltf_reader *reader = primitive->reader;
+    cs_array *pool = &reader->model->normals;
+    double rows[3][3];
+    float *values = NULL;
+    size_t given = 0, count = 0;
+    clshear_status status = gltf_read_floats(reader, accessor, 3, &values, &count, &given);
+    if (status != CLSHEAR_OK) return status;
+    primitive->first_normal = (uint32_t)pool->count;
+    float(*added)[3] = cs_model_extend(pool, count);
+    normal_matrix(primitive->matrix, rows);
+    if (count != primitive->count)
+        status = wrong_count(primitive, "normals", count);
+    else if (added == NULL)
+        status = cs_model_full(reader->model, reader->error);
+    for (size_t i = 0; i < count && status == CLSHEAR_OK; i++) {
+        double turned[3];
+        for (int axis = 0; axis < 3; axis++)
+            turned[axis] = rows[axis][0] * (double)values[3 * i] +
+                           rows[axis][1] * (double)values[3 * i + 1] +
+                           rows[axis][2] * (double)values[3 * i + 2];
+        const double length = sqrt(cs_vec_dot_double(turned, turned));
+        for (int axis = 0; axis < 3; axis++)
+            added[i][axis] =
+                length > 0.0 && isfinite(length) ? (float)(turned[axis] / length) : 0.0f;
+    }
+    free(values);
+    return status;
+}
+
+static clshear_status add_textures(gltf_primitive *primitive, long long accessor)
+{
+    gltf_reader *reader = primitive->reader;
+    cs_array *pool = &reader->model->textures;
+    float *values = NULL;
+    size_t given = 0, count = 0;
+    clshear_status status = gltf_read_floats(reader, accessor, 2, &values, &count, &given);
+    if (status != CLSHEAR_OK) return status;
+    primitive->first_texture = (uint32_t)pool->count;
+    void *added = cs_model_extend(pool, count);
+    if (count != primitive->count)
+        status = wrong_count(primitive, "texture coordinates", count);
+    else if (added == NULL)
+        status = cs_model_full(reader->model, reader->error);
+    else if (count > 0)
+        memcpy(added, values, count * pool->item_size);
+    free(values);
+    return status;
+}
+
+static clshear_status add_colours(gltf_primitive *primitive, long long accessor)
+{
+    gltf_reader *reader = primitive->reader;
+    float *values = NULL;
+    size_t given = 0, count = 0;
+    clshear_status status = gltf_read_floats(reader, accessor, 3, &values, &count, &given);
+    if (status != CLSHEAR_OK) return status;
+    if (count != primitive->count) status = wrong_count(primitive, "colours", count);
+    for (size_t i = 0; i < count && status == CLSHEAR_OK; i++) {
+        for (size_t c = 0; c < 3; c++)
+            if (!(values[3 * i + c] >= 0.0f && values[3 * i + c] <= 1e15f))
+                values[3 * i + c] = 0.0f;
+        status = cs_model_set_colour(reader->model, primitive->first_position + i, values + 3 * i,
+                                     reader->error);
+    }
+    free(values);
+    return status;
+}
+
+/* ----- Triangles ----- */
+
+static clshear_status corner_of(const gltf_primitive *primitive, const uint32_t *indices,
+                                size_t place, cs_corner *corner)
+{
+    const size_t index = indices != NULL ? indices[place] : place;
+    if (index >= primitive->count)
+        return gltf_complain(primitive->reader, primitive->place, -1,
+                             "index %zu names vertex %zu, but there are %zu", place, index,
+                             primitive->count);
+    *corner = (cs_corner){primitive->first_position + (uint32_t)index, CS_NO_INDEX, CS_NO_INDEX};
+    if (primitive->first_normal != CS_NO_INDEX)
+        corner->normal = primitive->first_normal + (uint32_t)index;
+    if (primitive->first_texture != CS_NO_INDEX)
+        corner->texture = primitive->first_texture + (uint32_t)index;
+    return CLSHEAR_OK;
+}
+
+/* Triangles (4), a strip (5) or a fan (6) of `count` corners. */
+static clshear_status add_triangles(const gltf_primitive *primitive, int mode,
+                                    const uint32_t *indices, size_t count)
+{
+    gltf_reader *reader = primitive->reader;
+    const size_t triangles = mode == 4 ? count / 3 : count > 2 ? count - 2 : 0;
+    for (size_t i = 0; i < triangles; i++) {
+        size_t places[3] = {i, i + 1 + (i & 1), i + 2 - (i & 1)};
+        cs_corner corners[3];
+        for (size_t k = 0; k < 3; k++) {
+            if (mode == 4) places[k] = 3 * i + k;
+            if (mode == 6) places[k] = k == 0 ? 0 : i + k;
+            clshear_status status = corner_of(primitive, indices, places[k], &corners[k]);
+            if (status != CLSHEAR_OK) return status;
+        }
+        clshear_status status =
+            cs_model_add_polygon(reader->model, corners, 3, primitive->material, 0, reader->error);
+        if (status != CLSHEAR_OK) return status;
+    }
+    return CLSHEAR_OK;
+}
+
+static clshear_status add_indexed(const gltf_primitive *primitive, const json_t *json, int mode)
+{
+    uint32_t *indices = NULL;
+    size_t count = primitive->count;
+    const long long accessor = gltf_index(json, "indices");
+    clshear_status status = CLSHEAR_OK;
+    if (accessor != -1) status = gltf_read_indices(primitive->reader, accessor, &indices, &count);
+    if (status == CLSHEAR_OK) status = add_triangles(primitive, mode, indices, count);
+    free(indices);
+    return status;
+}
+
+/* The material's number in the model. glTF's default is white. */
+static clshear_status find_material(gltf_primitive *primitive, const json_t *json)
+{
+    gltf_reader *reader = primitive->reader;
+    const long long number = gltf_index(json, "material");
+    if (number >= 0 || number == -2) {
+        if (gltf_at(reader, "materials", number) == NULL) return CLSHEAR_BAD_FILE;
+        primitive->material = (uint32_t)number;
+        return CLSHEAR_OK;
+    }
+    if (reader->default_material < 0) {
+        cs_material_description *material = cs_model_extend(&reader->model->materials, 1);
+        if (material == NULL) return cs_model_full(reader->model, reader->error);
+        cs_material_init(material, "default");
+        for (int c = 0; c < 3; c++)
+            material->base_colour[c] = 1.0f;
+        reader->default_material = (int)reader->model->materials.count - 1;
+    }
+    primitive->material = (uint32_t)reader->default_material;
+    return CLSHEAR_OK;
+}
+
+static void warn_of_motion(gltf_reader *reader, const json_t *json)
+{
+    const int skinned = json_object_get(json_object_get(json, "attributes"), "JOINTS_0") != NULL;
+    if (reader->warned_motion || (!skinned && json_object_get(json, "targets") == NULL)) return;
+    reader->warned_motion = 1;
+    cs_warn(reader->model->log, "%s: skins and morph targets are not applied", reader->model->path);
+}
+
+static clshear_status add_primitive(gltf_primitive *primitive, const json_t *json)
+{
+    clshear_status status = CLSHEAR_OK;
+    gltf_reader *reader = primitive->reader;
+    const json_t *attributes = json_object_get(json, "attributes");
+    const double mode = gltf_number(json, "mode", 4.0);
+    const long long position = gltf_index(attributes, "POSITION");
+    char set[16];
+    primitive->first_normal = primitive->first_texture = CS_NO_INDEX;
+    if (gltf_extension(json, "KHR_draco_mesh_compression") != NULL && position == -1)
+        return gltf_complain(reader, primitive->place, -1,
+                             "needs KHR_draco_mesh_compression, which is not supported");
+    if (position == -1) return CLSHEAR_OK;
+    if (mode < 4.0 || mode > 6.0) {
+        reader->model->without_area++;
+        return CLSHEAR_OK;
+    }
+    warn_of_motion(reader, json);
+    CS_TRY(find_material(primitive, json));
+    CS_TRY(add_positions(primitive, position));
+    const long long normal = gltf_index(attributes, "NORMAL");
+    if (normal >= 0) CS_TRY(add_normals(primitive, normal));
+    const cs_material_description *material =
+        (const cs_material_description *)reader->model->materials.items + primitive->material;
+    snprintf(set, sizeof set, "TEXCOORD_%d", material->base_map.set);
+    const long long texture = gltf_index(attributes, set);
+    if (texture >= 0 && material->base_map.image != CS_NO_IMAGE)
+        CS_TRY(add_textures(primitive, texture));
+    const long long colour = gltf_index(attributes, "COLOR_0");
+    if (colour >= 0) CS_TRY(add_colours(primitive, colour));
+    CS_TRY(add_indexed(primitive, json, (int)mode));
+done:
+    return status;
+}
+
+clshear_status gltf_mesh(gltf_reader *reader, long long index, const double *matrix)
+{
+    const json_t *json = gltf_at(reader, "meshes", index);
+    if (json == NULL) return CLSHEAR_BAD_FILE;
+    const json_t *primitives = json_object_get(json, "primitives");
+    clshear_status status = CLSHEAR_OK;
+    for (size_t i = 0; i < json_array_size(primitives) && status == CLSHEAR_OK; i++) {
+        gltf_primitive primitive = {.reader = reader, .matrix = matrix};
+        snprintf(primitive.place, sizeof primitive.place, "meshes[%lld].primitives[%zu]", index, i);
+        status = add_primitive(&primitive, json_array_get(primitives, i));
+    }
+    return status;
+}

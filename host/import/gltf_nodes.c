@@ -1,0 +1,232 @@
+/* Nodes, cameras and lights of glTF. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "import/gltf_reader.h"
+
+/* A node that waits, with what its parents do to it. */
+typedef struct gltf_visit {
+    long long node;
+    double matrix[16]; /* columns */
+} gltf_visit;
+
+static void identity(double *m)
+{
+    for (int i = 0; i < 16; i++)
+        m[i] = i % 5 == 0 ? 1.0 : 0.0;
+}
+
+/* product = a * b */
+static void multiply(const double *a, const double *b, double *product)
+{
+    for (int column = 0; column < 4; column++)
+        for (int row = 0; row < 4; row++) {
+            double sum = 0.0;
+            for (int k = 0; k < 4; k++)
+                sum += a[4 * k + row] * b[4 * column + k];
+            product[4 * column + row] = sum;
+        }
+}
+
+/* The node's own transformation: a matrix, or scale, rotation (a unit quaternion), translation. */
+static void local_matrix(const json_t *node, double *m)
+{
+    double t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
+    identity(m);
+    if (json_object_get(node, "matrix") != NULL) {
+        gltf_numbers(node, "matrix", m, 16);
+        return;
+    }
+    gltf_numbers(node, "translation", t, 3);
+    gltf_numbers(node, "rotation", q, 4);
+    gltf_numbers(node, "scale", s, 3);
+    const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    const double scale = length > 0.0 ? 1.0 / length : 1.0;
+    const double x = scale * q[0], y = scale * q[1], z = scale * q[2], w = scale * q[3];
+    const double rotation[3][3] = {
+        {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+        {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+        {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++)
+            m[4 * column + row] = s[column] * rotation[column][row];
+    memcpy(m + 12, t, sizeof t);
+}
+
+/* ----- Cameras ----- */
+
+static int camera_is_named(const cs_model *model, const char *name)
+{
+    const cs_model_camera *cameras = model->cameras.items;
+    for (size_t i = 0; i < model->cameras.count; i++)
+        if (strncmp(cameras[i].name, name, CS_MODEL_NAME - 1) == 0) return 1;
+    return 0;
+}
+
+static clshear_status add_camera(gltf_reader *reader, long long index, const json_t *node,
+                                 const double *m)
+{
+    cs_model *model = reader->model;
+    const json_t *json = gltf_at(reader, "cameras", index);
+    if (json == NULL) return CLSHEAR_BAD_FILE;
+    char number[32];
+    snprintf(number, sizeof number, "camera %lld", index);
+    const char *name = gltf_text(json, "name", number), *of_node = gltf_text(node, "name", NULL);
+    if (of_node != NULL && (camera_is_named(model, name) || name == number)) name = of_node;
+    cs_model_camera *camera = cs_model_extend(&model->cameras, 1);
+    if (camera == NULL) return cs_model_full(model, reader->error);
+    snprintf(camera->name, sizeof camera->name, "%.*s", CS_MODEL_NAME - 1, name);
+    for (int i = 0; i < 3; i++) {
+        camera->eye[i] = m[12 + i];
+        camera->forward[i] = -m[8 + i];
+        camera->up[i] = m[4 + i];
+    }
+    if (strcmp(gltf_text(json, "type", "perspective"), "perspective") == 0)
+        camera->fov = gltf_number(json_object_get(json, "perspective"), "yfov", 0.0);
+    return CLSHEAR_OK;
+}
+
+/* ----- Lights ----- */
+
+static clshear_status add_light(gltf_reader *reader, long long index, const json_t *node,
+                                const double *m)
+{
+    const json_t *all =
+        json_object_get(gltf_extension(reader->root, "KHR_lights_punctual"), "lights");
+    const json_t *json = index >= 0 ? json_array_get(all, (size_t)index) : NULL;
+    if (json == NULL)
+        return gltf_complain(reader, "lights", -1, "%lld is asked for, but there are %zu", index,
+                             json_array_size(all));
+    const char *type = gltf_text(json, "type", "");
+    const char *name = gltf_text(json, "name", gltf_text(node, "name", type));
+    cs_model_light light = {.kind = CS_MODEL_POINT};
+    double colour[3] = {1, 1, 1};
+    snprintf(light.name, sizeof light.name, "%.*s", CS_MODEL_NAME - 1, name);
+    if (strcmp(type, "directional") == 0)
+        light.kind = CS_MODEL_DIRECTIONAL;
+    else if (strcmp(type, "spot") == 0)
+        light.kind = CS_MODEL_SPOT;
+    else if (strcmp(type, "point") != 0) {
+        cs_warn(reader->model->log, "%s: light \"%s\" is of a kind that is not supported; left out",
+                reader->model->path, light.name);
+        return CLSHEAR_OK;
+    }
+    gltf_numbers(json, "color", colour, 3);
+    const double intensity = gltf_number(json, "intensity", 1.0);
+    const json_t *spot = json_object_get(json, "spot");
+    light.cone[0] = (float)gltf_number(spot, "innerConeAngle", 0.0);
+    light.cone[1] = (float)gltf_number(spot, "outerConeAngle", 0.7853981633974483);
+    light.range = (float)gltf_number(json, "range", 0.0);
+    for (int i = 0; i < 3; i++) {
+        light.position[i] = m[12 + i];
+        light.axis[i] = -m[8 + i];
+        light.colour[i] = (float)(colour[i] * intensity);
+    }
+    cs_model_light *added = cs_model_extend(&reader->model->lights, 1);
+    if (added == NULL) return cs_model_full(reader->model, reader->error);
+    *added = light;
+    return CLSHEAR_OK;
+}
+
+/* ----- The walk ----- */
+
+static clshear_status push(gltf_reader *reader, cs_array *waiting, const json_t *list,
+                           const double *matrix)
+{
+    for (size_t i = json_array_size(list); i > 0; i--) { /* the first one comes off first */
+        const json_t *value = json_array_get(list, i - 1);
+        gltf_visit *visit = cs_array_extend(waiting, 1);
+        if (visit == NULL) return cs_model_full(reader->model, reader->error);
+        const double number = json_is_number(value) ? json_number_value(value) : -1.0;
+        visit->node = number >= 0.0 && number < 9e15 ? (long long)number : -1;
+        memcpy(visit->matrix, matrix, sizeof visit->matrix);
+    }
+    return CLSHEAR_OK;
+}
+
+static clshear_status visit_node(gltf_reader *reader, cs_array *waiting, const gltf_visit *visit,
+                                 char *seen)
+{
+    clshear_status status = CLSHEAR_OK;
+    const json_t *node = gltf_at(reader, "nodes", visit->node);
+    double local[16], matrix[16];
+    if (node == NULL) return CLSHEAR_BAD_FILE;
+    if (seen[visit->node]++)
+        return gltf_complain(reader, "nodes", visit->node,
+                             "has two parents, or is its own; nodes must be a tree");
+    local_matrix(node, local);
+    multiply(visit->matrix, local, matrix);
+    const long long mesh = gltf_index(node, "mesh"), camera = gltf_index(node, "camera");
+    const json_t *light = gltf_extension(node, "KHR_lights_punctual");
+    if (mesh != -1) CS_TRY(gltf_mesh(reader, mesh, matrix));
+    if (camera != -1) CS_TRY(add_camera(reader, camera, node, matrix));
+    if (light != NULL) CS_TRY(add_light(reader, gltf_index(light, "light"), node, matrix));
+    if (gltf_extension(node, "EXT_mesh_gpu_instancing") != NULL)
+        cs_warn(reader->model->log,
+                "%s: nodes[%lld]: EXT_mesh_gpu_instancing is not supported; one "
+                "instance is read",
+                reader->model->path, visit->node);
+    CS_TRY(push(reader, waiting, json_object_get(node, "children"), matrix));
+done:
+    return status;
+}
+
+/* The nodes that no other has as a child, where the file names no scene. */
+static clshear_status push_roots(gltf_reader *reader, cs_array *waiting, const double *matrix)
+{
+    const json_t *nodes = json_object_get(reader->root, "nodes");
+    const size_t count = json_array_size(nodes);
+    char *is_child = calloc(count + 1, 1);
+    if (is_child == NULL) return cs_model_full(reader->model, reader->error);
+    for (size_t i = 0; i < count; i++) {
+        const json_t *children = json_object_get(json_array_get(nodes, i), "children");
+        for (size_t k = 0; k < json_array_size(children); k++) {
+            const double number = json_number_value(json_array_get(children, k));
+            if (number >= 0.0 && number < (double)count) is_child[(size_t)number] = 1;
+        }
+    }
+    clshear_status status = CLSHEAR_OK;
+    for (size_t i = count; i > 0 && status == CLSHEAR_OK; i--) {
+        if (is_child[i - 1]) continue;
+        gltf_visit *visit = cs_array_extend(waiting, 1);
+        if (visit == NULL) {
+            status = cs_model_full(reader->model, reader->error);
+            continue;
+        }
+        visit->node = (long long)i - 1;
+        memcpy(visit->matrix, matrix, sizeof visit->matrix);
+    }
+    free(is_child);
+    return status;
+}
+
+clshear_status gltf_nodes(gltf_reader *reader)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_error *error = reader->error;
+    cs_array waiting = {.item_size = sizeof(gltf_visit)};
+    double start[16];
+    char *seen = calloc(gltf_count(reader, "nodes") + 1, 1);
+    CS_REQUIRE(seen != NULL, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", reader->model->path);
+    identity(start);
+    const long long chosen = gltf_index(reader->root, "scene");
+    if (gltf_count(reader, "scenes") > 0) {
+        const json_t *scene = gltf_at(reader, "scenes", chosen >= 0 ? chosen : 0);
+        if (scene == NULL) status = CLSHEAR_BAD_FILE;
+        if (scene != NULL) status = push(reader, &waiting, json_object_get(scene, "nodes"), start);
+    } else {
+        status = push_roots(reader, &waiting, start);
+    }
+    while (status == CLSHEAR_OK && waiting.count > 0) {
+        const gltf_visit visit = ((const gltf_visit *)waiting.items)[--waiting.count];
+        status = visit_node(reader, &waiting, &visit, seen);
+    }
+    if (status == CLSHEAR_OK && gltf_count(reader, "animations") > 0)
+        cs_warn(reader->model->log, "%s: animations are not played", reader->model->path);
+done:
+    cs_array_free(&waiting);
+    free(seen);
+    return status;
+}

@@ -1,0 +1,80 @@
+/* The parts of reading glTF 2.0: JSON, buffers, accessors, materials, nodes. */
+#ifndef CS_IMPORT_GLTF_READER_H
+#define CS_IMPORT_GLTF_READER_H
+
+#include <jansson.h>
+
+#include "import/model.h"
+#include "import/text.h"
+
+typedef struct gltf_buffer {
+    const unsigned char *data; /* NULL: not loaded yet */
+    size_t size;
+    char *owned;
+} gltf_buffer;
+
+typedef struct gltf_reader {
+    cs_model *model;
+    cs_error *error;
+    json_t *root;
+    const unsigned char *chunk; /* the binary chunk of a GLB, or NULL */
+    size_t chunk_size;
+    gltf_buffer *buffers;
+    size_t buffer_count;
+    char folder[4096];
+    int default_material; /* number of the one for primitives without; -1: none yet */
+    int warned_motion;
+} gltf_reader;
+
+/* Fails with "FILE: PLACE[index]: ...". `place` is a name in the JSON; index -1: none. */
+clshear_status gltf_complain(const gltf_reader *reader, const char *place, long long index,
+                             const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+/* Element `index` of the array `name` at the root, or NULL after complaining. */
+json_t *gltf_at(const gltf_reader *reader, const char *name, long long index);
+
+/* Elements of an array at the root, 0 if there is none. */
+size_t gltf_count(const gltf_reader *reader, const char *name);
+
+/* Members of an object with their fallbacks. -1: there is no such index; -2: it is none. */
+double gltf_number(const json_t *object, const char *key, double fallback);
+long long gltf_index(const json_t *object, const char *key);
+const char *gltf_text(const json_t *object, const char *key, const char *fallback);
+
+/* Takes over as many numbers of an array as there are, up to `count`. */
+void gltf_numbers(const json_t *object, const char *key, double *numbers, size_t count);
+void gltf_floats(const json_t *object, const char *key, float *numbers, size_t count);
+
+/* Member `name` of an object's extensions, or NULL. */
+json_t *gltf_extension(const json_t *object, const char *name);
+
+/* ----- Data ----- */
+
+/* The bytes of a URI: data, or a file beside the scene. `*owned` is freed by the caller. */
+clshear_status gltf_uri(const gltf_reader *reader, const char *place, long long index,
+                        const char *uri, char **owned, size_t *size);
+int gltf_is_data(const char *uri);
+
+/* The bytes of a buffer view. */
+clshear_status gltf_view(gltf_reader *reader, long long index, const unsigned char **data,
+                         size_t *size, size_t *stride);
+
+/* An accessor as floats: `most` components each at most, `*given` of them in the file. `*values` is
+ * freed by the caller. */
+clshear_status gltf_read_floats(gltf_reader *reader, long long index, size_t most, float **values,
+                                size_t *count, size_t *given);
+clshear_status gltf_read_indices(gltf_reader *reader, long long index, uint32_t **values,
+                                 size_t *count);
+
+/* ----- Content ----- */
+
+/* Adds all materials to the model, in the file's order. */
+clshear_status gltf_materials(gltf_reader *reader);
+
+/* Walks over the nodes of the scene, and adds their meshes, lights and cameras. */
+clshear_status gltf_nodes(gltf_reader *reader);
+
+/* Adds the triangles of a mesh, moved by a matrix (4 columns of 4). */
+clshear_status gltf_mesh(gltf_reader *reader, long long index, const double *matrix);
+
+#endif

@@ -1,0 +1,26 @@
+/* Scene files: one door for all formats. */
+#ifndef CS_IMPORT_IMPORT_H
+#define CS_IMPORT_IMPORT_H
+
+#include "import/model.h"
+#include "import/text.h"
+
+typedef struct cs_import_options {
+    double smooth_degrees; /* as cs_model_smooth; below 0: as the file says */
+} cs_import_options;
+
+/* Reads `path` into an initialised, empty scene, in a process of its own: whatever the file does
+ * there ends in a message. What is repaired or left out is reported to `log`. Without the program
+ * clshear-import the formats with readers of our own are read in this process. */
+clshear_status cs_scene_import(const char *path, const cs_import_options *options, cs_scene *scene,
+                               const cs_log *log, cs_error *error);
+
+/* A reader of the formats that have none of their own. */
+typedef clshear_status (*cs_other_reader)(cs_bytes *bytes, cs_model *model, cs_error *error);
+
+/* The same in this process. `other` NULL: other formats are refused. */
+clshear_status cs_import_here(const char *path, const cs_import_options *options,
+                              cs_other_reader other, cs_scene *scene, const cs_log *log,
+                              cs_error *error);
+
+#endif

@@ -1,0 +1,12 @@
+/* Material libraries of OBJ files. */
+#ifndef CS_IMPORT_MTL_H
+#define CS_IMPORT_MTL_H
+
+#include "import/model.h"
+
+/* Reads the library at `path`, appending its materials to `materials` (cs_material_description).
+ * Textures are looked for beside it and beside the model's file. A line that cannot be understood
+ * is reported and left out. */
+clshear_status cs_mtl_read(const char *path, cs_model *model, cs_array *materials, cs_error *error);
+
+#endif

@@ -1,0 +1,395 @@
+/* PLY: vertices, faces and triangle strips. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "import/colour.h"
+#include "import/find_file.h"
+#include "import/ply_reader.h"
+#include "import/readers.h"
+
+typedef struct ply_reader {
+    cs_model *model;
+    cs_error *error;
+    cs_ply_head head;
+    cs_ply_cursor cursor;
+    int has_positions, has_normals, has_coordinates;
+    cs_array corners; /* cs_corner, of the current face */
+    cs_array texts;   /* double, of the current list of texture coordinates */
+} ply_reader;
+
+int cs_is_ply(const cs_bytes *bytes, const char *path)
+{
+    const int marked = bytes->size >= 4 && memcmp(bytes->data, "ply", 3) == 0 &&
+                       (bytes->data[3] == '\n' || bytes->data[3] == '\r' || bytes->data[3] == ' ');
+    return marked || cs_has_suffix(path, ".ply");
+}
+
+/* What is wrong, and in which item of an element. */
+static clshear_status complain(const ply_reader *reader, const cs_ply_element *element, size_t item,
+                               const char *what)
+{
+    const char *path = reader->model->path;
+    size_t line = 1;
+    if (reader->head.format != CS_PLY_ASCII)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: %s %zu of %zu: %s", path,
+                       element->name, item, element->count, what);
+    for (const char *at = reader->cursor.begin; at != reader->cursor.at; at++)
+        line += *at == '\n';
+    return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s:%zu: %s %zu of %zu: %s", path, line,
+                   element->name, item, element->count, what);
+}
+
+static clshear_status ends(const ply_reader *reader, const cs_ply_element *element, size_t item)
+{
+    return complain(reader, element, item,
+                    reader->cursor.at == reader->cursor.end || reader->head.format != CS_PLY_ASCII
+                        ? "the file ends here; it was cut"
+                        : "this is not a number");
+}
+
+/* Values of one item that are single numbers. */
+typedef struct scalars {
+    double value[CS_PLY_SCALARS];
+    int is_there[CS_PLY_SCALARS];
+    cs_ply_type type[CS_PLY_SCALARS];
+} scalars;
+
+static int colour_of(const scalars *given, float *colour)
+{
+    if (!given->is_there[CS_PLY_RED] || !given->is_there[CS_PLY_GREEN] ||
+        !given->is_there[CS_PLY_BLUE])
+        return 0;
+    for (int c = 0; c < 3; c++) {
+        const cs_ply_type type = given->type[CS_PLY_RED + c];
+        const double value = given->value[CS_PLY_RED + c] / cs_ply_most(type);
+        colour[c] = cs_colour_value(value, cs_ply_is_integer(type));
+    }
+    return 1;
+}
+
+/* ----- Lists ----- */
+
+static clshear_status read_list(ply_reader *reader, const cs_ply_element *element, size_t item,
+                                const cs_ply_property *property)
+{
+    double count;
+    if (!cs_ply_next(&reader->cursor, property->count_type, &count))
+        return ends(reader, element, item);
+    const size_t least = cs_ply_least_size(reader->head.format, property->type);
+    const size_t left = (size_t)(reader->cursor.end - reader->cursor.at) / least;
+    if (!(count >= 0.0 && count == floor(count)))
+        return complain(reader, element, item, "a list has no length of 0 or more");
+    if (count > (double)left)
+        return complain(reader, element, item, "a list is longer than the rest of the file");
+    const int is_indices = property->role == CS_PLY_INDICES;
+    const int is_text = property->role == CS_PLY_COORDINATES;
+    reader->corners.count = is_indices ? 0 : reader->corners.count;
+    reader->texts.count = is_text ? 0 : reader->texts.count;
+    for (size_t i = 0; i < (size_t)count; i++) {
+        double value;
+        if (!cs_ply_next(&reader->cursor, property->type, &value))
+            return ends(reader, element, item);
+        if (is_indices) {
+            cs_corner *corner = cs_array_extend(&reader->corners, 1);
+            if (corner == NULL) return cs_model_full(reader->model, reader->error);
+            const int usable = value >= 0.0 && value < (double)CS_MODEL_MOST;
+            *corner = (cs_corner){usable ? (uint32_t)value : CS_NO_INDEX, CS_NO_INDEX, CS_NO_INDEX};
+        } else if (is_text) {
+            double *text = cs_array_extend(&reader->texts, 1);
+            if (text == NULL) return cs_model_full(reader->model, reader->error);
+            *text = value;
+        }
+    }
+    return CLSHEAR_OK;
+}
+
+/* Reads one item of an element. */
+static clshear_status read_item(ply_reader *reader, const cs_ply_element *element, size_t item,
+                                scalars *given)
+{
+    reader->corners.count = reader->texts.count = 0;
+    for (size_t p = 0; p < element->property_count; p++) {
+        const cs_ply_property *property = &element->properties[p];
+        double value;
+        if (property->count_type != CS_PLY_NO_TYPE) {
+            clshear_status status = read_list(reader, element, item, property);
+            if (status != CLSHEAR_OK) return status;
+            continue;
+        }
+        if (!cs_ply_next(&reader->cursor, property->type, &value))
+            return ends(reader, element, item);
+        if (property->role >= CS_PLY_SCALARS) continue;
+        given->value[property->role] = value;
+        given->type[property->role] = property->type;
+        given->is_there[property->role] = 1;
+    }
+    return CLSHEAR_OK;
+}
+
+/* ----- Vertices ----- */
+
+static clshear_status add_vertex(ply_reader *reader, const scalars *given)
+{
+    cs_model *model = reader->model;
+    double *position = cs_model_extend(&model->positions, 1);
+    if (position == NULL) return cs_model_full(model, reader->error);
+    memcpy(position, &given->value[CS_PLY_X], 3 * sizeof *position);
+    reader->has_normals = given->is_there[CS_PLY_NX] && given->is_there[CS_PLY_NZ];
+    if (reader->has_normals) {
+        float *normal = cs_model_extend(&model->normals, 1);
+        if (normal == NULL) return cs_model_full(model, reader->error);
+        for (int i = 0; i < 3; i++)
+            normal[i] = (float)given->value[CS_PLY_NX + i];
+    }
+    reader->has_coordinates = given->is_there[CS_PLY_S] && given->is_there[CS_PLY_T];
+    if (reader->has_coordinates) {
+        float *st = cs_model_extend(&model->textures, 1);
+        if (st == NULL) return cs_model_full(model, reader->error);
+        st[0] = (float)given->value[CS_PLY_S];
+        st[1] = (float)given->value[CS_PLY_T];
+    }
+    float colour[3];
+    if (!colour_of(given, colour)) return CLSHEAR_OK;
+    return cs_model_set_colour(model, model->positions.count - 1, colour, reader->error);
+}
+
+/* ----- Faces ----- */
+
+/* Texture coordinates of a face's own. */
+static clshear_status add_coordinates(ply_reader *reader, cs_corner *corners, size_t count)
+{
+    const double *texts = reader->texts.items;
+    if (reader->texts.count < 2 * count || count == 0) return CLSHEAR_OK;
+    cs_array *pool = &reader->model->textures;
+    const size_t first = pool->count;
+    float(*added)[2] = cs_model_extend(pool, count);
+    if (added == NULL) return cs_model_full(reader->model, reader->error);
+    for (size_t i = 0; i < count; i++) {
+        added[i][0] = (float)texts[2 * i];
+        added[i][1] = (float)texts[2 * i + 1];
+        corners[i].texture = (uint32_t)(first + i);
+    }
+    return CLSHEAR_OK;
+}
+
+/* Positions of a face's own, which have its colour. */
+static clshear_status add_coloured(ply_reader *reader, cs_corner *corners, size_t count,
+                                   const float *colour)
+{
+    cs_array *pool = &reader->model->positions;
+    for (size_t i = 0; i < count; i++) {
+        const size_t place = pool->count;
+        double *position = cs_model_extend(pool, 1);
+        if (position == NULL) return cs_model_full(reader->model, reader->error);
+        memcpy(position, ((double(*)[3])pool->items)[corners[i].position], 3 * sizeof *position);
+        corners[i].position = (uint32_t)place;
+        clshear_status status = cs_model_set_colour(reader->model, place, colour, reader->error);
+        if (status != CLSHEAR_OK) return status;
+    }
+    return CLSHEAR_OK;
+}
+
+static clshear_status add_face(ply_reader *reader, const cs_ply_element *element, size_t item,
+                               size_t vertices, const scalars *given)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_model *model = reader->model;
+    cs_error *error = reader->error;
+    cs_corner *corners = reader->corners.items;
+    const size_t count = reader->corners.count;
+    float colour[3];
+    for (size_t i = 0; i < count; i++) {
+        if (corners[i].position >= vertices)
+            return complain(reader, element, item, "it names a vertex that is not there");
+        if (reader->has_normals) corners[i].normal = corners[i].position;
+        if (reader->has_coordinates) corners[i].texture = corners[i].position;
+    }
+    CS_TRY(add_coordinates(reader, corners, count));
+    if (colour_of(given, colour)) CS_TRY(add_coloured(reader, corners, count, colour));
+    uint32_t material = 0;
+    const double number = given->value[CS_PLY_TEXTURE_NUMBER];
+    if (number > 0.0 && number < (double)model->materials.count) material = (uint32_t)number;
+    CS_TRY(cs_model_add_polygon(model, corners, count, material, 0, error));
+done:
+    return status;
+}
+
+/* A strip: each index makes a triangle with the two before it; -1 begins anew. */
+static clshear_status add_strip(ply_reader *reader, const cs_ply_element *element, size_t item,
+                                size_t vertices)
+{
+    const cs_corner *corners = reader->corners.items;
+    size_t length = 0;
+    for (size_t i = 0; i < reader->corners.count; i++) {
+        if (corners[i].position == CS_NO_INDEX) {
+            length = 0;
+            continue;
+        }
+        if (corners[i].position >= vertices)
+            return complain(reader, element, item, "it names a vertex that is not there");
+        if (++length < 3) continue;
+        const size_t odd = (length - 3) & 1;
+        cs_corner triangle[3] = {corners[i - 2 + odd], corners[i - 1 - odd], corners[i]};
+        for (int k = 0; k < 3; k++) {
+            if (reader->has_normals) triangle[k].normal = triangle[k].position;
+            if (reader->has_coordinates) triangle[k].texture = triangle[k].position;
+        }
+        clshear_status status =
+            cs_model_add_polygon(reader->model, triangle, 3, 0, 0, reader->error);
+        if (status != CLSHEAR_OK) return status;
+    }
+    return CLSHEAR_OK;
+}
+
+/* ----- Elements ----- */
+
+static int has_role(const cs_ply_element *element, cs_ply_role role)
+{
+    for (size_t p = 0; p < element->property_count; p++)
+        if (element->properties[p].role == role) return 1;
+    return 0;
+}
+
+/* Whether the rest of the file can hold as many items as the head says. */
+static clshear_status check_count(const ply_reader *reader, const cs_ply_element *element)
+{
+    size_t least = 0;
+    for (size_t p = 0; p < element->property_count; p++) {
+        const cs_ply_property *property = &element->properties[p];
+        const int is_list = property->count_type != CS_PLY_NO_TYPE;
+        least +=
+            cs_ply_least_size(reader->head.format, is_list ? property->count_type : property->type);
+        least += reader->head.format == CS_PLY_ASCII; /* a blank */
+    }
+    const size_t left = (size_t)(reader->cursor.end - reader->cursor.at) + 1;
+    if (element->count <= left / (least > 0 ? least : 1)) return CLSHEAR_OK;
+    return cs_fail(reader->error, CLSHEAR_BAD_FILE,
+                   "%s: says that it has %zu of \"%s\", more than the file can hold; it was cut",
+                   reader->model->path, element->count, element->name);
+}
+
+static clshear_status read_element(ply_reader *reader, const cs_ply_element *element,
+                                   size_t *vertices)
+{
+    const int is_vertex = strcmp(element->name, "vertex") == 0;
+    const int has_indices = has_role(element, CS_PLY_INDICES);
+    const int is_strip = strcmp(element->name, "tristrips") == 0 && has_indices;
+    const int is_face = strcmp(element->name, "face") == 0 && has_indices;
+    if (element->property_count == 0) return CLSHEAR_OK;
+    clshear_status status = check_count(reader, element);
+    if (status == CLSHEAR_OK && (is_strip || is_face) && *vertices == 0 && element->count > 0)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE,
+                       "%s: its faces come before its vertices, or there are no vertices",
+                       reader->model->path);
+    if (is_vertex && *vertices > 0)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: has vertices twice",
+                       reader->model->path);
+    for (size_t i = 0; i < element->count && status == CLSHEAR_OK; i++) {
+        scalars given = {0};
+        status = read_item(reader, element, i, &given);
+        if (status != CLSHEAR_OK) return status;
+        if (is_vertex)
+            status = add_vertex(reader, &given);
+        else if (is_face)
+            status = add_face(reader, element, i, *vertices, &given);
+        else if (is_strip)
+            status = add_strip(reader, element, i, *vertices);
+    }
+    if (is_vertex) *vertices = reader->model->positions.count;
+    return status;
+}
+
+/* A material for each texture; one at least. */
+static clshear_status add_materials(ply_reader *reader)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_model *model = reader->model;
+    char folder[CS_FILE_PATH], found[CS_FILE_PATH];
+    const char *folders[] = {folder};
+    cs_error *error = reader->error;
+    cs_folder_of(model->path, folder, sizeof folder);
+    for (size_t i = 0; i < reader->head.texture_count || i == 0; i++) {
+        cs_material_description *material = cs_model_extend(&model->materials, 1);
+        if (material == NULL) return cs_model_full(model, error);
+        cs_material_init(material, "default");
+        if (reader->head.texture_count == 0) continue;
+        const char *name = reader->head.textures[i];
+        const int there = cs_find_file(name, folders, 1, found);
+        for (int c = 0; c < 3; c++)
+            material->base_colour[c] = 1.0f;
+        CS_TRY(cs_model_add_image(model, there ? found : "", there ? found : name, NULL, 0,
+                                  &material->base_map.image, error));
+    }
+    /* A colour of its own is the colour, not half of it. */
+    cs_material_description *materials = model->materials.items;
+    for (int c = 0; c < 3 && model->colours.count > 0; c++)
+        materials[0].base_colour[c] = 1.0f;
+done:
+    return status;
+}
+
+/* Why there is nothing to render, if there is not. */
+static clshear_status check(const ply_reader *reader)
+{
+    const char *path = reader->model->path;
+    if (reader->model->triangles.count > 0) return CLSHEAR_OK;
+    for (size_t i = 0; i < reader->head.element_count; i++)
+        if (strcmp(reader->head.elements[i].name, "range_grid") == 0)
+            return cs_fail(reader->error, CLSHEAR_BAD_FILE,
+                           "%s: range grids are not supported; convert it to faces", path);
+    if (reader->model->positions.count > 0)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE,
+                       "%s: has %zu points but no faces; make a surface of them first", path,
+                       reader->model->positions.count);
+    return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: there are no faces in it", path);
+}
+
+static clshear_status read_elements(ply_reader *reader, cs_bytes *bytes)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_error *error = reader->error;
+    size_t vertices = 0;
+    CS_TRY(cs_ply_read_head(bytes, reader->model->path, &reader->head, error));
+    for (size_t i = 0; i < reader->head.element_count; i++) {
+        const cs_ply_element *element = &reader->head.elements[i];
+        CS_REQUIRE(strcmp(element->name, "vertex") != 0 || element->count == 0 ||
+                       (has_role(element, CS_PLY_X) && has_role(element, CS_PLY_Y) &&
+                        has_role(element, CS_PLY_Z)),
+                   CLSHEAR_BAD_FILE, "%s: its vertices have no x, y, z", reader->model->path);
+        CS_REQUIRE(strcmp(element->name, "face") != 0 || element->count == 0 ||
+                       has_role(element, CS_PLY_INDICES),
+                   CLSHEAR_BAD_FILE, "%s: its faces have no list called vertex_indices",
+                   reader->model->path);
+    }
+    reader->cursor = (cs_ply_cursor){bytes->data, bytes->data + reader->head.size,
+                                     bytes->data + bytes->size, reader->head.format};
+    for (size_t i = 0; i < reader->head.element_count; i++)
+        CS_TRY(read_element(reader, &reader->head.elements[i], &vertices));
+    CS_TRY(add_materials(reader));
+    CS_TRY(check(reader));
+done:
+    return status;
+}
+
+clshear_status cs_read_ply(cs_bytes *bytes, cs_model *model, cs_error *error)
+{
+    ply_reader *reader = calloc(1, sizeof *reader);
+    if (reader == NULL) return cs_model_full(model, error);
+    reader->model = model;
+    reader->error = error;
+    reader->corners.item_size = sizeof(cs_corner);
+    reader->texts.item_size = sizeof(double);
+    clshear_status status = CLSHEAR_OK;
+    if (bytes->size > 0 && (unsigned char)bytes->data[0] >= 0xef) /* a byte order mark */
+        status = cs_bytes_to_utf8(bytes, model->path, error);
+    if (status == CLSHEAR_OK && (bytes->size < 3 || memcmp(bytes->data, "ply", 3) != 0))
+        status =
+            cs_fail(error, CLSHEAR_BAD_FILE, "%s:1: a PLY file begins with \"ply\"", model->path);
+    if (status == CLSHEAR_OK) status = read_elements(reader, bytes);
+    cs_array_free(&reader->corners);
+    cs_array_free(&reader->texts);
+    free(reader);
+    return status;
+}

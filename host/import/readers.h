@@ -1,0 +1,23 @@
+/* The readers of scene files: one for each format. Each fills an empty model from the bytes of a
+ * file, which it may change, and reports a damaged file in one line: file, place, what is wrong. */
+#ifndef CS_IMPORT_READERS_H
+#define CS_IMPORT_READERS_H
+
+#include "import/model.h"
+#include "import/text.h"
+
+clshear_status cs_read_obj(cs_bytes *bytes, cs_model *model, cs_error *error);
+clshear_status cs_read_ply(cs_bytes *bytes, cs_model *model, cs_error *error);
+clshear_status cs_read_stl(cs_bytes *bytes, cs_model *model, cs_error *error);
+clshear_status cs_read_gltf(cs_bytes *bytes, cs_model *model, cs_error *error);
+
+/* Whether a file is one of these, by its first bytes and its name. */
+int cs_is_obj(const cs_bytes *bytes, const char *path);
+int cs_is_ply(const cs_bytes *bytes, const char *path);
+int cs_is_stl(const cs_bytes *bytes, const char *path);
+int cs_is_gltf(const cs_bytes *bytes, const char *path);
+
+/* Whether a path ends in ".obj" or the like, in any case. */
+int cs_has_suffix(const char *path, const char *suffix);
+
+#endif

@@ -1,0 +1,243 @@
+/* STL, as text and as bytes. */
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/number.h"
+#include "import/colour.h"
+#include "import/index_map.h"
+#include "import/readers.h"
+
+enum {
+    HEAD = 84,  /* bytes before the first facet */
+    FACET = 50, /* bytes of a facet */
+    NO_COLOUR = 1 << 16
+};
+
+/* A corner: those that are equal become one. */
+typedef struct stl_key {
+    double position[3];
+    uint64_t colour; /* 15 bits, or NO_COLOUR */
+} stl_key;
+
+typedef struct stl_reader {
+    cs_model *model;
+    cs_error *error;
+    cs_index_map corners; /* of stl_key */
+} stl_reader;
+
+static uint32_t word_at(const char *at)
+{
+    const unsigned char *byte = (const unsigned char *)at;
+    return (uint32_t)byte[0] | (uint32_t)byte[1] << 8 | (uint32_t)byte[2] << 16 |
+           (uint32_t)byte[3] << 24;
+}
+
+static int begins_with_solid(const cs_bytes *bytes)
+{
+    const char *at = bytes->data, *end = at + bytes->size;
+    while (at != end && (unsigned char)*at <= ' ' && *at != '\0')
+        at++;
+    return end - at >= 5 && strncasecmp(at, "solid", 5) == 0;
+}
+
+/* Whether the size is just that of the facets that the head counts. */
+static int has_binary_size(const cs_bytes *bytes)
+{
+    return bytes->size >= HEAD &&
+           bytes->size == HEAD + (size_t)FACET * word_at(bytes->data + HEAD - 4);
+}
+
+/* Whether it begins with "solid" and goes on as text. */
+static int is_text(const cs_bytes *bytes)
+{
+    if (!begins_with_solid(bytes) || has_binary_size(bytes)) return 0;
+    for (size_t i = 0; i < bytes->size && i < 512; i++)
+        if (bytes->data[i] == '\0') return 0;
+    return 1;
+}
+
+int cs_is_stl(const cs_bytes *bytes, const char *path)
+{
+    return cs_has_suffix(path, ".stl") || (begins_with_solid(bytes) && is_text(bytes));
+}
+
+/* The model's position for a corner. */
+static clshear_status add_corner(stl_reader *reader, const double *position, uint32_t colour,
+                                 cs_corner *corner)
+{
+    cs_model *model = reader->model;
+    stl_key key = {.colour = colour};
+    for (int i = 0; i < 3; i++)
+        key.position[i] = position[i] + 0.0; /* -0 is 0 */
+    const uint32_t number = cs_index_map_add(&reader->corners, &key);
+    if (number == UINT32_MAX) return cs_model_full(model, reader->error);
+    *corner = (cs_corner){number, CS_NO_INDEX, CS_NO_INDEX};
+    if (number < model->positions.count) return CLSHEAR_OK;
+    double *added = cs_model_extend(&model->positions, 1);
+    if (added == NULL) return cs_model_full(model, reader->error);
+    memcpy(added, key.position, sizeof key.position);
+    if (colour == NO_COLOUR) return CLSHEAR_OK;
+    float rgb[3];
+    for (int c = 0; c < 3; c++)
+        rgb[c] = cs_colour_value((double)(colour >> 5 * c & 31) / 31.0, 1);
+    return cs_model_set_colour(model, number, rgb, reader->error);
+}
+
+/* ----- Text ----- */
+
+static clshear_status complain(const stl_reader *reader, size_t line, const char *what)
+{
+    return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s:%zu: %s", reader->model->path, line, what);
+}
+
+static char *next_token(char **at, size_t *line)
+{
+    while (**at != '\0' && (unsigned char)**at <= ' ') {
+        *line += **at == '\n';
+        (*at)++;
+    }
+    char *token = *at;
+    while ((unsigned char)**at > ' ')
+        (*at)++;
+    return token;
+}
+
+static int is_word(const char *token, const char *end, const char *word)
+{
+    return (size_t)(end - token) == strlen(word) && strncasecmp(token, word, strlen(word)) == 0;
+}
+
+static clshear_status read_vertex(stl_reader *reader, char **at, size_t *line, cs_corner *corner)
+{
+    double position[3];
+    for (int i = 0; i < 3; i++) {
+        const char *token = next_token(at, line);
+        if (token == *at) return complain(reader, *line, "the file ends in a vertex; it was cut");
+        if (cs_parse_number(token, *at, &position[i]) != *at)
+            return complain(reader, *line, "a vertex needs three numbers");
+    }
+    return add_corner(reader, position, NO_COLOUR, corner);
+}
+
+static clshear_status read_text(stl_reader *reader, cs_bytes *bytes)
+{
+    char *at = bytes->data;
+    size_t line = 1, count = 0;
+    cs_corner corners[3];
+    int inside = 0;
+    clshear_status status = CLSHEAR_OK;
+    while (status == CLSHEAR_OK) {
+        const char *token = next_token(&at, &line);
+        if (token == at) break;
+        if (is_word(token, at, "facet")) {
+            inside = 1;
+            count = 0;
+        } else if (is_word(token, at, "vertex")) {
+            if (!inside) continue; /* a word of the solid's name */
+            if (count == 3) return complain(reader, line, "a facet has more than three vertices");
+            status = read_vertex(reader, &at, &line, &corners[count++]);
+        } else if (is_word(token, at, "endfacet")) {
+            if (!inside || count != 3)
+                return complain(reader, line, "a facet has fewer than three vertices");
+            status = cs_model_add_polygon(reader->model, corners, 3, CS_NO_INDEX, 0, reader->error);
+            inside = 0;
+        }
+    }
+    if (status == CLSHEAR_OK && inside)
+        return complain(reader, line, "the file ends in a facet; it was cut");
+    return status;
+}
+
+/* ----- Bytes ----- */
+
+/* Colours of facets: Magics writes "COLOR=" into the head and clears bit 15 of facets with a colour
+ * of their own, red first; VisCAM sets bit 15, blue first. Others leave anything there, so that
+ * VisCAM's counts only where all facets have it. */
+typedef enum stl_colours {
+    NONE,
+    MAGICS,
+    VISCAM
+} stl_colours;
+
+static stl_colours colours_of(const cs_bytes *bytes, size_t facets)
+{
+    for (size_t i = 0; i + 6 + 4 <= 80; i++)
+        if (memcmp(bytes->data + i, "COLOR=", 6) == 0) return MAGICS;
+    for (size_t i = 0; i < facets; i++)
+        if ((bytes->data[HEAD + i * FACET + 49] & 0x80) == 0) return NONE;
+    return facets > 0 ? VISCAM : NONE;
+}
+
+/* 15 bits, red lowest. */
+static uint32_t colour_at(const cs_bytes *bytes, stl_colours kind, const char *facet)
+{
+    const uint32_t bits = (uint32_t)(unsigned char)facet[48] | (uint32_t)(unsigned char)facet[49]
+                                                                   << 8;
+    if (kind == NONE) return NO_COLOUR;
+    if (kind == VISCAM) return (bits & 31) << 10 | (bits & 31 << 5) | (bits >> 10 & 31);
+    if ((bits & 0x8000) == 0 && bits != 0) return bits; /* 0 is what others leave there */
+    const char *head = bytes->data;
+    while (memcmp(head, "COLOR=", 6) != 0)
+        head++;
+    uint32_t colour = 0;
+    for (int c = 0; c < 3; c++)
+        colour |= (uint32_t)((unsigned char)head[6 + c] >> 3) << 5 * c;
+    return colour;
+}
+
+static clshear_status read_binary(stl_reader *reader, const cs_bytes *bytes)
+{
+    const char *path = reader->model->path;
+    if (bytes->size < HEAD)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE,
+                       "%s: is shorter than the head of an STL file; it was cut", path);
+    const size_t facets = word_at(bytes->data + HEAD - 4);
+    const size_t room = (bytes->size - HEAD) / FACET;
+    if (facets > room)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE,
+                       "%s: says that it has %zu triangles, but ends after %zu; it was cut", path,
+                       facets, room);
+    const stl_colours kind = colours_of(bytes, facets);
+    clshear_status status = CLSHEAR_OK;
+    for (size_t i = 0; i < facets && status == CLSHEAR_OK; i++) {
+        const char *facet = bytes->data + HEAD + i * FACET;
+        const uint32_t colour = colour_at(bytes, kind, facet);
+        cs_corner corners[3];
+        for (size_t k = 0; k < 3 && status == CLSHEAR_OK; k++) {
+            double position[3];
+            for (size_t axis = 0; axis < 3; axis++) {
+                const uint32_t word = word_at(facet + 12 + 12 * k + 4 * axis);
+                float value;
+                memcpy(&value, &word, sizeof value);
+                position[axis] = (double)value;
+            }
+            status = add_corner(reader, position, colour, &corners[k]);
+        }
+        if (status == CLSHEAR_OK)
+            status = cs_model_add_polygon(reader->model, corners, 3, kind == NONE ? CS_NO_INDEX : 0,
+                                          0, reader->error);
+    }
+    if (status != CLSHEAR_OK || kind == NONE) return status;
+    cs_material_description *material = cs_model_extend(&reader->model->materials, 1);
+    if (material == NULL) return cs_model_full(reader->model, reader->error);
+    cs_material_init(material, "colours of facets");
+    for (int c = 0; c < 3; c++)
+        material->base_colour[c] = 1.0f;
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_read_stl(cs_bytes *bytes, cs_model *model, cs_error *error)
+{
+    stl_reader reader = {.model = model, .error = error};
+    cs_index_map_init(&reader.corners, sizeof(stl_key));
+    clshear_status status = CLSHEAR_OK;
+    if (bytes->size > 0 && (unsigned char)bytes->data[0] >= 0xef && !has_binary_size(bytes))
+        status = cs_bytes_to_utf8(bytes, model->path, error);
+    if (status == CLSHEAR_OK)
+        status = is_text(bytes) ? read_text(&reader, bytes) : read_binary(&reader, bytes);
+    if (status == CLSHEAR_OK && model->triangles.count == 0)
+        status = cs_fail(error, CLSHEAR_BAD_FILE, "%s: there are no triangles in it", model->path);
+    cs_index_map_free(&reader.corners);
+    return status;
+}

@@ -1,0 +1,269 @@
+/* Scene files as the device sees them: wraps, colours of vertices, cameras, smoothness, places far
+ * from the origin. Uses the public interface alone. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+
+#include "clshear/clshear.h"
+
+static clshear_context *context;
+static char warnings[2048];
+
+static void collect(void *user, const char *line)
+{
+    const size_t used = strlen(warnings);
+    (void)user;
+    snprintf(warnings + used, sizeof warnings - used, "%s\n", line);
+}
+
+static int open_context(void **state)
+{
+    (void)state;
+    if (clshear_context_create(NULL, &context) != CLSHEAR_OK) return -1;
+    clshear_context_set_warning(context, collect, NULL);
+    return 0;
+}
+
+static int close_context(void **state)
+{
+    (void)state;
+    clshear_context_free(context);
+    return 0;
+}
+
+static void ok(clshear_status status)
+{
+    if (status != CLSHEAR_OK) fail_msg("%s", clshear_message());
+}
+
+static const char *write_file(const char *name, const void *bytes, size_t size)
+{
+    static char path[512];
+    snprintf(path, sizeof path, "%s/%s", SCRATCH, name);
+    FILE *stream = fopen(path, "wb");
+    assert_non_null(stream);
+    assert_int_equal(fwrite(bytes, 1, size, stream), size);
+    fclose(stream);
+    return path;
+}
+
+static const char *write_text(const char *name, const char *text)
+{
+    return write_file(name, text, strlen(text));
+}
+
+/* Settings for one pixel that is lit head-on, so that radiance is albedo: by a point light at
+ * distance 1 with intensity pi. */
+static clshear_settings *look_at(double x, double y, double z)
+{
+    const double pi = 3.14159265358979;
+    const double eye[3] = {x, y, z + 2}, target[3] = {x, y, z};
+    const double light[6] = {x, y, z + 1, pi, pi, pi};
+    clshear_settings *settings = NULL;
+    ok(clshear_settings_create(&settings));
+    ok(clshear_settings_set_integer(settings, CLSHEAR_WIDTH, 1));
+    ok(clshear_settings_set_integer(settings, CLSHEAR_HEIGHT, 1));
+    ok(clshear_settings_set_integer(settings, CLSHEAR_SPP, 4));
+    ok(clshear_settings_set_number(settings, CLSHEAR_FOV, 0.05));
+    ok(clshear_settings_set_number(settings, CLSHEAR_LENS_RADIUS, 0.0));
+    ok(clshear_settings_set_numbers(settings, CLSHEAR_EYE, eye, 3));
+    ok(clshear_settings_set_numbers(settings, CLSHEAR_TARGET, target, 3));
+    ok(clshear_settings_set_numbers(settings, CLSHEAR_LIGHT, light, 6));
+    return settings;
+}
+
+static void expect_colour(clshear_scene *scene, double x, double y, double z, float r, float g,
+                          float b)
+{
+    const float expected[3] = {r, g, b};
+    const char *names[3] = {"R", "G", "B"};
+    clshear_settings *settings = look_at(x, y, z);
+    clshear_film *film = NULL;
+    ok(clshear_render(scene, settings, &film));
+    for (int c = 0; c < 3; c++) {
+        const float value = *clshear_film_channel(film, names[c]);
+        if (!(fabsf(value - expected[c]) < 0.01f))
+            fail_msg("%s at %g %g is %g, not %g", names[c], x, y, (double)value,
+                     (double)expected[c]);
+    }
+    clshear_film_free(film);
+    clshear_settings_free(settings);
+}
+
+static clshear_scene *load(const char *path, const clshear_settings *settings)
+{
+    clshear_scene *scene = NULL;
+    warnings[0] = '\0';
+    ok(clshear_scene_load(context, path, settings, &scene));
+    return scene;
+}
+
+/* A square whose texture coordinates run from -1 to 2: the image, red and green over blue and
+ * white, is in the middle. */
+static void maps_beyond_their_edges(void **state)
+{
+    static const unsigned char picture[] = {'P', '6', '\n', '2', ' ', '2', '\n', '2',
+                                            '5', '5', '\n', 255, 0,   0,   0,    255,
+                                            0,   0,   0,    255, 255, 255, 255};
+    static const char *const wraps[2] = {"10497", "33648"};
+    char text[2048];
+    (void)state;
+    write_file("wrap.ppm", picture, sizeof picture);
+    write_text("wrap.mtl", "newmtl t\nKd 1 1 1\nmap_Kd -clamp on wrap.ppm\n");
+    clshear_scene *scene =
+        load(write_text("wrap.obj", "mtllib wrap.mtl\nv 0 0 0\nv 3 0 0\nv 3 3 0\n"
+                                    "v 0 3 0\nvt -1 -1\nvt 2 -1\nvt 2 2\n"
+                                    "vt -1 2\nusemtl t\nf 1/1 2/2 3/3 4/4\n"),
+             NULL);
+    expect_colour(scene, 1.25, 1.25, 0, 0, 0, 1);
+    expect_colour(scene, 0.2, 0.2, 0, 0, 0, 1);
+    expect_colour(scene, 2.8, 0.1, 0, 1, 1, 1);
+    expect_colour(scene, 0.1, 2.9, 0, 1, 0, 0);
+    expect_colour(scene, 2.3, 1.5, 0, 0.5f, 1, 0.5f); /* between green and white */
+    clshear_scene_free(scene);
+    for (int mirror = 0; mirror < 2; mirror++) {
+        snprintf(text, sizeof text,
+                 "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0,\"scale\":[3,3,1]}],"
+                 "\"images\":[{\"uri\":\"wrap.ppm\"}],\"textures\":[{\"source\":0,\"sampler\":0}],"
+                 "\"samplers\":[{\"wrapS\":%s,\"wrapT\":%s}],\"materials\":[{"
+                 "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"extensions\":{"
+                 "\"KHR_texture_transform\":{\"scale\":[3,3],\"offset\":[-1,-1]}}}}}],"
+                 "\"meshes\":[{\"primitives\":[{\"mode\":5,\"material\":0,\"attributes\":"
+                 "{\"POSITION\":0,\"TEXCOORD_0\":1}}]}],\"accessors\":[{\"bufferView\":0,"
+                 "\"componentType\":5121,\"count\":4,\"type\":\"VEC3\"},{\"bufferView\":0,"
+                 "\"byteOffset\":16,\"componentType\":5121,\"count\":4,\"type\":\"VEC2\"}],"
+                 "\"bufferViews\":[{\"buffer\":0,\"byteLength\":32,\"byteStride\":4}],"
+                 /* corners 00, 10, 01, 11, as bytes; t grows downwards */
+                 "\"buffers\":[{\"byteLength\":32,\"uri\":\"data:;base64,"
+                 "AAAAAAEAAAAAAQAAAQEAAAABAAABAQAAAAAAAAEAAAA=\"}]}",
+                 wraps[mirror], wraps[mirror]);
+        scene = load(write_text("wrap.gltf", text), NULL);
+        expect_colour(scene, 1.25, 1.25, 0, 0, 0, 1);
+        if (mirror)
+            expect_colour(scene, 0.25, 1.25, 0, 1, 1, 1);
+        else
+            expect_colour(scene, 0.25, 1.25, 0, 0, 0, 1);
+        if (mirror)
+            expect_colour(scene, 1.25, 2.25, 0, 1, 0, 0);
+        else
+            expect_colour(scene, 1.25, 2.25, 0, 0, 0, 1);
+        clshear_scene_free(scene);
+    }
+}
+
+/* Colours of vertices are interpolated, and multiply the material's. */
+static void vertices_have_colours(void **state)
+{
+    (void)state;
+    write_text("half.mtl", "newmtl h\nKd 0.5 0.5 0.5\n");
+    clshear_scene *scene =
+        load(write_text("ramp.obj", "mtllib half.mtl\nusemtl h\nv -1 -1 0 1 0 0\nv 1 -1 0 0 1 0\n"
+                                    "v 1 1 0 0 1 0\nv -1 1 0 1 0 0\nf 1 2 3 4\n"),
+             NULL);
+    expect_colour(scene, -0.9, 0.3, 0, 0.475f, 0.025f, 0);
+    expect_colour(scene, 0.5, -0.2, 0, 0.125f, 0.375f, 0);
+    clshear_scene_free(scene);
+}
+
+/* A scene far away looks as one at the origin, and its camera is in coordinates of the file. */
+static void far_scenes_look_alike(void **state)
+{
+    double eye[3];
+    size_t count = 0;
+    clshear_settings *settings = NULL;
+    (void)state;
+    clshear_scene *scene =
+        load(write_text("far.obj", "v 500000 4649776 100\nv 500002 4649776 100\n"
+                                   "v 500002 4649778 100\nv 500000 4649778 100\nf 1 2 3 4\n"),
+             NULL);
+    assert_non_null(strstr(warnings, "far from the origin, at 500001,4649777,100;"));
+    expect_colour(scene, 500000.125, 4649777.5, 100, 0.5f, 0.5f, 0.5f);
+    expect_colour(scene, 499999.875, 4649777.5, 100, 0, 0, 0); /* beside it */
+    ok(clshear_settings_create(&settings));
+    ok(clshear_camera_complete(scene, settings));
+    ok(clshear_settings_get_numbers(settings, CLSHEAR_EYE, eye, 3, &count));
+    assert_true(eye[0] == 500001.0 && eye[1] == 4649777.0 && eye[2] > 102.0 && eye[2] < 104.0);
+    const clshear_light light = {
+        .struct_size = sizeof light, .position = {500001, 4649777, 101}, .colour = {3, 3, 3}};
+    ok(clshear_scene_add_light(scene, &light));
+    clshear_settings_free(settings);
+    clshear_scene_free(scene);
+}
+
+static void cameras_are_chosen(void **state)
+{
+    double eye[3];
+    size_t count = 0;
+    clshear_settings *settings = NULL;
+    (void)state;
+    clshear_scene *scene = load(
+        write_text("cameras.gltf",
+                   "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0},{\"camera\":0,"
+                   "\"translation\":[0,0,5]},{\"camera\":1,\"translation\":[0,0,9]}],"
+                   "\"cameras\":[{\"name\":\"near\",\"type\":\"perspective\",\"perspective\":"
+                   "{\"yfov\":0.5}},{\"name\":\"far\",\"type\":\"perspective\",\"perspective\":"
+                   "{\"yfov\":0.5}}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}"
+                   "}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5121,\"count\":3,"
+                   "\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":12,"
+                   "\"byteStride\":4}],\"buffers\":[{\"byteLength\":12,"
+                   "\"uri\":\"data:;base64,AAAAAAEAAAAAAQAA\"}]}"),
+        NULL);
+    assert_string_equal(clshear_scene_camera(scene, 1), "far");
+    assert_null(clshear_scene_camera(scene, 2));
+    static const struct {
+        const char *name;
+        double z;
+    } cases[] = {{NULL, 5}, {"far", 9}, {"0", 5}, {"1", 9}};
+    for (int i = 0; i < 4; i++) {
+        ok(clshear_settings_create(&settings));
+        if (cases[i].name != NULL)
+            ok(clshear_settings_set_text(settings, CLSHEAR_CAMERA, cases[i].name));
+        ok(clshear_camera_complete(scene, settings));
+        ok(clshear_settings_get_numbers(settings, CLSHEAR_EYE, eye, 3, &count));
+        assert_true(eye[2] == cases[i].z);
+        clshear_settings_free(settings);
+    }
+    ok(clshear_settings_create(&settings));
+    ok(clshear_settings_set_text(settings, CLSHEAR_CAMERA, "side"));
+    assert_int_equal(clshear_camera_complete(scene, settings), CLSHEAR_BAD_ARGUMENT);
+    assert_string_equal(clshear_message(), "camera side: the scene has 2: 0 \"near\", 1 \"far\"");
+    clshear_settings_free(settings);
+    clshear_scene_free(scene);
+}
+
+/* Two planes that meet at 90 degrees: beside their edge, the smooth normal faces the light. */
+static void smoothness_is_a_setting(void **state)
+{
+    clshear_settings *settings = NULL;
+    (void)state;
+    const char *path =
+        write_text("roof.obj", "v -1 -1 -1\nv 0 -1 0\nv 0 1 0\nv -1 1 -1\nv 1 -1 -1\n"
+                               "v 1 1 -1\nf 1 2 3 4\nf 2 5 6 3\n");
+    clshear_scene *scene = load(path, NULL);
+    expect_colour(scene, -0.001, 0, 0, 0.3536f, 0.3536f, 0.3536f); /* cos 45 of 0.5 */
+    clshear_scene_free(scene);
+    ok(clshear_settings_create(&settings));
+    ok(clshear_settings_set_number(settings, CLSHEAR_SMOOTH, 100.0));
+    scene = load(path, settings);
+    expect_colour(scene, -0.001, 0, 0, 0.5f, 0.5f, 0.5f);
+    clshear_scene_free(scene);
+    clshear_settings_free(settings);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(maps_beyond_their_edges), cmocka_unit_test(vertices_have_colours),
+        cmocka_unit_test(far_scenes_look_alike),   cmocka_unit_test(cameras_are_chosen),
+        cmocka_unit_test(smoothness_is_a_setting),
+    };
+    return cmocka_run_group_tests(tests, open_context, close_context);
+}
