@@ -353,17 +353,20 @@ output=$("$program" "$cornell" --width 64 --height 64 --spp 256 --out g.exr 2>&1
 [ "$(echo "$output" | grep -c ' %')" -le 11 ] || wrong "too many lines of progress"
 case $output in *"100 %"*) ;; *) wrong "never at 100 %: $output" ;; esac
 
-# Ctrl-C: what was done is written, with true counts, and the exit code says so.
-rm -f h.exr
-"$program" "$cornell" --spp 200000 --width 64 --height 64 --out h.exr 2>h.txt &
-child=$!
-for _ in $(seq 300); do grep -q '10 %' h.txt 2>/dev/null && break; sleep 0.1; done
-kill -INT $child
-wait $child
-[ $? -eq 130 ] || wrong "interrupted: exit code"
-grep -q "h.exr holds the samples so far" h.txt || wrong "interrupted: $(cat h.txt)"
-[ -s h.exr ] || wrong "interrupted: no picture"
-oiiotool --info h.exr | grep -q "64 x   64, 13 channel" || wrong "interrupted: bad file"
+# Ctrl-C, kill and a closed terminal: what was done is written, with true counts, and the exit code
+# says so.
+for signal in INT:130 TERM:143 HUP:129; do
+    rm -f h.exr h.txt
+    "$program" "$cornell" --spp 200000 --width 64 --height 64 --out h.exr 2>h.txt &
+    child=$!
+    for _ in $(seq 300); do grep -q '10 %' h.txt 2>/dev/null && break; sleep 0.1; done
+    kill -"${signal%:*}" $child
+    wait $child
+    [ $? -eq "${signal#*:}" ] || wrong "$signal: exit code"
+    grep -q "h.exr holds the samples so far" h.txt || wrong "$signal: $(cat h.txt)"
+    [ -s h.exr ] || wrong "$signal: no picture"
+    oiiotool --info h.exr | grep -q "64 x   64, 13 channel" || wrong "$signal: bad file"
+done
 
 # A full disk: one line, exit 1, the old picture untouched and nothing left behind.
 echo old >kept.exr

@@ -17,6 +17,6 @@ static int run(int argc, char **argv)
 int main(int argc, char **argv)
 {
     const int code = run(argc, argv);
-    if (fflush(stdout) == 0 && !ferror(stdout)) return code;
+    if (code != EXIT_DONE || (fflush(stdout) == 0 && !ferror(stdout))) return code;
     return complain(EXIT_FAILED, "standard output: cannot be written: %s", strerror(errno));
 }
