@@ -39,6 +39,9 @@ static void check_draws(int kind, const float *normal)
         assert_true(fabs(dot(drawn.in, drawn.in) - 1.0) < 1e-5 && cosine > -1e-6);
         if (!(drawn.density > 0.0f)) continue;
         const cs_bsdf_value value = cs_bsdf_eval(&surface, out, drawn.in);
+        const float longer[3] = {3.0f * drawn.in[0], 3.0f * drawn.in[1], 3.0f * drawn.in[2]};
+        const double density = (double)cs_bsdf_density(&surface, out, longer);
+        assert_near(density, drawn.density, 1e-4 * density + 1e-6);
         const double share = cosine / (double)drawn.density / (SIDE * SIDE);
         reflected += (double)(drawn.value.scale * drawn.value.colour[0]) * share;
         evaluated += (double)(value.scale * value.colour[0]) * share;

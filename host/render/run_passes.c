@@ -15,9 +15,12 @@ cs_pass cs_job_pass(const cs_job *job)
                                 .crop_height = (cs_u32)(job->window[3] - job->window[2]),
                                 .shear_mode = cs_shear_mode(job->shear_kind),
                                 .lights = lighting->count,
-                                .emitters = job->scene->device_scene.emitters},
+                                .area_lights = lighting->area_count,
+                                .bounces = (cs_u32)cs_integer(&job->settings, BOUNCES),
+                                .clamp = (float)cs_number(&job->settings, CLAMP)},
                      .optics = job->optics_table,
-                     .lights = lighting->lights,
+                     .lighting = lighting,
+                     .features = job->features,
                      .start_s = cs_now_s(),
                      .rate = 1e5};
 }

@@ -68,12 +68,12 @@ clshear_status cs_scene_complete(clshear_scene *scene, cs_error *error)
     clshear_context *context = scene->context;
     clshear_scene_info *info = &scene->info;
     cs_flat_bvh bvh = {0};
-    CS_TRY(cs_pass_warm_up(context->device, error));
+    CS_TRY(cs_pass_warm_up(context->device, 0u, error));
     const double compiled_s = cs_now_s();
     CS_TRY(cs_accel_create(&scene->scene, context->threads, &scene->accel, error));
     CS_TRY(cs_accel_build_bvh(scene->accel, &bvh, error));
     CS_TRY(cs_scene_upload(&scene->device_scene, context->device, &scene->scene, &bvh, error));
-    CS_TRY(cs_scene_upload_lights(&scene->device_scene, context->device, &scene->scene, error));
+    CS_TRY(cs_scene_upload_emitters(&scene->device_scene, context->device, &scene->scene, error));
     info->triangles = cs_scene_triangle_count(&scene->scene);
     info->degenerate = scene->scene.degenerate;
     info->nodes = bvh.nodes.count;
@@ -89,8 +89,5 @@ done:
 
 clshear_status cs_scene_light(clshear_scene *scene, const clshear_light *light, cs_error *error)
 {
-    clshear_status status = cs_scene_add_light(&scene->scene, light, error);
-    if (status != CLSHEAR_OK || !scene->is_complete) return status;
-    return cs_scene_upload_lights(&scene->device_scene, scene->context->device, &scene->scene,
-                                  error);
+    return cs_scene_add_light(&scene->scene, light, error);
 }

@@ -103,23 +103,25 @@ static double describe_emitter(const cs_scene *scene, size_t triangle, cs_emitte
     return (double)emitter->area * (double)luminance(look->emission);
 }
 
-clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, cs_error *error)
+clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, double *total,
+                                 cs_error *error)
 {
     const uint32_t *materials = scene->triangle_materials.items;
     const cs_material *looks = scene->materials.items;
-    double total = 0.0, below = 0.0;
+    double below = 0.0;
+    *total = 0.0;
     for (size_t i = 0; i < scene->indices.count; i++) {
         if (!(luminance(looks[materials[i]].emission) > 0.0f)) continue;
         cs_emitter *emitter = cs_array_extend(emitters, 1);
         if (emitter == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
         double power = describe_emitter(scene, i, emitter);
         emitter->probability = (float)power;
-        total += power;
+        *total += power;
     }
     cs_emitter *table = emitters->items;
     for (size_t i = 0; i < emitters->count; i++) {
         below += (double)table[i].probability;
-        table[i].cumulative = i + 1 < emitters->count ? (float)(below / total) : 1.0f;
+        table[i].cumulative = i + 1 < emitters->count ? (float)(below / *total) : 1.0f;
         /* As the search in the rounded table finds it, so that the estimate stays unbiased. */
         table[i].probability = table[i].cumulative - (i > 0 ? table[i - 1].cumulative : 0.0f);
     }

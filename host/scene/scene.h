@@ -55,7 +55,9 @@ clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, c
 /* A white point light under the top of the bounding box, as bright as daylight inside it. */
 cs_light cs_scene_default_light(const cs_scene *scene);
 
-/* The emissive triangles (cs_emitter, in `emitters`), with probabilities in proportion to power. */
-clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, cs_error *error);
+/* The emissive triangles (cs_emitter, in `emitters`), with probabilities in proportion to power:
+ * area times luminance, whose sum is `total`. */
+clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, double *total,
+                                 cs_error *error);
 
 #endif

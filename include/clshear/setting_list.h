@@ -123,6 +123,10 @@
     /* Light */ \
     X(LIGHT, 60, "light", "", NUMBER, 6, 64, "", -1e15, 1e15, none, PRIVATE, "X,Y,Z,R,G,B", \
       "add a point light; repeatable") \
+    X(BOUNCES, 70, "bounces", "", INTEGER, 1, 1, "0", 0, 64, none, RECIPE, "N", \
+      "surfaces that light meets on its way; 0: direct light") \
+    X(CLAMP, 71, "clamp", "", NUMBER, 1, 1, "0", 0, 1e15, none, RECIPE, "L", \
+      "most that a bounce adds to a sample (biased); 0: off") \
     /* Device */ \
     X(DEVICE, 80, "device", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "NAME", \
       "OpenCL device: number or part of its name") \

@@ -42,6 +42,22 @@ static inline cs_bsdf_value cs_bsdf_eval(const cs_surface *surface, const cs_vfl
     return value;
 }
 
+/* The density, per steradian, with which cs_bsdf_sample draws `in`. */
+static inline cs_vfloat cs_bsdf_density(const cs_surface *surface, const cs_vfloat *out,
+                                        const cs_vfloat *in)
+{
+    cs_vfloat density = (cs_vfloat)(0.0f);
+#define CS_BSDF_DENSITY(identifier, name, suffix)                                  \
+    {                                                                              \
+        cs_vint mine = cs_bsdf_lanes(surface, CS_BSDF_##identifier);               \
+        if (CS_BSDF_KINDS == 1 || cs_any(mine))                                    \
+            density = mine ? cs_bsdf_density_##suffix(surface, out, in) : density; \
+    }
+    CS_BSDF_LIST(CS_BSDF_DENSITY)
+#undef CS_BSDF_DENSITY
+    return density;
+}
+
 /* Draws a direction `in` by a point of the unit square in each lane. */
 static inline cs_bsdf_direction cs_bsdf_sample(const cs_surface *surface, const cs_vfloat *out,
                                                cs_pair pair)

@@ -16,6 +16,7 @@ static inline cs_light_sample cs_sample_light_point(CS_GLOBAL const cs_light *li
     cs_vfloat cosine = cs_dot(surface->normal, sample.towards);
     cs_vfloat square = cs_max(cs_dot(sample.towards, sample.towards), (cs_vfloat)(1e-30f));
     sample.weight = cosine / (square * sqrt(square));
+    sample.density = (cs_vfloat)(0.0f);
     sample.reach = 1.0f;
     return sample;
 }
@@ -30,6 +31,7 @@ static inline cs_light_sample cs_sample_light_directional(CS_GLOBAL const cs_lig
         sample.colour[axis] = (cs_vfloat)(light->colour[axis]);
     }
     sample.weight = cs_dot(surface->normal, sample.towards);
+    sample.density = (cs_vfloat)(0.0f);
     sample.reach = INFINITY;
     return sample;
 }

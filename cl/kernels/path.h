@@ -1,0 +1,186 @@
+/* The radiance along a packet of rays, with the light that comes by way of several surfaces.
+ * Device only.
+ *
+ * At every surface each light is sampled, and a direction of the BSDF is followed. What both can
+ * find is weighted by the power heuristic (Veach 1997, section 9.2.4, exponent 2). Paths end by
+ * Russian roulette (Arvo & Kirk 1990) or after launch.bounces surfaces. */
+#ifndef CS_PATH_H
+#define CS_PATH_H
+
+#include "kernels/draws.h"
+#include "kernels/launch.h"
+#include "kernels/light/escaped.h"
+#include "kernels/radiance.h"
+
+enum {
+    CS_ROULETTE_FROM = 3 /* surfaces that a path passes without roulette */
+};
+
+typedef struct cs_path {
+    cs_ray ray;
+    cs_vint alive;           /* lanes whose ray is to be followed */
+    cs_vfloat throughput[3]; /* radiance at the lens for one at the end of the ray */
+    cs_vfloat density;       /* with which the BSDF drew the ray; of camera rays it is not used */
+    cs_u32 depth;            /* surfaces behind the path */
+    cs_f32 clamp;            /* as in cs_launch */
+    cs_radiance radiance;    /* found so far */
+} cs_path;
+
+/* Weight of a sample with density `own` where another way would have drawn it with `other`. The
+ * ratio keeps squares within floats. */
+static inline cs_vfloat cs_power_weight(cs_vfloat own, cs_vfloat other)
+{
+    cs_vfloat ratio = other / cs_max(own, (cs_vfloat)(1e-30f));
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+/* Adds `colour` times `weight` at the end of the paths; lanes with weight 0 add nothing. */
+static inline void cs_path_add(cs_path *path, cs_vfloat weight, const cs_vfloat *colour)
+{
+    cs_vfloat added[3], scale = (cs_vfloat)(1.0f);
+    for (int c = 0; c < 3; c++)
+        added[c] = path->throughput[c] * weight * colour[c];
+    if (path->clamp > 0.0f && path->depth > 0u) {
+        cs_vfloat most = cs_max(added[0], cs_max(added[1], added[2]));
+        scale = most > path->clamp ? path->clamp / most : scale;
+    }
+    for (int c = 0; c < 3; c++)
+        path->radiance.channel[c] += weight > 0.0f ? added[c] * scale : (cs_vfloat)(0.0f);
+}
+
+/* Adds what surfaces emit towards the path. */
+static inline void cs_path_add_emission(const cs_scene_buffers *scene, cs_u32 lights,
+                                        const cs_surface *surface, cs_vfloat distance,
+                                        cs_path *path)
+{
+    cs_vint shines = surface->hit & (cs_luminance(surface->emission) > 0.0f);
+    if (!cs_any(shines)) return;
+    cs_vfloat weight = (cs_vfloat)(1.0f);
+    if (path->depth > 0u)
+        weight = cs_power_weight(path->density,
+                                 cs_emitter_density(scene, lights, surface, &path->ray, distance));
+    cs_path_add(path, shines ? weight : (cs_vfloat)(0.0f), surface->emission);
+}
+
+/* Adds what one light reflects towards the path, as cs_add_light does for direct light alone. */
+static inline void cs_path_add_light(const cs_scene_buffers *scene, const cs_surface *surface,
+                                     const cs_vfloat *origin, const cs_vfloat *out,
+                                     const cs_light_sample *light, cs_path *path)
+{
+    cs_vint facing =
+        surface->hit & (light->weight > 0.0f) & (cs_dot(surface->outward, light->towards) > 0.0f);
+    if (!cs_any(facing)) return;
+    cs_ray shadow;
+    for (int axis = 0; axis < 3; axis++) {
+        shadow.origin[axis] = origin[axis];
+        shadow.direction[axis] = light->towards[axis];
+        if (light->reach < INFINITY) shadow.direction[axis] += surface->point[axis] - origin[axis];
+    }
+    cs_hit blocked;
+    blocked.distance = facing ? (cs_vfloat)(light->reach) : (cs_vfloat)(-1.0f);
+    cs_traverse(scene->nodes, scene->triangles, &shadow, 1, &blocked);
+    cs_bsdf_value bsdf = cs_bsdf_eval(surface, out, light->towards);
+    /* Lights that no direction finds have density 0: their sample counts whole. */
+    cs_vfloat other = cs_bsdf_density(surface, out, light->towards);
+    cs_vfloat share =
+        light->density > 0.0f ? cs_power_weight(light->density, other) : (cs_vfloat)(1.0f);
+    cs_vfloat weight =
+        blocked.distance > 0.0f ? light->weight * bsdf.scale * share : (cs_vfloat)(0.0f);
+    cs_vfloat colour[3];
+    for (int c = 0; c < 3; c++)
+        colour[c] = light->colour[c] * bsdf.colour[c];
+    cs_path_add(path, weight, colour);
+    path->radiance.shadow_rays += facing ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
+}
+
+/* Roulette by the largest channel: lanes go on with that chance, and count for those that do not.
+ */
+static inline void cs_path_roulette(cs_vfloat chance, cs_path *path)
+{
+    cs_vfloat most = cs_max(path->throughput[0], cs_max(path->throughput[1], path->throughput[2]));
+    cs_vfloat stays = cs_clamp(most, (cs_vfloat)(0.0f), (cs_vfloat)(1.0f));
+    path->alive = path->alive & (chance < stays);
+    for (int c = 0; c < 3; c++)
+        path->throughput[c] /= cs_max(stays, (cs_vfloat)(1e-20f));
+}
+
+/* Turns the ray into one that leaves the surface as the BSDF draws it. */
+static inline void cs_path_scatter(const cs_surface *surface, const cs_vfloat *origin,
+                                   const cs_vfloat *out, const cs_draws *draws, cs_path *path)
+{
+    cs_pair pair = cs_draw_at(draws, path->depth, CS_DRAW_BSDF);
+    cs_pair choice = cs_draw_at(draws, path->depth, CS_DRAW_CHOICE);
+    cs_bsdf_direction drawn = cs_bsdf_sample(surface, out, pair);
+    cs_vfloat cosine = fabs(cs_dot(surface->normal, drawn.in));
+    path->alive =
+        surface->hit & (drawn.density > 0.0f) & (cs_dot(surface->outward, drawn.in) > 0.0f);
+    cs_vfloat weight = path->alive ? cosine * drawn.value.scale / drawn.density : (cs_vfloat)(0.0f);
+    path->density = drawn.density;
+    for (int i = 0; i < 3; i++) {
+        path->throughput[i] *= weight * drawn.value.colour[i];
+        path->ray.origin[i] = origin[i];
+        path->ray.direction[i] = drawn.in[i];
+    }
+    if (path->depth >= (cs_u32)CS_ROULETTE_FROM) cs_path_roulette(choice.y, path);
+}
+
+static inline cs_path cs_path_begin(const cs_launch *launch, const cs_ray *ray, cs_vint active)
+{
+    cs_path path;
+    path.ray = *ray;
+    path.alive = active;
+    path.density = (cs_vfloat)(0.0f);
+    path.depth = 0u;
+    path.clamp = launch->clamp;
+    path.radiance.shadow_rays = (cs_vfloat)(0.0f);
+    for (int c = 0; c < 3; c++) {
+        path.throughput[c] = (cs_vfloat)(1.0f);
+        path.radiance.channel[c] = (cs_vfloat)(0.0f);
+    }
+    return path;
+}
+
+/* Follows the rays to the next surfaces; 0 where that ends all paths. */
+static inline int cs_path_advance(const cs_scene_buffers *scene, const cs_launch *launch,
+                                  cs_pair light_pair, const cs_draws *draws, cs_path *path)
+{
+    cs_hit hit;
+    hit.distance = path->alive ? (cs_vfloat)(INFINITY) : (cs_vfloat)(-1.0f);
+    cs_traverse(scene->nodes, scene->triangles, &path->ray, 0, &hit);
+    cs_vint seen = hit.triangle >= 0;
+    if (!cs_any(seen)) return 0;
+    hit.distance = seen ? hit.distance : (cs_vfloat)(0.0f);
+    cs_surface surface = cs_describe_hits(scene, &path->ray, &hit);
+    cs_path_add_emission(scene, launch->lights, &surface, hit.distance, path);
+    /* The last ray only finds what the lights' samples of the last surface might. */
+    if (path->depth > launch->bounces) return 0;
+    cs_vfloat origin[3], out[3];
+    cs_leave_surface(&surface, hit.distance, origin);
+    for (int i = 0; i < 3; i++)
+        out[i] = -path->ray.direction[i];
+    cs_pair pair = light_pair;
+    if (path->depth > 0u && launch->area_lights > 0u)
+        pair = cs_draw_at(draws, path->depth, CS_DRAW_LIGHT);
+    for (cs_u32 i = 0u; i < launch->lights; i++) {
+        cs_light_sample light = cs_sample_light(scene, scene->lights + i, &surface, pair);
+        cs_path_add_light(scene, &surface, origin, out, &light, path);
+    }
+    if (path->depth == launch->bounces && launch->area_lights == 0u) return 0;
+    cs_path_scatter(&surface, origin, out, draws, path);
+    path->depth++;
+    path->radiance.shadow_rays += path->alive ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
+    return cs_any(path->alive);
+}
+
+/* As cs_radiance_along, and with bounces. draws: what the paths draw from beyond the tuple. */
+static inline cs_radiance cs_path_along(const cs_scene_buffers *scene, const cs_launch *launch,
+                                        const cs_ray *ray, cs_pair light_pair,
+                                        const cs_draws *draws, cs_vint active)
+{
+    cs_path path = cs_path_begin(launch, ray, active);
+    while (cs_path_advance(scene, launch, light_pair, draws, &path)) {
+    }
+    return path.radiance;
+}
+
+#endif
