@@ -9,7 +9,6 @@
 
 #include "kernels/draws.h"
 #include "kernels/launch.h"
-#include "kernels/light/escaped.h"
 #include "kernels/radiance.h"
 
 enum {
@@ -21,6 +20,7 @@ typedef struct cs_path {
     cs_vint alive;           /* lanes whose ray is to be followed */
     cs_vfloat throughput[3]; /* radiance at the lens for one at the end of the ray */
     cs_vfloat density;       /* with which the BSDF drew the ray; of camera rays it is not used */
+    cs_vfloat cosine;        /* of the ray at the surface that it left */
     cs_u32 depth;            /* surfaces behind the path */
     cs_f32 clamp;            /* as in cs_launch */
     cs_radiance radiance;    /* found so far */
@@ -61,6 +61,28 @@ static inline void cs_path_add_emission(const cs_scene_buffers *scene, cs_u32 li
                                  cs_emitter_density(scene, lights, surface, &path->ray, distance));
     cs_path_add(path, shines ? weight : (cs_vfloat)(0.0f), surface->emission);
 }
+
+#if CS_HAS(LIGHTS)
+/* Adds what comes from beyond the scene to the lanes in `escaped`. The camera does not see suns. */
+static inline void cs_path_add_escaped(const cs_scene_buffers *scene, cs_u32 lights,
+                                       cs_vint escaped, cs_path *path)
+{
+    if (!cs_any(escaped)) return;
+    for (cs_u32 i = 0u; i < lights; i++) {
+        CS_GLOBAL const cs_light *light = scene->lights + i;
+        cs_escaped found;
+        if (light->kind == CS_LIGHT_ENVIRONMENT)
+            found = cs_escape_to_environment(scene, light, &path->ray, path->cosine);
+        else if (light->kind == CS_LIGHT_SUN && path->depth > 0u)
+            found = cs_escape_to_sun(light, &path->ray);
+        else
+            continue;
+        cs_vfloat weight = (cs_vfloat)(1.0f);
+        if (path->depth > 0u) weight = cs_power_weight(path->density, found.density);
+        cs_path_add(path, escaped ? weight : (cs_vfloat)(0.0f), found.colour);
+    }
+}
+#endif
 
 /* Adds what one light reflects towards the path, as cs_add_light does for direct light alone. */
 static inline void cs_path_add_light(const cs_scene_buffers *scene, const cs_surface *surface,
@@ -116,6 +138,7 @@ static inline void cs_path_scatter(const cs_surface *surface, const cs_vfloat *o
         surface->hit & (drawn.density > 0.0f) & (cs_dot(surface->outward, drawn.in) > 0.0f);
     cs_vfloat weight = path->alive ? cosine * drawn.value.scale / drawn.density : (cs_vfloat)(0.0f);
     path->density = drawn.density;
+    path->cosine = cosine;
     for (int i = 0; i < 3; i++) {
         path->throughput[i] *= weight * drawn.value.colour[i];
         path->ray.origin[i] = origin[i];
@@ -130,6 +153,7 @@ static inline cs_path cs_path_begin(const cs_launch *launch, const cs_ray *ray, 
     path.ray = *ray;
     path.alive = active;
     path.density = (cs_vfloat)(0.0f);
+    path.cosine = (cs_vfloat)(0.0f);
     path.depth = 0u;
     path.clamp = launch->clamp;
     path.radiance.shadow_rays = (cs_vfloat)(0.0f);
@@ -148,6 +172,9 @@ static inline int cs_path_advance(const cs_scene_buffers *scene, const cs_launch
     hit.distance = path->alive ? (cs_vfloat)(INFINITY) : (cs_vfloat)(-1.0f);
     cs_traverse(scene->nodes, scene->triangles, &path->ray, 0, &hit);
     cs_vint seen = hit.triangle >= 0;
+#if CS_HAS(LIGHTS)
+    cs_path_add_escaped(scene, launch->lights, path->alive & (hit.triangle < 0), path);
+#endif
     if (!cs_any(seen)) return 0;
     hit.distance = seen ? hit.distance : (cs_vfloat)(0.0f);
     cs_surface surface = cs_describe_hits(scene, &path->ray, &hit);

@@ -28,7 +28,8 @@ enum {
     X(TEXTURES, textures, cs_texture)    \
     X(TEXELS, texels, half)              \
     X(LIGHTS, lights, cs_light)          \
-    X(EMITTERS, emitters, cs_emitter)
+    X(EMITTERS, emitters, cs_emitter)    \
+    X(ENVIRONMENT, environment, cs_f32)
 
 #define CS_SCENE_IDENTIFIER(identifier, name, type) CS_SCENE_##identifier,
 

@@ -1,5 +1,10 @@
 #include "render/lighting.h"
 
+#include <string.h>
+
+#include "kernels/features.h"
+#include "scene/environment.h"
+
 enum {
     NUMBERS = 6 /* of a light in the settings: position, colour */
 };
@@ -34,8 +39,28 @@ static clshear_status add_emitters(const cs_device_scene *world, cs_array *light
     return world->emitters > 0 ? add(lights, &light, error) : CLSHEAR_OK;
 }
 
+static clshear_status add_environment(const clshear_scene *scene, const clshear_settings *settings,
+                                      cs_lighting *lighting, cs_array *lights, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const cs_environment_view view = {.rotation_deg = cs_number(settings, ENVIRONMENT_ROTATION),
+                                      .strength = cs_number(settings, ENVIRONMENT_STRENGTH)};
+    const char *text = cs_text(settings, ENVIRONMENT);
+    cs_environment environment = {0};
+    if (text == NULL || *text == '\0' || strcmp(text, "none") == 0) return CLSHEAR_OK;
+    CS_TRY(cs_environment_read(text, &view, &environment, error));
+    CS_TRY(add(lights, &environment.light, error));
+    const cs_array *image = &environment.image;
+    if (image->count > 0)
+        CS_TRY(cs_buffer_create(scene->context->device, image->count * image->item_size,
+                                image->items, &lighting->environment, error));
+done:
+    cs_environment_free(&environment);
+    return status;
+}
+
 static clshear_status collect(const clshear_scene *scene, const clshear_settings *settings,
-                              cs_array *lights, cs_error *error)
+                              cs_lighting *lighting, cs_array *lights, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const cs_array *own = &scene->scene.lights;
@@ -44,6 +69,7 @@ static clshear_status collect(const clshear_scene *scene, const clshear_settings
         CS_TRY(add(lights, (const cs_light *)own->items + i, error));
     for (size_t i = 0; added->is_set && i < added->count; i += NUMBERS)
         CS_TRY(add_point_light(added->numbers + i, lights, error));
+    CS_TRY(add_environment(scene, settings, lighting, lights, error));
     CS_TRY(add_emitters(&scene->device_scene, lights, error));
     if (lights->count == 0) {
         const cs_light fallback = cs_scene_default_light(&scene->scene);
@@ -53,28 +79,34 @@ done:
     return status;
 }
 
-/* Whether a light is sampled by a pair. */
-static int is_area(cs_u32 kind)
-{
+/* What the kinds of light ask of the kernels. */
+static const struct {
+    int is_area;
+    cs_u32 features;
+} kinds[CS_LIGHT_KINDS] = {
 #define DELTA 0
 #define AREA 1
-#define EXTENT(identifier, name, suffix, extent) extent,
-    static const int extents[CS_LIGHT_KINDS] = {CS_LIGHT_LIST(EXTENT)};
-#undef EXTENT
-#undef DELTA
+#define FEW(identifier, name, suffix, extent) {extent, 0u},
+#define MORE(identifier, name, suffix, extent) {extent, CS_FEATURE_LIGHTS},
+    CS_LIGHT_LIST_FEW(FEW) CS_LIGHT_LIST_MORE(MORE)
+#undef MORE
+#undef FEW
 #undef AREA
-    return extents[kind];
-}
+#undef DELTA
+};
 
 clshear_status cs_lighting_make(const clshear_scene *scene, const clshear_settings *settings,
                                 cs_lighting *lighting, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_array lights = {.item_size = sizeof(cs_light)};
-    CS_TRY(collect(scene, settings, &lights, error));
+    CS_TRY(collect(scene, settings, lighting, &lights, error));
     lighting->count = (cs_u32)lights.count;
-    for (size_t i = 0; i < lights.count; i++)
-        lighting->area_count += (cs_u32)is_area(((const cs_light *)lights.items)[i].kind);
+    for (size_t i = 0; i < lights.count; i++) {
+        const cs_u32 kind = ((const cs_light *)lights.items)[i].kind;
+        lighting->area_count += (cs_u32)kinds[kind].is_area;
+        lighting->features |= kinds[kind].features;
+    }
     CS_TRY(cs_buffer_create(scene->context->device, lights.count * lights.item_size, lights.items,
                             &lighting->lights, error));
 done:
@@ -85,6 +117,7 @@ done:
 void cs_lighting_free(cs_lighting *lighting)
 {
     cs_buffer_free(lighting->lights);
+    cs_buffer_free(lighting->environment);
     *lighting = (cs_lighting){0};
 }
 
@@ -94,4 +127,5 @@ void cs_lit_buffers(const clshear_scene *scene, const cs_lighting *lighting,
     for (int i = 0; i < CS_SCENE_BUFFERS; i++)
         buffers[i] = scene->device_scene.buffers[i];
     buffers[CS_SCENE_LIGHTS] = lighting->lights;
+    buffers[CS_SCENE_ENVIRONMENT] = lighting->environment;
 }

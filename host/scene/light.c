@@ -5,9 +5,6 @@
 #include "base/vec.h"
 #include "scene/scene.h"
 
-_Static_assert((int)CLSHEAR_LIGHT_POINT == CS_LIGHT_POINT, "kinds are cast");
-_Static_assert((int)CLSHEAR_LIGHT_DIRECTIONAL == CS_LIGHT_DIRECTIONAL, "kinds are cast");
-
 int cs_is_colour(const float *colour)
 {
     int good = 1;
@@ -16,32 +13,77 @@ int cs_is_colour(const float *colour)
     return good;
 }
 
-clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_error *error)
+static const float degree = 0.0174532925f;
+
+/* Whether what the kind reads can be used. */
+static clshear_status check_light(const clshear_light *light, cs_error *error)
 {
-    const int directional = light->kind == CLSHEAR_LIGHT_DIRECTIONAL;
-    const float *vector = directional ? light->direction : light->position;
-    if (!directional && light->kind != CLSHEAR_LIGHT_POINT)
+    const int has_place = light->kind != CLSHEAR_LIGHT_DIRECTIONAL;
+    const int has_direction = light->kind != CLSHEAR_LIGHT_POINT;
+    const float *place = light->position, *direction = light->direction;
+    if (light->kind < CLSHEAR_LIGHT_POINT || light->kind > CLSHEAR_LIGHT_SPOT)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: kind %d is not known",
                        (int)light->kind);
-    if (!isfinite(vector[0]) || !isfinite(vector[1]) || !isfinite(vector[2]))
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: its position must be finite");
+    for (int i = 0; i < 3; i++)
+        if ((has_place && !isfinite(place[i])) || (has_direction && !isfinite(direction[i])))
+            return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: its position must be finite");
     if (!cs_is_colour(light->colour))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: colour %g,%g,%g: must be 0 to 1e15",
                        (double)light->colour[0], (double)light->colour[1],
                        (double)light->colour[2]);
-    float length = 1.0f;
-    if (directional) {
-        length = sqrtf(cs_vec_dot(vector, vector));
-        if (length == 0.0f)
-            return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: its direction has no length");
-    }
+    if (has_direction && !(cs_vec_dot(direction, direction) > 0.0f))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: its direction has no length");
+    if (!has_place && !(light->diameter_deg >= 0.0f && light->diameter_deg <= 180.0f))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: diameter %g: must be 0 to 180 degrees",
+                       (double)light->diameter_deg);
+    if (light->kind == CLSHEAR_LIGHT_SPOT &&
+        !(light->inner_deg >= 0.0f && light->outer_deg > light->inner_deg &&
+          light->outer_deg <= 90.0f))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "light: cone %g to %g: must be 0 <= inner < outer <= 90 degrees",
+                       (double)light->inner_deg, (double)light->outer_deg);
+    return CLSHEAR_OK;
+}
+
+/* Scale and offset as KHR_lights_punctual defines them. */
+static void make_spot(const clshear_light *light, cs_light *made)
+{
+    const float outer = cosf(light->outer_deg * degree);
+    made->kind = CS_LIGHT_SPOT;
+    made->parameters[0] = 1.0f / fmaxf(cosf(light->inner_deg * degree) - outer, 0.001f);
+    made->parameters[1] = -outer * made->parameters[0];
+    for (int i = 0; i < 3; i++)
+        made->axis[i] = -made->axis[i];
+}
+
+/* A cone of half angle a, of even radiance L, lights a surface that faces it with pi L sin^2 a. */
+static void make_sun(const clshear_light *light, cs_light *made)
+{
+    const double half = 0.5 * (double)light->diameter_deg * (double)degree;
+    const double sine = sin(half), half_sine = sin(0.5 * half);
+    made->kind = CS_LIGHT_SUN;
+    made->parameters[0] = (float)(2.0 * half_sine * half_sine); /* 1 - cos a */
+    for (int c = 0; c < 3; c++)
+        made->colour[c] = (float)((double)made->colour[c] / (3.14159265358979 * sine * sine));
+}
+
+clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_error *error)
+{
+    clshear_status status = check_light(light, error);
+    if (status != CLSHEAR_OK) return status;
+    const int has_direction = light->kind != CLSHEAR_LIGHT_POINT;
+    const float length = sqrtf(cs_vec_dot(light->direction, light->direction));
     memset(made, 0, sizeof *made);
-    made->kind = (cs_u32)light->kind;
-    float *place = directional ? made->axis : made->position;
+    made->kind = has_direction ? CS_LIGHT_DIRECTIONAL : CS_LIGHT_POINT;
     for (int i = 0; i < 3; i++) {
-        place[i] = vector[i] / length;
+        if (has_direction) made->axis[i] = light->direction[i] / length;
+        if (light->kind != CLSHEAR_LIGHT_DIRECTIONAL) made->position[i] = light->position[i];
         made->colour[i] = light->colour[i];
     }
+    if (light->kind == CLSHEAR_LIGHT_SPOT) make_spot(light, made);
+    /* Smaller ones are as sharp, and their radiance leaves no room for a colour in a float. */
+    if (light->kind == CLSHEAR_LIGHT_DIRECTIONAL && light->diameter_deg > 1e-3f)
+        make_sun(light, made);
     return CLSHEAR_OK;
 }
 

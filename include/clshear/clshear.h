@@ -200,15 +200,21 @@ typedef struct clshear_mesh {
 
 typedef enum clshear_light_kind {
     CLSHEAR_LIGHT_POINT = 0,
-    CLSHEAR_LIGHT_DIRECTIONAL = 1
+    CLSHEAR_LIGHT_DIRECTIONAL = 1,
+    CLSHEAR_LIGHT_SPOT = 2
 } clshear_light_kind;
 
 typedef struct clshear_light {
     size_t struct_size;
     clshear_light_kind kind;
-    float position[3];  /* of a point light */
-    float direction[3]; /* towards a directional light; any length above 0 */
-    float colour[3];    /* radiant intensity of a point light, irradiance of a directional one */
+    float position[3];  /* of a point or spot light */
+    float direction[3]; /* towards a directional light, or in which a spot light shines; any length
+                         * above 0 */
+    float colour[3];    /* radiant intensity of a point light, and of a spot light on its axis;
+                         * irradiance of a directional light */
+    float diameter_deg; /* angle that a directional light takes in the sky; 0: sharp shadows */
+    float inner_deg;    /* angle from a spot light's axis up to which it is full */
+    float outer_deg;    /* and from which on it is dark: above the inner one, at most 90 */
 } clshear_light;
 
 typedef struct clshear_scene_info {
@@ -218,7 +224,7 @@ typedef struct clshear_scene_info {
     size_t nodes;        /* of the hierarchy */
     size_t references;   /* triangles in its leaves; spatial splits repeat some */
     size_t device_bytes; /* geometry on the device: nodes, triangles, faces, vertices */
-    size_t lights;       /* point and directional */
+    size_t lights;       /* point, directional, spot */
     size_t emitters;     /* emissive triangles */
     int file_camera;     /* 1 if the file has a camera */
     double load_s;       /* time spent reading the file */

@@ -123,6 +123,12 @@
     /* Light */ \
     X(LIGHT, 60, "light", "", NUMBER, 6, 64, "", -1e15, 1e15, none, PRIVATE, "X,Y,Z,R,G,B", \
       "add a point light; repeatable") \
+    X(ENVIRONMENT, 62, "environment", "", TEXT, 1, 1, "", 0, 0, none, RECIPE, "FILE", \
+      "lat-long image around the scene, or R,G,B") \
+    X(ENVIRONMENT_ROTATION, 63, "environment-rotation", "", NUMBER, 1, 1, "0", -1e6, 1e6, none, \
+      RECIPE, "DEG", "turn it about +Y, from above against the clock") \
+    X(ENVIRONMENT_STRENGTH, 64, "environment-strength", "", NUMBER, 1, 1, "1", 0, 1e12, none, \
+      RECIPE, "S", "its radiance is multiplied by this") \
     X(BOUNCES, 70, "bounces", "", INTEGER, 1, 1, "0", 0, 64, none, RECIPE, "N", \
       "surfaces that light meets on its way; 0: direct light") \
     X(CLAMP, 71, "clamp", "", NUMBER, 1, 1, "0", 0, 1e15, none, RECIPE, "L", \
