@@ -351,6 +351,58 @@ static void wrong_lights_are_refused(void **state)
     clshear_scene_free(scene);
 }
 
+/* A scene without light gets an environment and a sun from the camera's upper left, and a light in
+ * the eye only if that is inside; what is set or has light is left alone. A floor seen from above
+ * shows its albedo times the studio's radiance for a surface that the sun meets at its angle. */
+static void studio_lights_what_has_no_light(void **state)
+{
+    clshear_scene *scene = test_floor(*state, 100.0f, 0.5f);
+    clshear_settings *settings = looking_down_at(0.0, 1024);
+    test_ok(clshear_light_complete(scene, settings));
+    double sun[7];
+    size_t count = 0;
+    test_ok(clshear_settings_get_numbers(settings, CLSHEAR_SUN, sun, 7, &count));
+    assert_int_equal(count, 7);
+    assert_below(sun[0], -0.1); /* left */
+    assert_above(sun[1], 0.1);  /* behind the camera, which looks down */
+    assert_below(sun[2], -0.1); /* above: up is -Z */
+    assert_false(clshear_settings_is_set(settings, CLSHEAR_LIGHT));
+    const double cosine = sun[1] / sqrt(sun[0] * sun[0] + sun[1] * sun[1] + sun[2] * sun[2]);
+    const estimate found = render(scene, settings);
+    assert_near(found.mean, 0.5 * (0.4 + sun[3] / pi * cosine), 6.0 * found.error + 1e-4);
+    const estimate same = render(scene, looking_down_at(0.0, 1024));
+    assert_near(same.mean, found.mean, 0.0);
+
+    settings = looking_down_at(0.0, 16);
+    test_set(settings, CLSHEAR_LIGHT, "0,1,0,1,1,1");
+    test_ok(clshear_light_complete(scene, settings));
+    assert_false(clshear_settings_is_set(settings, CLSHEAR_SUN));
+    assert_false(clshear_settings_is_set(settings, CLSHEAR_ENVIRONMENT));
+    clshear_settings_free(settings);
+    clshear_scene_free(scene);
+}
+
+/* In a closed box there is no sky: the light in the eye. */
+static void studio_lights_the_inside(void **state)
+{
+    static const float corners[24] = {-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1,
+                                      -1, -1, 1,  1, -1, 1,  1, 1, 1,  -1, 1, 1};
+    static const uint32_t faces[36] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
+                                       3, 2, 6, 3, 6, 7, 0, 3, 7, 0, 7, 4, 1, 2, 6, 1, 6, 5};
+    const clshear_mesh mesh = {.positions = corners,
+                               .indices = faces,
+                               .vertex_count = 8,
+                               .triangle_count = 12,
+                               .diffuse = {0.5f, 0.5f, 0.5f}};
+    clshear_scene *scene = test_meshes(*state, &mesh, 1);
+    clshear_settings *settings = looking_down_at(0.0, 64);
+    test_set(settings, CLSHEAR_EYE, "0,0,0");
+    test_set(settings, CLSHEAR_TARGET, "0,-1,0");
+    const estimate found = render(scene, settings);
+    assert_near(found.mean, 0.5 * 0.6, 1e-3);
+    clshear_scene_free(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -361,6 +413,8 @@ int main(void)
         cmocka_unit_test(texels_are_where_they_should_be),
         cmocka_unit_test(directions_follow_their_density),
         cmocka_unit_test(image_around_a_floor),
+        cmocka_unit_test(studio_lights_what_has_no_light),
+        cmocka_unit_test(studio_lights_the_inside),
         cmocka_unit_test(wrong_lights_are_refused),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

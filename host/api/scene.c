@@ -2,6 +2,7 @@
 #include "api/arguments.h"
 #include "render/camera_choice.h"
 #include "render/objects.h"
+#include "render/studio.h"
 
 clshear_status clshear_scene_load(clshear_context *context, const char *path,
                                   clshear_scene **result)
@@ -93,6 +94,17 @@ clshear_status clshear_camera_complete(const clshear_scene *scene, clshear_setti
     CS_NEEDS(settings);
     clshear_status status = check_complete(scene);
     if (status == CLSHEAR_OK) status = cs_camera_complete(scene, settings, cs_thread_error());
+    return cs_message_keep(&scene->message, status);
+}
+
+clshear_status clshear_light_complete(const clshear_scene *scene, clshear_settings *settings)
+{
+    CS_NEEDS(scene);
+    CS_NEEDS(settings);
+    cs_error *error = cs_thread_error();
+    clshear_status status = check_complete(scene);
+    if (status == CLSHEAR_OK) status = cs_camera_complete(scene, settings, error);
+    if (status == CLSHEAR_OK) status = cs_studio_complete(scene, settings, error);
     return cs_message_keep(&scene->message, status);
 }
 

@@ -5,6 +5,7 @@
 #include "pattern/pattern.h"
 #include "render/camera_choice.h"
 #include "render/render_job.h"
+#include "render/studio.h"
 #include "scene/camera.h"
 #include "settings/view.h"
 
@@ -123,6 +124,7 @@ clshear_status cs_job_begin(cs_job *job, clshear_scene *scene, const clshear_set
     job->oracle = (clshear_oracle)cs_integer(&job->settings, ORACLE);
     CS_TRY(check_window(job, error));
     CS_TRY(cs_camera_complete(scene, &job->settings, error));
+    CS_TRY(cs_studio_complete(scene, &job->settings, error));
     CS_TRY(cs_lighting_make(scene, &job->settings, &job->lighting, error));
     job->features = features_of(job);
     CS_TRY(make_camera(job, error));

@@ -6,7 +6,8 @@
 #include "scene/environment.h"
 
 enum {
-    NUMBERS = 6 /* of a light in the settings: position, colour */
+    LIGHT_NUMBERS = 6, /* of a point light in the settings: position, colour */
+    SUN_NUMBERS = 7    /* of a sun: direction, colour, diameter */
 };
 
 static clshear_status add(cs_array *lights, const cs_light *light, cs_error *error)
@@ -17,16 +18,39 @@ static clshear_status add(cs_array *lights, const cs_light *light, cs_error *err
     return CLSHEAR_OK;
 }
 
-static clshear_status add_point_light(const double *numbers, cs_array *lights, cs_error *error)
+static clshear_status add_made(const clshear_light *light, cs_array *lights, cs_error *error)
 {
-    cs_light light;
-    clshear_light point = {.struct_size = sizeof point, .kind = CLSHEAR_LIGHT_POINT};
-    for (int i = 0; i < 3; i++) {
-        point.position[i] = (float)numbers[i];
-        point.colour[i] = (float)numbers[3 + i];
+    cs_light made;
+    clshear_status status = cs_light_make(light, &made, error);
+    return status == CLSHEAR_OK ? add(lights, &made, error) : status;
+}
+
+/* The point lights and suns of the settings. */
+static clshear_status add_settings(const clshear_settings *settings, cs_array *lights,
+                                   cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const cs_setting_value *points = &settings->values[CS_INDEX_LIGHT];
+    const cs_setting_value *suns = &settings->values[CS_INDEX_SUN];
+    for (size_t i = 0; points->is_set && i < points->count; i += LIGHT_NUMBERS) {
+        clshear_light light = {.struct_size = sizeof light, .kind = CLSHEAR_LIGHT_POINT};
+        for (size_t c = 0; c < 3; c++) {
+            light.position[c] = (float)points->numbers[i + c];
+            light.colour[c] = (float)points->numbers[i + 3 + c];
+        }
+        CS_TRY(add_made(&light, lights, error));
     }
-    clshear_status status = cs_light_make(&point, &light, error);
-    return status == CLSHEAR_OK ? add(lights, &light, error) : status;
+    for (size_t i = 0; suns->is_set && i < suns->count; i += SUN_NUMBERS) {
+        clshear_light light = {.struct_size = sizeof light, .kind = CLSHEAR_LIGHT_DIRECTIONAL};
+        for (size_t c = 0; c < 3; c++) {
+            light.direction[c] = (float)suns->numbers[i + c];
+            light.colour[c] = (float)suns->numbers[i + 3 + c];
+        }
+        light.diameter_deg = (float)suns->numbers[i + 6];
+        CS_TRY(add_made(&light, lights, error));
+    }
+done:
+    return status;
 }
 
 /* All emissive triangles as one light. Their table makes the density of a point its luminance by
@@ -64,17 +88,11 @@ static clshear_status collect(const clshear_scene *scene, const clshear_settings
 {
     clshear_status status = CLSHEAR_OK;
     const cs_array *own = &scene->scene.lights;
-    const cs_setting_value *added = &settings->values[CS_INDEX_LIGHT];
     for (size_t i = 0; i < own->count; i++)
         CS_TRY(add(lights, (const cs_light *)own->items + i, error));
-    for (size_t i = 0; added->is_set && i < added->count; i += NUMBERS)
-        CS_TRY(add_point_light(added->numbers + i, lights, error));
+    CS_TRY(add_settings(settings, lights, error));
     CS_TRY(add_environment(scene, settings, lighting, lights, error));
     CS_TRY(add_emitters(&scene->device_scene, lights, error));
-    if (lights->count == 0) {
-        const cs_light fallback = cs_scene_default_light(&scene->scene);
-        CS_TRY(add(lights, &fallback, error));
-    }
 done:
     return status;
 }

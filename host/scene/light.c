@@ -1,4 +1,4 @@
-/* Lights of a scene: added ones, the default one, and the table of emissive triangles. */
+/* Lights of a scene: added ones, and the table of emissive triangles. */
 #include <math.h>
 #include <string.h>
 
@@ -96,27 +96,6 @@ clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, c
     if (added == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     *added = made;
     return CLSHEAR_OK;
-}
-
-cs_light cs_scene_default_light(const cs_scene *scene)
-{
-    cs_light light;
-    memset(&light, 0, sizeof light);
-    light.kind = CS_LIGHT_POINT;
-    float square = 0.0f, largest = 0.0f;
-    for (int axis = 0; axis < 3; axis++)
-        largest = fmaxf(largest, scene->bounds[1][axis] - scene->bounds[0][axis]);
-    for (int axis = 0; axis < 3; axis++) {
-        float low = scene->bounds[0][axis], high = scene->bounds[1][axis];
-        light.position[axis] = axis == 1 ? low + 0.95f * (high - low) : 0.5f * (low + high);
-        /* Flat scenes are lit from above or from the front, not from within their plane. */
-        if (axis > 0 && high - low < 0.1f * largest) light.position[axis] = high + 0.5f * largest;
-        square += 0.25f * (high - low) * (high - low);
-    }
-    /* A white surface that faces the light from half a diagonal away has radiance 1. */
-    for (int c = 0; c < 3; c++)
-        light.colour[c] = CS_PI * square;
-    return light;
 }
 
 static float luminance(const float *colour)

@@ -52,9 +52,6 @@ clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_erro
 /* The same, appended to the scene. */
 clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error);
 
-/* A white point light under the top of the bounding box, as bright as daylight inside it. */
-cs_light cs_scene_default_light(const cs_scene *scene);
-
 /* The emissive triangles (cs_emitter, in `emitters`), with probabilities in proportion to power:
  * area times luminance, whose sum is `total`. */
 clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, double *total,

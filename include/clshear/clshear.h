@@ -245,8 +245,8 @@ CLSHEAR_API clshear_status clshear_scene_add_mesh(clshear_scene *scene, const cl
 CLSHEAR_API clshear_status clshear_scene_complete(clshear_scene *scene);
 
 /* Adds a light, before or after the scene is complete. A scene with neither lights nor emissive
- * triangles is rendered with a point light under the top of its bounding box, unless the settings
- * have lights. */
+ * triangles is rendered in a neutral studio (clshear_light_complete), unless the settings have
+ * lights. */
 CLSHEAR_API clshear_status clshear_scene_add_light(clshear_scene *scene,
                                                    const clshear_light *light);
 
@@ -268,6 +268,13 @@ CLSHEAR_API void clshear_scene_free(clshear_scene *scene);
  * over 3 % of the shorter image axis. A render does the same, without changing the settings. */
 CLSHEAR_API clshear_status clshear_camera_complete(const clshear_scene *scene,
                                                    clshear_settings *settings);
+
+/* Where neither the scene nor the settings have light: sets an even CLSHEAR_ENVIRONMENT and a soft
+ * CLSHEAR_SUN at the camera's upper left, and a CLSHEAR_LIGHT in the eye if that is inside the
+ * scene's bounding box. Completes the camera first. A render does the same, without changing the
+ * settings. */
+CLSHEAR_API clshear_status clshear_light_complete(const clshear_scene *scene,
+                                                  clshear_settings *settings);
 
 /* Sets the focal distance to the depth that pixel (x, y) sees through its centre. */
 CLSHEAR_API clshear_status clshear_camera_focus(const clshear_scene *scene,

@@ -123,6 +123,8 @@
     /* Light */ \
     X(LIGHT, 60, "light", "", NUMBER, 6, 64, "", -1e15, 1e15, none, PRIVATE, "X,Y,Z,R,G,B", \
       "add a point light; repeatable") \
+    X(SUN, 65, "sun", "", NUMBER, 7, 64, "", -1e15, 1e15, none, PRIVATE, "X,Y,Z,R,G,B,DEG", \
+      "add a sun: towards it, irradiance, size; repeatable") \
     X(ENVIRONMENT, 62, "environment", "", TEXT, 1, 1, "", 0, 0, none, RECIPE, "FILE", \
       "lat-long image around the scene, or R,G,B") \
     X(ENVIRONMENT_ROTATION, 63, "environment-rotation", "", NUMBER, 1, 1, "0", -1e6, 1e6, none, \
