@@ -20,9 +20,11 @@ typedef struct cs_path {
     cs_vint alive;           /* lanes whose ray is to be followed */
     cs_vfloat throughput[3]; /* radiance at the lens for one at the end of the ray */
     cs_vfloat density;       /* with which the BSDF drew the ray; of camera rays it is not used */
-    cs_vfloat cosine;        /* of the ray at the surface that it left */
+    cs_vfloat cosine;        /* of the ray at the surface that it left; negative behind it */
     cs_u32 depth;            /* surfaces behind the path */
     cs_f32 clamp;            /* as in cs_launch */
+    cs_u32 see_through;      /* as in cs_launch */
+    cs_u32 shadows;          /* rays to lights so far */
     cs_radiance radiance;    /* found so far */
 } cs_path;
 
@@ -84,30 +86,159 @@ static inline void cs_path_add_escaped(const cs_scene_buffers *scene, cs_u32 lig
 }
 #endif
 
+/* Lanes whose surface lets light through to the other side. */
+static inline cs_vint cs_lets_through(const cs_surface *surface)
+{
+#if CS_HAS(MATERIALS)
+    return (surface->bsdf == (cs_vint)(CS_BSDF_STANDARD)) &
+           (surface->parameters[CS_PARAMETER_TRANSMISSION] > 0.0f);
+#else
+    (void)surface;
+    return (cs_vint)(0);
+#endif
+}
+
+/* Where rays to the side of `towards` leave the surface: `origin` is off it on the viewer's side.
+ */
+static inline void cs_leave_towards(const cs_surface *surface, const cs_vfloat *origin,
+                                    const cs_vfloat *towards, cs_vfloat *from)
+{
+    cs_vint behind = cs_dot(surface->outward, towards) < 0.0f;
+    for (int i = 0; i < 3; i++)
+        from[i] = behind ? 2.0f * surface->point[i] - origin[i] : origin[i];
+}
+
+/* Lanes in which `towards` leads to where light comes from: the side of both normals, or the other
+ * side of both where light gets through. */
+static inline cs_vint cs_is_open(const cs_surface *surface, const cs_vfloat *towards)
+{
+    cs_vfloat outer = cs_dot(surface->outward, towards), inner = cs_dot(surface->normal, towards);
+    cs_vint front = (outer > 0.0f) & (inner > 0.0f), back = (outer < 0.0f) & (inner < 0.0f);
+    return surface->hit & (front | (back & cs_lets_through(surface)));
+}
+
+/* The nearest surfaces along the rays up to hit->distance; returns the lanes that have one. Lanes
+ * without one get distance 0. */
+static inline cs_vint cs_find_surfaces(const cs_scene_buffers *scene, const cs_ray *ray,
+                                       cs_hit *hit, cs_surface *surface)
+{
+    cs_traverse(scene->nodes, scene->triangles, ray, 0, hit);
+    cs_vint seen = hit->triangle >= 0;
+    hit->distance = seen ? hit->distance : (cs_vfloat)(0.0f);
+    if (cs_any(seen)) *surface = cs_describe_hits(scene, ray, hit);
+    return seen;
+}
+
+#if CS_HAS(MATERIALS)
+enum {
+    CS_MOST_PASSED = 64 /* surfaces that a ray passes because of their alpha */
+};
+
+/* Lanes that pass the surface: alpha is the chance that they do not (Enderton et al. 2010). */
+static inline cs_vint cs_passes(const cs_surface *surface, const cs_draws *draws, cs_u32 key)
+{
+    cs_vint thin = surface->hit & (surface->alpha < 1.0f);
+    if (!cs_any(thin)) return thin;
+    return thin & (cs_unit(cs_key_lanes(cs_key(draws->key, key), draws->index)) >= surface->alpha);
+}
+
+/* Keys of the choices to pass a surface, apart from all patterns of a path. */
+static inline cs_u32 cs_passing_key(cs_u32 depth, cs_u32 ray, cs_u32 passed)
+{
+    return 0x70617373u + (depth * 256u + ray) * (cs_u32)CS_MOST_PASSED + passed;
+}
+#endif
+
+/* The path's next surfaces, as cs_find_surfaces; those that it passes move the ray's origin on. */
+static inline cs_vint cs_path_hit(const cs_scene_buffers *scene, const cs_draws *draws,
+                                  cs_path *path, cs_hit *hit, cs_surface *surface)
+{
+    cs_vint seen = cs_find_surfaces(scene, &path->ray, hit, surface);
+#if CS_HAS(MATERIALS)
+    cs_vint passes = seen; /* lanes that stopped once have stopped */
+    for (cs_u32 n = 0u; cs_any(seen) && n < (cs_u32)CS_MOST_PASSED; n++) {
+        passes = passes & cs_passes(surface, draws, cs_passing_key(path->depth, 0u, n));
+        if (!cs_any(passes)) break;
+        cs_vfloat origin[3], from[3];
+        cs_leave_surface(surface, hit->distance, origin);
+        cs_leave_towards(surface, origin, path->ray.direction, from);
+        for (int i = 0; i < 3; i++)
+            path->ray.origin[i] = passes ? from[i] : path->ray.origin[i];
+        hit->distance = path->alive ? (cs_vfloat)(INFINITY) : (cs_vfloat)(-1.0f);
+        seen = cs_find_surfaces(scene, &path->ray, hit, surface);
+    }
+#else
+    (void)draws;
+#endif
+    return seen;
+}
+
+#if CS_HAS(MATERIALS)
+/* As cs_path_shadow, past surfaces that let the ray pass. */
+static inline void cs_shadow_through(const cs_scene_buffers *scene, cs_ray *ray,
+                                     const cs_draws *draws, cs_path *path, cs_hit *hit)
+{
+    cs_vfloat left = hit->distance; /* to go; negative: blocked or not wanted */
+    path->shadows++;
+    for (cs_u32 n = 0u; n < (cs_u32)CS_MOST_PASSED; n++) {
+        cs_surface surface;
+        cs_vfloat origin[3], from[3];
+        hit->distance = left;
+        cs_vint seen = cs_find_surfaces(scene, ray, hit, &surface);
+        if (!cs_any(seen)) break;
+        cs_vint passes = cs_passes(&surface, draws, cs_passing_key(path->depth, path->shadows, n));
+        cs_vfloat rest =
+            passes ? cs_max(left - hit->distance, (cs_vfloat)(1e-20f)) : (cs_vfloat)(-1.0f);
+        left = seen ? rest : left;
+        cs_leave_surface(&surface, hit->distance, origin);
+        cs_leave_towards(&surface, origin, ray->direction, from);
+        for (int i = 0; i < 3; i++)
+            ray->origin[i] = passes ? from[i] : ray->origin[i];
+    }
+    hit->distance = left;
+}
+#endif
+
+/* Makes hit->distance negative in the lanes where something is in the way. */
+static inline void cs_path_shadow(const cs_scene_buffers *scene, cs_ray *ray, const cs_draws *draws,
+                                  cs_path *path, cs_hit *hit)
+{
+#if CS_HAS(MATERIALS)
+    if (path->see_through) {
+        cs_shadow_through(scene, ray, draws, path, hit);
+        return;
+    }
+#endif
+    (void)draws;
+    (void)path;
+    cs_traverse(scene->nodes, scene->triangles, ray, 1, hit);
+}
+
 /* Adds what one light reflects towards the path, as cs_add_light does for direct light alone. */
 static inline void cs_path_add_light(const cs_scene_buffers *scene, const cs_surface *surface,
                                      const cs_vfloat *origin, const cs_vfloat *out,
-                                     const cs_light_sample *light, cs_path *path)
+                                     const cs_light_sample *light, const cs_draws *draws,
+                                     cs_path *path)
 {
-    cs_vint facing =
-        surface->hit & (light->weight > 0.0f) & (cs_dot(surface->outward, light->towards) > 0.0f);
+    cs_vint facing = cs_is_open(surface, light->towards) & (light->weight != 0.0f);
     if (!cs_any(facing)) return;
     cs_ray shadow;
+    cs_leave_towards(surface, origin, light->towards, shadow.origin);
     for (int axis = 0; axis < 3; axis++) {
-        shadow.origin[axis] = origin[axis];
         shadow.direction[axis] = light->towards[axis];
-        if (light->reach < INFINITY) shadow.direction[axis] += surface->point[axis] - origin[axis];
+        if (light->reach < INFINITY)
+            shadow.direction[axis] += surface->point[axis] - shadow.origin[axis];
     }
     cs_hit blocked;
     blocked.distance = facing ? (cs_vfloat)(light->reach) : (cs_vfloat)(-1.0f);
-    cs_traverse(scene->nodes, scene->triangles, &shadow, 1, &blocked);
+    cs_path_shadow(scene, &shadow, draws, path, &blocked);
     cs_bsdf_value bsdf = cs_bsdf_eval(surface, out, light->towards);
     /* Lights that no direction finds have density 0: their sample counts whole. */
     cs_vfloat other = cs_bsdf_density(surface, out, light->towards);
     cs_vfloat share =
         light->density > 0.0f ? cs_power_weight(light->density, other) : (cs_vfloat)(1.0f);
     cs_vfloat weight =
-        blocked.distance > 0.0f ? light->weight * bsdf.scale * share : (cs_vfloat)(0.0f);
+        blocked.distance > 0.0f ? fabs(light->weight) * bsdf.scale * share : (cs_vfloat)(0.0f);
     cs_vfloat colour[3];
     for (int c = 0; c < 3; c++)
         colour[c] = light->colour[c] * bsdf.colour[c];
@@ -132,16 +263,15 @@ static inline void cs_path_scatter(const cs_surface *surface, const cs_vfloat *o
 {
     cs_pair pair = cs_draw_at(draws, path->depth, CS_DRAW_BSDF);
     cs_pair choice = cs_draw_at(draws, path->depth, CS_DRAW_CHOICE);
-    cs_bsdf_direction drawn = cs_bsdf_sample(surface, out, pair);
+    cs_bsdf_direction drawn = cs_bsdf_sample(surface, out, pair, choice.x);
     cs_vfloat cosine = fabs(cs_dot(surface->normal, drawn.in));
-    path->alive =
-        surface->hit & (drawn.density > 0.0f) & (cs_dot(surface->outward, drawn.in) > 0.0f);
+    path->alive = cs_is_open(surface, drawn.in) & (drawn.density > 0.0f);
+    cs_leave_towards(surface, origin, drawn.in, path->ray.origin);
     cs_vfloat weight = path->alive ? cosine * drawn.value.scale / drawn.density : (cs_vfloat)(0.0f);
     path->density = drawn.density;
-    path->cosine = cosine;
+    path->cosine = cs_dot(surface->normal, drawn.in);
     for (int i = 0; i < 3; i++) {
         path->throughput[i] *= weight * drawn.value.colour[i];
-        path->ray.origin[i] = origin[i];
         path->ray.direction[i] = drawn.in[i];
     }
     if (path->depth >= (cs_u32)CS_ROULETTE_FROM) cs_path_roulette(choice.y, path);
@@ -156,6 +286,8 @@ static inline cs_path cs_path_begin(const cs_launch *launch, const cs_ray *ray, 
     path.cosine = (cs_vfloat)(0.0f);
     path.depth = 0u;
     path.clamp = launch->clamp;
+    path.see_through = launch->see_through;
+    path.shadows = 0u;
     path.radiance.shadow_rays = (cs_vfloat)(0.0f);
     for (int c = 0; c < 3; c++) {
         path.throughput[c] = (cs_vfloat)(1.0f);
@@ -169,15 +301,13 @@ static inline int cs_path_advance(const cs_scene_buffers *scene, const cs_launch
                                   cs_pair light_pair, const cs_draws *draws, cs_path *path)
 {
     cs_hit hit;
+    cs_surface surface;
     hit.distance = path->alive ? (cs_vfloat)(INFINITY) : (cs_vfloat)(-1.0f);
-    cs_traverse(scene->nodes, scene->triangles, &path->ray, 0, &hit);
-    cs_vint seen = hit.triangle >= 0;
+    cs_vint seen = cs_path_hit(scene, draws, path, &hit, &surface);
 #if CS_HAS(LIGHTS)
     cs_path_add_escaped(scene, launch->lights, path->alive & (hit.triangle < 0), path);
 #endif
     if (!cs_any(seen)) return 0;
-    hit.distance = seen ? hit.distance : (cs_vfloat)(0.0f);
-    cs_surface surface = cs_describe_hits(scene, &path->ray, &hit);
     cs_path_add_emission(scene, launch->lights, &surface, hit.distance, path);
     /* The last ray only finds what the lights' samples of the last surface might. */
     if (path->depth > launch->bounces) return 0;
@@ -190,7 +320,7 @@ static inline int cs_path_advance(const cs_scene_buffers *scene, const cs_launch
         pair = cs_draw_at(draws, path->depth, CS_DRAW_LIGHT);
     for (cs_u32 i = 0u; i < launch->lights; i++) {
         cs_light_sample light = cs_sample_light(scene, scene->lights + i, &surface, pair);
-        cs_path_add_light(scene, &surface, origin, out, &light, path);
+        cs_path_add_light(scene, &surface, origin, out, &light, draws, path);
     }
     if (path->depth == launch->bounces && launch->area_lights == 0u) return 0;
     cs_path_scatter(&surface, origin, out, draws, path);

@@ -3,6 +3,7 @@
 #define CS_TEXTURE_H
 
 #include "clshear/device/packet.h"
+#include "kernels/features.h"
 #include "kernels/scene_buffers.h"
 
 /* Between which two of `size` texels the repeating coordinate `place` lies, and how far on. */
@@ -29,7 +30,7 @@ static inline cs_texel_pair cs_texels_at(cs_vfloat place, cs_u32 size)
 }
 
 /* Bilinear, repeating, at the texture coordinates (s, t) of the lanes that are `wanted`; (0, 0) is
- * the lower left corner of the image. */
+ * the lower left corner of the image. With the feature MATERIALS there is a fourth channel. */
 static inline void cs_texels(const cs_scene_buffers *scene, cs_u32 texture, cs_vfloat s,
                              cs_vfloat t, cs_int_lanes wanted, cs_float_lanes *colour)
 {
@@ -52,6 +53,9 @@ static inline void cs_texels(const cs_scene_buffers *scene, cs_u32 texture, cs_v
         colour[0].lane[lane] = value.x;
         colour[1].lane[lane] = value.y;
         colour[2].lane[lane] = value.z;
+#if CS_HAS(MATERIALS)
+        colour[3].lane[lane] = value.w;
+#endif
     }
 }
 

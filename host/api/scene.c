@@ -40,6 +40,29 @@ clshear_status clshear_scene_add_mesh(clshear_scene *scene, const clshear_mesh *
     return cs_message_keep(&scene->message, status);
 }
 
+void clshear_material_init(clshear_material *material)
+{
+    clshear_material defaults;
+    cs_material_defaults(&defaults);
+    cs_struct_out(material, &defaults, sizeof defaults);
+}
+
+clshear_status clshear_scene_add_material(clshear_scene *scene, const clshear_material *material,
+                                          uint32_t *number)
+{
+    clshear_material copy;
+    CS_NEEDS(scene);
+    CS_NEEDS(material);
+    CS_NEEDS(number);
+    clshear_status status = cs_struct_in(&copy, sizeof copy, material, "material");
+    if (status == CLSHEAR_OK && scene->is_complete)
+        status = cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,
+                         "material: the scene is complete already");
+    if (status == CLSHEAR_OK)
+        status = cs_scene_add_material(&scene->scene, &copy, number, cs_thread_error());
+    return cs_message_keep(&scene->message, status);
+}
+
 clshear_status clshear_scene_complete(clshear_scene *scene)
 {
     cs_error *error = cs_thread_error();

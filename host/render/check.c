@@ -103,7 +103,7 @@ done:
 /* What the kernels must be compiled with. */
 static cs_u32 features_of(const cs_job *job)
 {
-    cs_u32 features = job->lighting.features;
+    cs_u32 features = job->lighting.features | job->scene->device_scene.needs.features;
     if (cs_integer(&job->settings, BOUNCES) > 0) features |= CS_FEATURE_PATHS;
     return features;
 }

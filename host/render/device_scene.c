@@ -1,5 +1,7 @@
 /* A scene's buffers on the device. */
+#include "kernels/bsdf/bsdf.h"
 #include "render/objects.h"
+#include "scene/albedo.h"
 
 static clshear_status upload(cs_device_scene *world, cs_device *device, cs_scene_buffer which,
                              const cs_array *array, cs_error *error)
@@ -30,6 +32,10 @@ clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const 
     CS_TRY(upload(world, device, CS_SCENE_FACES, faces, error));
     CS_TRY(upload(world, device, CS_SCENE_VERTICES, vertices, error));
     CS_TRY(upload(world, device, CS_SCENE_MATERIALS, &scene->materials, error));
+    world->needs = cs_scene_material_needs(scene);
+    if (world->needs.features != 0)
+        CS_TRY(cs_buffer_create(device, CS_ALBEDO_FLOATS * sizeof(float), cs_albedo_table(),
+                                &world->buffers[CS_SCENE_ALBEDOS], error));
     CS_TRY(upload(world, device, CS_SCENE_TEXTURES, &scene->textures, error));
     CS_TRY(upload(world, device, CS_SCENE_TEXELS, &scene->texels, error));
     world->geometry_bytes = bvh->nodes.count * bvh->nodes.item_size +

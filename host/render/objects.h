@@ -13,6 +13,7 @@ typedef struct cs_device_scene {
                                            * render has of its own */
     uint32_t emitters;                    /* emissive triangles */
     double emitted_power;                 /* of them: area times luminance */
+    cs_material_needs needs;
     size_t geometry_bytes;
 } cs_device_scene;
 

@@ -51,14 +51,21 @@ clshear_status cs_scene_append(clshear_scene *scene, const clshear_mesh *mesh, c
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "mesh: positions or indices are NULL");
     if (!cs_is_colour(mesh->diffuse) || !cs_is_colour(mesh->emission))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "mesh: diffuse and emission must be 0 to 1e15");
-    cs_material *material = cs_array_extend(&into->materials, 1);
-    if (material == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    material->texture = CS_NO_TEXTURE;
-    memcpy(material->diffuse, mesh->diffuse, sizeof material->diffuse);
-    memcpy(material->emission, mesh->emission, sizeof material->emission);
-    const clshear_status status =
-        cs_scene_add_mesh(into, mesh, NULL, (uint32_t)(into->materials.count - 1), "mesh", error);
-    if (status != CLSHEAR_OK) into->materials.count--;
+    if (mesh->material > into->materials.count)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "mesh: there is no material %u",
+                       mesh->material);
+    const size_t materials = into->materials.count;
+    uint32_t number = mesh->material;
+    if (number == 0) {
+        cs_material *material = cs_array_extend(&into->materials, 1);
+        if (material == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+        material->texture = CS_NO_TEXTURE;
+        memcpy(material->diffuse, mesh->diffuse, sizeof material->diffuse);
+        memcpy(material->emission, mesh->emission, sizeof material->emission);
+        number = (uint32_t)into->materials.count;
+    }
+    const clshear_status status = cs_scene_add_mesh(into, mesh, NULL, number - 1, "mesh", error);
+    if (status != CLSHEAR_OK) into->materials.count = materials;
     return status == CLSHEAR_BAD_FILE ? CLSHEAR_BAD_ARGUMENT : status; /* there is no file */
 }
 

@@ -132,7 +132,9 @@ clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, doub
     double below = 0.0;
     *total = 0.0;
     for (size_t i = 0; i < scene->indices.count; i++) {
-        if (!(luminance(looks[materials[i]].emission) > 0.0f)) continue;
+        const cs_material *look = &looks[materials[i]];
+        /* What a texture varies is found by rays alone. */
+        if (!(luminance(look->emission) > 0.0f) || look->emission_texture > 0) continue;
         cs_emitter *emitter = cs_array_extend(emitters, 1);
         if (emitter == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
         double power = describe_emitter(scene, i, emitter);

@@ -43,6 +43,26 @@ clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, cons
 /* Checks that there is something to render and computes the bounds. */
 clshear_status cs_scene_finish(cs_scene *scene, const char *name, cs_error *error);
 
+/* glTF's defaults. */
+void cs_material_defaults(clshear_material *material);
+
+/* Checks a material and converts it for the device. */
+clshear_status cs_material_make(const clshear_material *material, cs_material *made,
+                                cs_error *error);
+
+/* The same, appended to the scene; `number` becomes its index and 1. */
+clshear_status cs_scene_add_material(cs_scene *scene, const clshear_material *material,
+                                     uint32_t *number, cs_error *error);
+
+/* What the scene's materials ask of the kernels. */
+typedef struct cs_material_needs {
+    cs_u32 features;       /* CS_FEATURE_ bits */
+    int see_through;       /* alpha counts somewhere */
+    int textured_emission; /* which only rays find */
+} cs_material_needs;
+
+cs_material_needs cs_scene_material_needs(const cs_scene *scene);
+
 /* Whether three numbers can be a colour: 0 to 1e15, whose squares and sums are still floats. */
 int cs_is_colour(const float *colour);
 

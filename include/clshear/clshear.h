@@ -186,6 +186,32 @@ CLSHEAR_API clshear_status clshear_list_devices(void (*report)(void *user, int n
  * Scene: triangles, materials, lights and the hierarchy over them
  * --------------------------------------------------------------------------------------------- */
 
+typedef enum clshear_alpha_mode {
+    CLSHEAR_ALPHA_OPAQUE = 0, /* alpha is not used */
+    CLSHEAR_ALPHA_MASK = 1,   /* nothing is there where it is below the cutoff */
+    CLSHEAR_ALPHA_BLEND = 2   /* it is the part that covers what is behind */
+} clshear_alpha_mode;
+
+/* The surface of glTF 2.0 and its extensions; all numbers without a remark are 0 to 1. */
+typedef struct clshear_material {
+    size_t struct_size;
+    float base_colour[3]; /* of a metal's reflection, or of what is below a dielectric's */
+    float metallic;
+    float roughness;
+    float ior;          /* index of refraction of the dielectric: 1 to 10 */
+    float transmission; /* part of the base that is transparent, as a thin wall */
+    float alpha;
+    clshear_alpha_mode alpha_mode;
+    float alpha_cutoff;
+    float clearcoat;
+    float clearcoat_roughness;
+    float sheen_colour[3];
+    float sheen_roughness;
+    float emission[3]; /* radiance, on both sides; 0 to 1e15 */
+    int unlit;         /* not 0: shows its base colour and takes no part in light */
+    int double_sided;  /* kept; all surfaces have two sides */
+} clshear_material;
+
 /* Triangles of one material. */
 typedef struct clshear_mesh {
     size_t struct_size;
@@ -196,6 +222,8 @@ typedef struct clshear_mesh {
     size_t triangle_count;
     float diffuse[3];  /* albedo of a Lambertian surface; 0 to 1e15, physical up to 1 */
     float emission[3]; /* radiance, on both sides; 0 to 1e15 */
+    uint32_t
+        material; /* what clshear_scene_add_material gave, in the place of those two; 0: none */
 } clshear_mesh;
 
 typedef enum clshear_light_kind {
@@ -240,6 +268,14 @@ CLSHEAR_API clshear_status clshear_scene_load(clshear_context *context, const ch
 /* Creates an empty scene, to be filled with meshes and then completed. */
 CLSHEAR_API clshear_status clshear_scene_create(clshear_context *context, clshear_scene **scene);
 CLSHEAR_API clshear_status clshear_scene_add_mesh(clshear_scene *scene, const clshear_mesh *mesh);
+
+/* Fills in glTF's defaults: white metal, fully rough. struct_size is set by the caller. */
+CLSHEAR_API void clshear_material_init(clshear_material *material);
+
+/* Adds a material for meshes to come, and gives its number, 1 or more. */
+CLSHEAR_API clshear_status clshear_scene_add_material(clshear_scene *scene,
+                                                      const clshear_material *material,
+                                                      uint32_t *number);
 
 /* Builds the hierarchy and puts the scene on the device. No mesh can be added afterwards. */
 CLSHEAR_API clshear_status clshear_scene_complete(clshear_scene *scene);

@@ -6,6 +6,7 @@
 #define CS_BSDF_H
 
 #include "kernels/bsdf/lambert.h"
+#include "kernels/bsdf/standard.h"
 
 /* Lanes whose surface is of a kind: all of them, known to the compiler, while there is one kind. */
 static inline cs_vint cs_bsdf_lanes(const cs_surface *surface, cs_i32 kind)
@@ -58,9 +59,10 @@ static inline cs_vfloat cs_bsdf_density(const cs_surface *surface, const cs_vflo
     return density;
 }
 
-/* Draws a direction `in` by a point of the unit square in each lane. */
+/* Draws a direction `in` by a point of the unit square and a number, to choose a lobe by, in each
+ * lane. */
 static inline cs_bsdf_direction cs_bsdf_sample(const cs_surface *surface, const cs_vfloat *out,
-                                               cs_pair pair)
+                                               cs_pair pair, cs_vfloat choice)
 {
     cs_bsdf_direction drawn;
     drawn.density = (cs_vfloat)(0.0f);
@@ -69,16 +71,16 @@ static inline cs_bsdf_direction cs_bsdf_sample(const cs_surface *surface, const 
         drawn.in[axis] = surface->normal[axis];
         drawn.value.colour[axis] = (cs_vfloat)(0.0f);
     }
-#define CS_BSDF_SAMPLE(identifier, name, suffix)                                 \
-    {                                                                            \
-        cs_vint mine = cs_bsdf_lanes(surface, CS_BSDF_##identifier);             \
-        if (CS_BSDF_KINDS == 1 || cs_any(mine)) {                                \
-            cs_bsdf_direction its = cs_bsdf_sample_##suffix(surface, out, pair); \
-            cs_bsdf_take_value(&drawn.value, &its.value, mine);                  \
-            drawn.density = mine ? its.density : drawn.density;                  \
-            for (int axis = 0; axis < 3; axis++)                                 \
-                drawn.in[axis] = mine ? its.in[axis] : drawn.in[axis];           \
-        }                                                                        \
+#define CS_BSDF_SAMPLE(identifier, name, suffix)                                         \
+    {                                                                                    \
+        cs_vint mine = cs_bsdf_lanes(surface, CS_BSDF_##identifier);                     \
+        if (CS_BSDF_KINDS == 1 || cs_any(mine)) {                                        \
+            cs_bsdf_direction its = cs_bsdf_sample_##suffix(surface, out, pair, choice); \
+            cs_bsdf_take_value(&drawn.value, &its.value, mine);                          \
+            drawn.density = mine ? its.density : drawn.density;                          \
+            for (int axis = 0; axis < 3; axis++)                                         \
+                drawn.in[axis] = mine ? its.in[axis] : drawn.in[axis];                   \
+        }                                                                                \
     }
     CS_BSDF_LIST(CS_BSDF_SAMPLE)
 #undef CS_BSDF_SAMPLE

@@ -31,10 +31,12 @@ static inline cs_vfloat cs_bsdf_density_lambert(const cs_surface *surface, const
 /* The density is proportional to the cosine: a uniform point of the disk, lifted to the hemisphere
  * (Malley). */
 static inline cs_bsdf_direction cs_bsdf_sample_lambert(const cs_surface *surface,
-                                                       const cs_vfloat *out, cs_pair pair)
+                                                       const cs_vfloat *out, cs_pair pair,
+                                                       cs_vfloat choice)
 {
     cs_bsdf_direction drawn;
     cs_vfloat tangent[3];
+    (void)choice;
     tangent[0] = pair.x - 0.5f;
     tangent[1] = pair.y - 0.5f;
     cs_disk_from_square(&tangent[0], &tangent[1]);
