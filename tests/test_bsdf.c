@@ -49,6 +49,7 @@ static cs_surface surface_of(int kind, const float *normal)
         surface.normal[axis] = surface.outward[axis] = normal[axis];
     surface.parameters[CS_PARAMETER_ROUGHNESS] = 0.3f;
     surface.parameters[CS_PARAMETER_F0] = 0.04f;
+    surface.parameters[CS_PARAMETER_F90] = 1.0f;
     return surface;
 }
 

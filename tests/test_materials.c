@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "render/objects.h"
+
 static const uint32_t quad[6] = {0, 1, 2, 0, 2, 3};
 static const float floor_y[12] = {-50, 0, -50, 50, 0, -50, 50, 0, 50, -50, 0, 50};
 static const float roof_y[12] = {-50, 2, -50, 50, 2, -50, 50, 2, 50, -50, 2, 50};
@@ -151,6 +153,93 @@ static void alpha_shows_what_is_behind(void **state)
     }
 }
 
+/* Without its reflection the dielectric is Lambert's surface. */
+static void no_reflection_is_lambert(void **state)
+{
+    clshear_material ground = material_of(0.0f, 0.3f);
+    ground.specular = 0.0f;
+    for (int c = 0; c < 3; c++)
+        ground.base_colour[c] = 0.5f;
+    clshear_scene *scene = scene_of(*state, &ground, NULL);
+    clshear_settings *settings = looking_at_floor(1.0, 0.5, 0);
+    test_set(settings, CLSHEAR_LIGHT, "0,2,0,8,8,8");
+    assert_near(render(scene, settings).mean, 0.5 * 2.0 / acos(-1.0), 1e-4);
+    clshear_scene_free(scene);
+}
+
+/* A floor whose material has one texture of one colour, of 2 x 2 texels: s along X, t along -Z.
+ * `place` is where in cs_material its number goes. */
+static clshear_scene *mapped_floor(clshear_context *context, const clshear_material *material,
+                                   const uint16_t *halves, size_t place)
+{
+    static const float st[12] = {0, 1, 0, 1, 1, 0, 1, 0, 0, 0, 0, 0};
+    static const uint32_t facing_up[6] = {0, 2, 1, 0, 3, 2};
+    cs_error error;
+    uint32_t number = 0;
+    clshear_scene *scene = NULL;
+    const clshear_mesh mesh = {.struct_size = sizeof mesh,
+                               .positions = floor_y,
+                               .indices = facing_up,
+                               .vertex_count = 4,
+                               .triangle_count = 2};
+    test_ok(clshear_scene_create(context, &scene));
+    test_ok(clshear_scene_add_material(scene, material, &number));
+    cs_scene *world = &scene->scene;
+    cs_texture *texture = cs_array_extend(&world->textures, 1);
+    uint16_t *texels = cs_array_extend(&world->texels, 4);
+    *texture = (cs_texture){.width = 2, .height = 2};
+    for (size_t i = 0; i < 16; i++)
+        texels[i] = halves[i % 4];
+    const cs_u32 named = place == offsetof(cs_material, texture) ? 0 : 1;
+    memcpy((char *)world->materials.items + (number - 1) * sizeof(cs_material) + place, &named,
+           sizeof named);
+    assert_int_equal(cs_scene_add_mesh(world, &mesh, st, number - 1, "mesh", &error), CLSHEAR_OK);
+    test_ok(clshear_scene_complete(scene));
+    return scene;
+}
+
+/* Maps of one colour: half of the base, half of the emission, a normal bent towards +X or -Z (as
+ * halves 0x3800 is 0.5, 0x3a66 0.8, 0x3b33 0.9, 0x3c00 1), seen from above and from below. A sun in
+ * the direction of the bent normal gives E / pi; the halves round to 1e-3. */
+static void maps_say_what_they_should(void **state)
+{
+    static const uint16_t half[4] = {0x3800, 0x3800, 0x3800, 0x3c00};
+    static const uint16_t right[4] = {0x3a66, 0x3800, 0x3b33, 0x3c00};
+    static const uint16_t ahead[4] = {0x3800, 0x3a66, 0x3b33, 0x3c00};
+    const double pi = acos(-1.0);
+    const struct {
+        const uint16_t *texel;
+        size_t place;
+        const char *sun;
+        double height; /* of the eye */
+        double truth;
+    } cases[] = {
+        {half, offsetof(cs_material, texture), "0,1,0,2,2,2,0", 1.0, 1.0 / pi},
+        {right, offsetof(cs_material, normal_texture), "0.6,0.8,0,2,2,2,0", 1.0, 2.0 / pi},
+        {right, offsetof(cs_material, normal_texture), "-0.6,0.8,0,2,2,2,0", 1.0, 0.56 / pi},
+        {ahead, offsetof(cs_material, normal_texture), "0,0.8,-0.6,2,2,2,0", 1.0, 2.0 / pi},
+        {right, offsetof(cs_material, normal_texture), "-0.6,-0.8,0,2,2,2,0", -1.0, 2.0 / pi},
+        {ahead, offsetof(cs_material, normal_texture), "0,-0.8,0.6,2,2,2,0", -1.0, 2.0 / pi},
+    };
+    clshear_material material = material_of(0.0f, 0.5f);
+    material.specular = 0.0f;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        clshear_scene *scene = mapped_floor(*state, &material, cases[i].texel, cases[i].place);
+        clshear_settings *settings = looking_at_floor(1.0, 0.1, 0);
+        test_set(settings, CLSHEAR_EYE, "-0.1,%g,0", cases[i].height);
+        test_set(settings, CLSHEAR_SUN, "%s", cases[i].sun);
+        const estimate found = render(scene, settings);
+        print_message("map %zu: %.4f of %.4f\n", i, found.mean, cases[i].truth);
+        assert_near(found.mean, cases[i].truth, 3e-3 * cases[i].truth + 5.0 * found.error);
+        clshear_scene_free(scene);
+    }
+    material.emission[0] = 3.0f;
+    clshear_scene *scene =
+        mapped_floor(*state, &material, half, offsetof(cs_material, emission_texture));
+    assert_near(render(scene, looking_at_floor(1.0, 0.1, 0)).mean, 1.5, 1e-3);
+    clshear_scene_free(scene);
+}
+
 static void wrong_materials_are_refused(void **state)
 {
     clshear_scene *scene = NULL;
@@ -179,6 +268,8 @@ int main(void)
         cmocka_unit_test(white_furnace),
         cmocka_unit_test(polished_metal_shows_the_sun),
         cmocka_unit_test(alpha_shows_what_is_behind),
+        cmocka_unit_test(no_reflection_is_lambert),
+        cmocka_unit_test(maps_say_what_they_should),
         cmocka_unit_test(wrong_materials_are_refused),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

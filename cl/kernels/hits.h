@@ -109,15 +109,15 @@ static inline void cs_apply_normal_map(const cs_scene_buffers *scene,
     cs_vfloat square = cs_dot(along, along);
     cs_vint usable = mine & (square > 1e-30f);
     cs_vfloat inverse = 1.0f / sqrt(cs_max(square, (cs_vfloat)(1e-30f)));
-    /* Seen from behind, the map's third axis and the second, sign included, are turned round. */
+    /* Seen from behind, the whole bent normal is reversed; z goes with the normal already. */
     cs_vfloat facing = surface->outward[0] * triangle->normal[0] +
                        surface->outward[1] * triangle->normal[1] +
                        surface->outward[2] * triangle->normal[2];
     facing = facing < 0.0f ? (cs_vfloat)(-1.0f) : (cs_vfloat)(1.0f);
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
-        up[i] = sign * facing * (n[j] * along[k] - n[k] * along[j]);
-        bent[i] = (x * along[i] + y * up[i]) * inverse + z * n[i];
+        up[i] = sign * (n[j] * along[k] - n[k] * along[j]);
+        bent[i] = (x * facing * along[i] + y * up[i]) * inverse + z * n[i];
     }
     inverse = 1.0f / sqrt(cs_max(cs_dot(bent, bent), (cs_vfloat)(1e-30f)));
     usable = usable & (cs_dot(bent, surface->outward) > 0.0f);

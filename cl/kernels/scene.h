@@ -105,7 +105,8 @@ enum {
 enum {
     CS_PARAMETER_ROUGHNESS,
     CS_PARAMETER_METALLIC,
-    CS_PARAMETER_F0, /* reflectance of the dielectric, met head-on */
+    CS_PARAMETER_F0,  /* reflectance of the dielectric, met head-on */
+    CS_PARAMETER_F90, /* and at grazing angles */
     CS_PARAMETER_TRANSMISSION,
     CS_PARAMETER_COAT,
     CS_PARAMETER_COAT_ROUGHNESS,

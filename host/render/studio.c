@@ -13,8 +13,8 @@ static const double pi = 3.14159265358979;
 static int has_light(const clshear_scene *scene, const clshear_settings *settings)
 {
     return scene->scene.lights.count > 0 || scene->device_scene.emitters > 0 ||
-           cs_is_set(settings, LIGHT) || cs_is_set(settings, SUN) ||
-           cs_is_set(settings, ENVIRONMENT);
+           scene->device_scene.needs.textured_emission || cs_is_set(settings, LIGHT) ||
+           cs_is_set(settings, SUN) || cs_is_set(settings, ENVIRONMENT);
 }
 
 static void normalise(double *vector)

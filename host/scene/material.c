@@ -13,6 +13,7 @@ void cs_material_defaults(clshear_material *material)
                                    .metallic = 1.0f,
                                    .roughness = 1.0f,
                                    .ior = 1.5f,
+                                   .specular = 1.0f,
                                    .alpha = 1.0f,
                                    .alpha_mode = CLSHEAR_ALPHA_OPAQUE,
                                    .alpha_cutoff = 0.5f};
@@ -25,6 +26,7 @@ static clshear_status check(const clshear_material *material, cs_error *error)
         float value;
     } parts[] = {{"metallic", material->metallic},
                  {"roughness", material->roughness},
+                 {"specular", material->specular},
                  {"transmission", material->transmission},
                  {"alpha", material->alpha},
                  {"alpha_cutoff", material->alpha_cutoff},
@@ -65,7 +67,8 @@ clshear_status cs_material_make(const clshear_material *material, cs_material *m
     float *p = made->parameters;
     p[CS_PARAMETER_ROUGHNESS] = material->roughness;
     p[CS_PARAMETER_METALLIC] = material->metallic;
-    p[CS_PARAMETER_F0] = edge * edge;
+    p[CS_PARAMETER_F0] = material->specular * edge * edge;
+    p[CS_PARAMETER_F90] = material->specular;
     p[CS_PARAMETER_TRANSMISSION] = material->transmission;
     p[CS_PARAMETER_COAT] = material->clearcoat;
     p[CS_PARAMETER_COAT_ROUGHNESS] = material->clearcoat_roughness;
@@ -92,13 +95,25 @@ clshear_status cs_scene_add_material(cs_scene *scene, const clshear_material *ma
     return CLSHEAR_OK;
 }
 
+/* Whether there are textures besides the base colour's. */
+static int has_maps(const cs_material *material)
+{
+    return material->facets_texture > 0 || material->normal_texture > 0 ||
+           material->emission_texture > 0;
+}
+
+int cs_material_is_textured(const cs_material *material)
+{
+    return material->texture != CS_NO_TEXTURE || has_maps(material);
+}
+
 cs_material_needs cs_scene_material_needs(const cs_scene *scene)
 {
     cs_material_needs needs = {0};
     const cs_material *materials = scene->materials.items;
     for (size_t i = 0; i < scene->materials.count; i++) {
         const cs_material *m = &materials[i];
-        if (m->bsdf != CS_BSDF_LAMBERT || m->flags != 0 || m->emission_texture > 0)
+        if (m->bsdf != CS_BSDF_LAMBERT || m->flags != 0 || has_maps(m))
             needs.features |= CS_FEATURE_MATERIALS | CS_FEATURE_PATHS;
         needs.see_through |= (m->flags & (CS_MATERIAL_BLEND | CS_MATERIAL_MASK)) != 0;
         needs.textured_emission |= m->emission_texture > 0;

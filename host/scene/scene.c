@@ -125,7 +125,7 @@ clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, cons
 {
     const size_t vertices = scene->positions.count, triangles = scene->indices.count;
     const cs_material *look = (const cs_material *)scene->materials.items + material;
-    const int textured = texture != NULL && look->texture != CS_NO_TEXTURE;
+    const int textured = texture != NULL && cs_material_is_textured(look);
     const int flag =
         (mesh->normals != NULL ? CS_FACE_SMOOTH : 0) | (textured ? CS_FACE_TEXTURED : 0);
     if (mesh->triangle_count == 0) return CLSHEAR_OK;

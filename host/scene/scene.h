@@ -54,6 +54,9 @@ clshear_status cs_material_make(const clshear_material *material, cs_material *m
 clshear_status cs_scene_add_material(cs_scene *scene, const clshear_material *material,
                                      uint32_t *number, cs_error *error);
 
+/* Whether the device reads texture coordinates of its triangles. */
+int cs_material_is_textured(const cs_material *material);
+
 /* What the scene's materials ask of the kernels. */
 typedef struct cs_material_needs {
     cs_u32 features;       /* CS_FEATURE_ bits */

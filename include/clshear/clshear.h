@@ -199,6 +199,7 @@ typedef struct clshear_material {
     float metallic;
     float roughness;
     float ior;          /* index of refraction of the dielectric: 1 to 10 */
+    float specular;     /* the dielectric's reflection is multiplied by it; 0: Lambert's surface */
     float transmission; /* part of the base that is transparent, as a thin wall */
     float alpha;
     clshear_alpha_mode alpha_mode;

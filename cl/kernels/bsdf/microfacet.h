@@ -160,11 +160,12 @@ static inline cs_albedo cs_albedo_at(CS_GLOBAL const cs_f32 *table, cs_vfloat co
     return albedo;
 }
 
-/* Part of the light that no single facet lets go which the others do, where a facet that is met
- * head-on reflects `f0`: Kulla & Conty 2017, with the mean of Schlick's reflectance. */
-static inline cs_vfloat cs_repeated_part(cs_vfloat f0, cs_vfloat average_albedo)
+/* Part of the light that no single facet lets go which the others do, where a facet reflects `f0`
+ * of what it meets head-on and `f90` at grazing angles: Kulla & Conty 2017, with the mean of
+ * Schlick's reflectance. */
+static inline cs_vfloat cs_repeated_part(cs_vfloat f0, cs_vfloat f90, cs_vfloat average_albedo)
 {
-    cs_vfloat mean = f0 + (1.0f - f0) * (1.0f / 21.0f);
+    cs_vfloat mean = f0 + (f90 - f0) * (1.0f / 21.0f);
     return mean * mean * average_albedo / (1.0f - mean * (1.0f - average_albedo));
 }
 

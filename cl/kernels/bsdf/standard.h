@@ -19,8 +19,9 @@ typedef struct cs_standard {
     cs_vfloat out[3]; /* unit */
     cs_vfloat cosine; /* of it */
     cs_vfloat width;
-    cs_vfloat metal;      /* part; the rest is dielectric */
-    cs_vfloat f0;         /* of the dielectric */
+    cs_vfloat metal; /* part; the rest is dielectric */
+    cs_vfloat f0;    /* of the dielectric, and at grazing angles */
+    cs_vfloat f90;
     cs_vfloat repeated;   /* of the dielectric, see cs_repeated_part */
     cs_vfloat repeats[3]; /* of the metal, times its part */
     cs_vfloat base[3];    /* colour of what is below the dielectric, times its part */
@@ -42,7 +43,7 @@ typedef struct cs_standard {
 static inline cs_vfloat cs_dielectric_albedo(const cs_standard *s, const cs_albedo *albedo)
 {
     cs_vfloat all = albedo->plane[CS_ALBEDO_ALL];
-    return s->f0 * all + (1.0f - s->f0) * albedo->plane[CS_ALBEDO_SCHLICK] +
+    return s->f0 * all + (s->f90 - s->f0) * albedo->plane[CS_ALBEDO_SCHLICK] +
            s->repeated * (1.0f - all);
 }
 
@@ -60,9 +61,10 @@ static inline void cs_standard_chances(const cs_surface *surface, cs_vfloat coat
     cs_vfloat f0 = s->metal * cs_largest(surface->albedo) + (1.0f - s->metal) * s->f0;
     cs_vfloat dielectric = cs_dielectric_albedo(s, &s->albedo);
     cs_vfloat base = cs_largest(s->base);
-    cs_vfloat facets = s->below * (f0 * all + (1.0f - f0) * once);
+    cs_vfloat f90 = s->metal + (1.0f - s->metal) * s->f90;
+    cs_vfloat facets = s->below * (f0 * all + (f90 - f0) * once);
     cs_vfloat coat = s->coat * coat_albedo;
-    cs_vfloat entered = s->f0 * all + (1.0f - s->f0) * once;
+    cs_vfloat entered = s->f0 * all + (s->f90 - s->f0) * once;
     cs_vfloat through = s->below * base * s->through * (all - entered);
     cs_vfloat behind = s->below * base * s->through * (1.0f - s->repeated) * (1.0f - all);
     cs_vfloat diffuse =
@@ -85,13 +87,14 @@ static inline cs_standard cs_standard_of(const cs_surface *surface, const cs_vfl
     s.width = cs_facet_width(p[CS_PARAMETER_ROUGHNESS]);
     s.metal = p[CS_PARAMETER_METALLIC];
     s.f0 = p[CS_PARAMETER_F0];
+    s.f90 = p[CS_PARAMETER_F90];
     s.through = p[CS_PARAMETER_TRANSMISSION];
     s.albedo = cs_albedo_at(surface->albedos, s.cosine, p[CS_PARAMETER_ROUGHNESS]);
     s.average = cs_albedo_at(surface->albedos, (cs_vfloat)(-1.0f), p[CS_PARAMETER_ROUGHNESS]);
-    s.repeated = cs_repeated_part(s.f0, s.average.plane[CS_ALBEDO_ALL]);
+    s.repeated = cs_repeated_part(s.f0, s.f90, s.average.plane[CS_ALBEDO_ALL]);
     for (int c = 0; c < 3; c++) {
-        s.repeats[c] =
-            s.metal * cs_repeated_part(surface->albedo[c], s.average.plane[CS_ALBEDO_ALL]);
+        s.repeats[c] = s.metal * cs_repeated_part(surface->albedo[c], (cs_vfloat)(1.0f),
+                                                  s.average.plane[CS_ALBEDO_ALL]);
         s.base[c] = (1.0f - s.metal) * surface->albedo[c];
     }
     s.coat = p[CS_PARAMETER_COAT];
@@ -135,8 +138,9 @@ static inline void cs_standard_front(const cs_standard *s, const cs_surface *sur
                        cs_max(1.0f - cs_dielectric_albedo(s, &s->average), (cs_vfloat)(1e-6f));
     for (int c = 0; c < 3; c++) {
         cs_vfloat f0 = s->metal * surface->albedo[c] + (1.0f - s->metal) * s->f0;
+        cs_vfloat f90 = s->metal + (1.0f - s->metal) * s->f90;
         cs_vfloat repeats = s->repeats[c] + (1.0f - s->metal) * s->repeated;
-        value[c] = s->below * (facets * (f0 + (1.0f - f0) * grazing) + lost * repeats +
+        value[c] = s->below * (facets * (f0 + (f90 - f0) * grazing) + lost * repeats +
                                s->base[c] * (1.0f - s->through) * passed);
     }
     cs_vfloat above = s->coat * cs_facet_distribution(surface->normal, half_way, s->coat_width) *
@@ -164,7 +168,8 @@ static inline void cs_standard_behind(const cs_standard *s, const cs_surface *su
     cs_vfloat lost = (1.0f - s->albedo.plane[CS_ALBEDO_ALL]) * (1.0f - seen.plane[CS_ALBEDO_ALL]) *
                      CS_INVERSE_PI /
                      cs_max(1.0f - s->average.plane[CS_ALBEDO_ALL], (cs_vfloat)(1e-6f));
-    cs_vfloat passed = (1.0f - s->f0) * (1.0f - grazing) * facets + (1.0f - s->repeated) * lost;
+    cs_vfloat passed =
+        (1.0f - s->f0 - (s->f90 - s->f0) * grazing) * facets + (1.0f - s->repeated) * lost;
     for (int c = 0; c < 3; c++)
         value[c] = s->below * s->base[c] * s->through * passed;
 }
