@@ -43,7 +43,7 @@ clshear_status clshear_scene_add_mesh(clshear_scene *scene, const clshear_mesh *
 void clshear_material_init(clshear_material *material)
 {
     clshear_material defaults;
-    cs_material_defaults(&defaults);
+    cs_standard_defaults(&defaults);
     cs_struct_out(material, &defaults, sizeof defaults);
 }
 
@@ -59,7 +59,7 @@ clshear_status clshear_scene_add_material(clshear_scene *scene, const clshear_ma
         status = cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,
                          "material: the scene is complete already");
     if (status == CLSHEAR_OK)
-        status = cs_scene_add_material(&scene->scene, &copy, number, cs_thread_error());
+        status = cs_scene_add_standard(&scene->scene, &copy, number, cs_thread_error());
     return cs_message_keep(&scene->message, status);
 }
 

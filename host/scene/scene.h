@@ -44,14 +44,14 @@ clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, cons
 clshear_status cs_scene_finish(cs_scene *scene, const char *name, cs_error *error);
 
 /* glTF's defaults. */
-void cs_material_defaults(clshear_material *material);
+void cs_standard_defaults(clshear_material *material);
 
 /* Checks a material and converts it for the device. */
-clshear_status cs_material_make(const clshear_material *material, cs_material *made,
+clshear_status cs_standard_make(const clshear_material *material, cs_material *made,
                                 cs_error *error);
 
 /* The same, appended to the scene; `number` becomes its index and 1. */
-clshear_status cs_scene_add_material(cs_scene *scene, const clshear_material *material,
+clshear_status cs_scene_add_standard(cs_scene *scene, const clshear_material *material,
                                      uint32_t *number, cs_error *error);
 
 /* Whether the device reads texture coordinates of its triangles. */

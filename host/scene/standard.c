@@ -6,7 +6,7 @@
 #include "kernels/features.h"
 #include "scene/scene.h"
 
-void cs_material_defaults(clshear_material *material)
+void cs_standard_defaults(clshear_material *material)
 {
     *material = (clshear_material){.struct_size = sizeof *material,
                                    .base_colour = {1.0f, 1.0f, 1.0f},
@@ -53,7 +53,7 @@ static clshear_status check(const clshear_material *material, cs_error *error)
     return CLSHEAR_OK;
 }
 
-clshear_status cs_material_make(const clshear_material *material, cs_material *made,
+clshear_status cs_standard_make(const clshear_material *material, cs_material *made,
                                 cs_error *error)
 {
     clshear_status status = check(material, error);
@@ -82,11 +82,11 @@ clshear_status cs_material_make(const clshear_material *material, cs_material *m
     return CLSHEAR_OK;
 }
 
-clshear_status cs_scene_add_material(cs_scene *scene, const clshear_material *material,
+clshear_status cs_scene_add_standard(cs_scene *scene, const clshear_material *material,
                                      uint32_t *number, cs_error *error)
 {
     cs_material made;
-    clshear_status status = cs_material_make(material, &made, error);
+    clshear_status status = cs_standard_make(material, &made, error);
     if (status != CLSHEAR_OK) return status;
     cs_material *added = cs_array_extend(&scene->materials, 1);
     if (added == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
