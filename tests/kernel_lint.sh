@@ -1,5 +1,5 @@
 #!/bin/sh
-# The kernels are clean OpenCL C 1.2 at every packet width, by clang's warnings.
+# The kernels are clean OpenCL C 1.2 at every packet width and with all features, by clang's warnings.
 set -eu
 root=$1
 clang=
@@ -7,9 +7,16 @@ for name in clang clang-14 clang-15 clang-16; do
     [ -n "$clang" ] || clang=$(command -v $name || true)
 done
 [ -n "$clang" ] || { echo "no clang here: skipped"; exit 77; }
+lint() { # width, features, kernel
+    "$clang" -x cl -cl-std=CL1.2 -Wall -Wextra -Werror -Xclang -finclude-default-header \
+        -fsyntax-only -DCS_PACKET=$1 -DCS_FEATURES=$2 -DCS_KEEP_FP_CONTRACT_OFF -I "$root/cl" "$3"
+}
 for width in 1 4 8 16; do
     for kernel in "$root"/cl/kernels/*.cl; do
-        "$clang" -x cl -cl-std=CL1.2 -Wall -Wextra -Werror -Xclang -finclude-default-header \
-            -fsyntax-only -DCS_PACKET=$width -DCS_KEEP_FP_CONTRACT_OFF -I "$root/cl" "$kernel"
+        lint $width 0 "$kernel"
+    done
+    for features in 1 2 3 5 7 8 13 24 32 34 61 63; do # those that renders use, see cl/kernels/features.h
+        lint $width $features "$root/cl/kernels/render.cl"
+        lint $width $features "$root/cl/kernels/radiance.cl"
     done
 done

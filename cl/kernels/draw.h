@@ -36,7 +36,10 @@ typedef struct cs_drawn {
     cs_f32 shear[CS_TOGETHER];
     cs_vint active[CS_TOGETHER]; /* lanes that are samples of the pattern */
     cs_camera_sample point[CS_TOGETHER];
-    cs_pair light[CS_TOGETHER]; /* the tuple's slot, if the scene has emitters */
+    cs_pair light[CS_TOGETHER]; /* the tuple's slot, if there are area lights */
+#if CS_HAS(PATHS)
+    cs_vuint index[CS_TOGETHER]; /* in the pattern */
+#endif
 } cs_drawn;
 
 /* One packet of them, which begins at place `start` of the pixel's order, up to `end`. */
@@ -61,9 +64,12 @@ static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sampl
     drawn->active[k] = active;
     drawn->point[k] =
         cs_shear_alone(point, launch->shear_mode, &launch->camera.optics, lens_table, place->shear);
+#if CS_HAS(PATHS)
+    drawn->index[k] = index;
+#endif
     drawn->light[k].x = (cs_vfloat)(0.0f);
     drawn->light[k].y = (cs_vfloat)(0.0f);
-    if (launch->emitters > 0u)
+    if (launch->area_lights > 0u)
         drawn->light[k] =
             cs_draw_extra(&launch->pattern, sample_table, place->key, index, CS_SLOT_LIGHT);
 }

@@ -2,33 +2,28 @@
 #ifndef CS_HITS_H
 #define CS_HITS_H
 
+#include "kernels/bsdf/list.h"
 #include "kernels/surface.h"
 #include "kernels/texture.h"
 #include "kernels/traverse.h"
 #include "kernels/vector.h"
 
-/* Multiplies the albedo of the lanes in `mine` by the texture at barycentrics (b1, b2). */
-static inline void cs_apply_texture(const cs_scene_buffers *scene, CS_GLOBAL const cs_face *face,
-                                    cs_u32 texture, cs_vfloat b1, cs_vfloat b2, cs_vint mine,
-                                    cs_surface *surface)
+#if CS_HAS(TEXTURES)
+/* Texture coordinates at barycentrics (b1, b2). */
+static inline void cs_texture_place(const cs_scene_buffers *scene, CS_GLOBAL const cs_face *face,
+                                    cs_vfloat b1, cs_vfloat b2, cs_vfloat *s, cs_vfloat *t)
 {
     CS_GLOBAL const cs_vertex *v0 = scene->vertices + face->vertex[0];
     CS_GLOBAL const cs_vertex *v1 = scene->vertices + face->vertex[1];
     CS_GLOBAL const cs_vertex *v2 = scene->vertices + face->vertex[2];
-    cs_vfloat s = v0->texture[0] + b1 * (v1->texture[0] - v0->texture[0]) +
-                  b2 * (v2->texture[0] - v0->texture[0]);
-    cs_vfloat t = v0->texture[1] + b1 * (v1->texture[1] - v0->texture[1]) +
-                  b2 * (v2->texture[1] - v0->texture[1]);
-    cs_float_lanes colour[3];
-    cs_int_lanes wanted;
-    wanted.all = mine;
-    for (int c = 0; c < 3; c++)
-        colour[c].all = (cs_vfloat)(0.0f);
-    cs_texels(scene, texture, s, t, wanted, colour);
-    for (int c = 0; c < 3; c++)
-        surface->albedo[c] = mine ? surface->albedo[c] * colour[c].all : surface->albedo[c];
+    *s = v0->texture[0] + b1 * (v1->texture[0] - v0->texture[0]) +
+         b2 * (v2->texture[0] - v0->texture[0]);
+    *t = v0->texture[1] + b1 * (v1->texture[1] - v0->texture[1]) +
+         b2 * (v2->texture[1] - v0->texture[1]);
 }
+#endif
 
+#if CS_HAS(COLOURS)
 /* Multiplies the albedo of the lanes in `mine` by the vertex colours at barycentrics (b1, b2). */
 static inline void cs_apply_colour(const cs_scene_buffers *scene, CS_GLOBAL const cs_face *face,
                                    cs_vfloat b1, cs_vfloat b2, cs_vint mine, cs_surface *surface)
@@ -42,6 +37,7 @@ static inline void cs_apply_colour(const cs_scene_buffers *scene, CS_GLOBAL cons
             mine ? surface->albedo[c] * cs_max(colour, (cs_vfloat)(0.0f)) : surface->albedo[c];
     }
 }
+#endif
 
 /* Interpolates the vertex normals over the lanes in `mine`, turned to the viewer's side. */
 static inline void cs_apply_smooth_normal(const cs_scene_buffers *scene,
@@ -63,7 +59,8 @@ static inline void cs_apply_smooth_normal(const cs_scene_buffers *scene,
         surface->normal[axis] = usable ? scale * normal[axis] : surface->normal[axis];
 }
 
-/* The BSDF of the lanes in `mine`. What no kind reads is not loaded: the compiler sees to that. */
+#if CS_HAS(MATERIALS)
+/* The BSDF of the lanes in `mine`. */
 static inline void cs_describe_bsdf(CS_GLOBAL const cs_material *material, cs_vint mine,
                                     cs_surface *surface)
 {
@@ -71,7 +68,132 @@ static inline void cs_describe_bsdf(CS_GLOBAL const cs_material *material, cs_vi
     for (int i = 0; i < CS_MATERIAL_PARAMETERS; i++)
         surface->parameters[i] =
             mine ? (cs_vfloat)(material->parameters[i]) : surface->parameters[i];
+    surface->alpha = mine ? (cs_vfloat)(material->alpha) : surface->alpha;
 }
+#endif
+
+#if CS_HAS(TEXTURES) && CS_HAS(MATERIALS)
+/* A texture's four channels at (s, t), in the lanes that are `mine`. Textures count from 1; 0 is
+ * white. */
+static inline void cs_map_at(const cs_scene_buffers *scene, cs_u32 number, cs_vfloat s, cs_vfloat t,
+                             cs_vint mine, cs_float_lanes *colour)
+{
+    cs_int_lanes wanted;
+    wanted.all = mine;
+    for (int c = 0; c < 4; c++)
+        colour[c].all = (cs_vfloat)(1.0f);
+    if (number > 0u) cs_texels(scene, number - 1u, s, t, wanted, colour);
+}
+
+/* Bends the normal of the lanes in `mine` as a normal map says, whose axes are those of the texture
+ * on the triangle (glTF 2.0, material.normalTexture). The normal stays on the viewer's side. */
+static inline void cs_apply_normal_map(const cs_scene_buffers *scene,
+                                       CS_GLOBAL const cs_triangle *triangle,
+                                       CS_GLOBAL const cs_face *face, const cs_float_lanes *map,
+                                       cs_f32 scale, cs_vint mine, cs_surface *surface)
+{
+    CS_GLOBAL const cs_f32 *t0 = scene->vertices[face->vertex[0]].texture;
+    CS_GLOBAL const cs_f32 *t1 = scene->vertices[face->vertex[1]].texture;
+    CS_GLOBAL const cs_f32 *t2 = scene->vertices[face->vertex[2]].texture;
+    cs_f32 s1 = t1[0] - t0[0], s2 = t2[0] - t0[0], u1 = t1[1] - t0[1], u2 = t2[1] - t0[1];
+    cs_f32 sign = s1 * u2 - s2 * u1 < 0.0f ? -1.0f : 1.0f;
+    cs_vfloat x = (2.0f * map[0].all - 1.0f) * scale, y = (2.0f * map[1].all - 1.0f) * scale;
+    cs_vfloat z = 2.0f * map[2].all - 1.0f, along[3], up[3], bent[3];
+    const cs_vfloat *n = surface->normal;
+    for (int i = 0; i < 3; i++)
+        along[i] = (cs_vfloat)(sign * (triangle->edge1[i] * u2 - triangle->edge2[i] * u1));
+    cs_vfloat off = cs_dot(along, n);
+    for (int i = 0; i < 3; i++)
+        along[i] -= off * n[i];
+    cs_vfloat square = cs_dot(along, along);
+    cs_vint usable = mine & (square > 1e-30f);
+    cs_vfloat inverse = 1.0f / sqrt(cs_max(square, (cs_vfloat)(1e-30f)));
+    /* Seen from behind, the whole bent normal is reversed; z goes with the normal already. */
+    cs_vfloat facing = surface->outward[0] * triangle->normal[0] +
+                       surface->outward[1] * triangle->normal[1] +
+                       surface->outward[2] * triangle->normal[2];
+    facing = facing < 0.0f ? (cs_vfloat)(-1.0f) : (cs_vfloat)(1.0f);
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        up[i] = sign * (n[j] * along[k] - n[k] * along[j]);
+        bent[i] = (x * facing * along[i] + y * up[i]) * inverse + z * n[i];
+    }
+    inverse = 1.0f / sqrt(cs_max(cs_dot(bent, bent), (cs_vfloat)(1e-30f)));
+    usable = usable & (cs_dot(bent, surface->outward) > 0.0f);
+    for (int i = 0; i < 3; i++)
+        surface->normal[i] = usable ? bent[i] * inverse : surface->normal[i];
+}
+
+/* Everything that the material's textures say of the lanes in `mine`. */
+static inline void cs_apply_textures(const cs_scene_buffers *scene,
+                                     CS_GLOBAL const cs_material *material,
+                                     CS_GLOBAL const cs_triangle *triangle,
+                                     CS_GLOBAL const cs_face *face, cs_vfloat b1, cs_vfloat b2,
+                                     cs_vint mine, cs_surface *surface)
+{
+    cs_vfloat s, t;
+    cs_float_lanes map[4];
+    cs_texture_place(scene, face, b1, b2, &s, &t);
+    cs_map_at(scene, (cs_u32)(material->texture + 1), s, t, mine, map);
+    for (int c = 0; c < 3; c++)
+        surface->albedo[c] = mine ? surface->albedo[c] * map[c].all : surface->albedo[c];
+    surface->alpha = mine ? surface->alpha * map[3].all : surface->alpha;
+    cs_map_at(scene, material->emission_texture, s, t, mine, map);
+    for (int c = 0; c < 3; c++)
+        surface->emission[c] = mine ? surface->emission[c] * map[c].all : surface->emission[c];
+    cs_map_at(scene, material->facets_texture, s, t, mine, map);
+    cs_vfloat *p = surface->parameters;
+    p[CS_PARAMETER_ROUGHNESS] =
+        mine ? p[CS_PARAMETER_ROUGHNESS] * map[1].all : p[CS_PARAMETER_ROUGHNESS];
+    p[CS_PARAMETER_METALLIC] =
+        mine ? p[CS_PARAMETER_METALLIC] * map[2].all : p[CS_PARAMETER_METALLIC];
+    if (material->normal_texture == 0u) return;
+    cs_map_at(scene, material->normal_texture, s, t, mine, map);
+    cs_apply_normal_map(scene, triangle, face, map, material->normal_scale, mine, surface);
+}
+#elif CS_HAS(TEXTURES)
+/* What the material's texture says of the lanes in `mine`: their albedo is multiplied by it. */
+static inline void cs_apply_textures(const cs_scene_buffers *scene,
+                                     CS_GLOBAL const cs_material *material,
+                                     CS_GLOBAL const cs_triangle *triangle,
+                                     CS_GLOBAL const cs_face *face, cs_vfloat b1, cs_vfloat b2,
+                                     cs_vint mine, cs_surface *surface)
+{
+    cs_vfloat s, t;
+    cs_float_lanes colour[3];
+    cs_int_lanes wanted;
+    (void)triangle;
+    cs_texture_place(scene, face, b1, b2, &s, &t);
+    wanted.all = mine;
+    for (int c = 0; c < 3; c++)
+        colour[c].all = (cs_vfloat)(0.0f);
+    cs_texels(scene, (cs_u32)material->texture, s, t, wanted, colour);
+    for (int c = 0; c < 3; c++)
+        surface->albedo[c] = mine ? surface->albedo[c] * colour[c].all : surface->albedo[c];
+}
+#endif
+
+#if CS_HAS(MATERIALS)
+/* From alpha to a chance, and unlit surfaces to emission. */
+static inline void cs_finish_material(CS_GLOBAL const cs_material *material, cs_vint mine,
+                                      cs_surface *surface)
+{
+    cs_vfloat covers = (cs_vfloat)(1.0f);
+    if (material->flags & CS_MATERIAL_BLEND) covers = surface->alpha;
+    if (material->flags & CS_MATERIAL_MASK)
+        covers = surface->alpha >= material->cutoff ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
+    surface->alpha = mine ? covers : surface->alpha;
+    if (material->emission_texture > 0u)
+        surface->shines_to = mine ? (cs_vint)(CS_SHINES_RAYS) : surface->shines_to;
+    if (!(material->flags & CS_MATERIAL_UNLIT)) return;
+    surface->shines_to = mine ? (cs_vint)(CS_SHINES_CAMERA) : surface->shines_to;
+    surface->bsdf = mine ? (cs_vint)(CS_BSDF_LAMBERT) : surface->bsdf; /* and black */
+    for (int c = 0; c < 3; c++) {
+        surface->emission[c] = mine ? surface->albedo[c] : surface->emission[c];
+        surface->albedo[c] = mine ? (cs_vfloat)(0.0f) : surface->albedo[c];
+    }
+}
+#endif
 
 /* Fills in the lanes in `mine`, which all hit triangle number `index`. */
 static inline void cs_describe_triangle(const cs_scene_buffers *scene, const cs_ray *ray,
@@ -92,8 +214,15 @@ static inline void cs_describe_triangle(const cs_scene_buffers *scene, const cs_
         surface->emission[axis] =
             mine ? (cs_vfloat)(material->emission[axis]) : surface->emission[axis];
     }
+#if CS_HAS(MATERIALS)
     cs_describe_bsdf(material, mine, surface);
-    if (triangle->flags == 0u) return;
+#endif
+    if (triangle->flags == 0u) {
+#if CS_HAS(MATERIALS)
+        cs_finish_material(material, mine, surface);
+#endif
+        return;
+    }
 
     cs_vfloat x = surface->point[0] - triangle->corner[0];
     cs_vfloat y = surface->point[1] - triangle->corner[1];
@@ -110,9 +239,16 @@ static inline void cs_describe_triangle(const cs_scene_buffers *scene, const cs_
     CS_GLOBAL const cs_face *face = scene->faces + triangle->face;
     if (triangle->flags & CS_FACE_SMOOTH)
         cs_apply_smooth_normal(scene, face, b1, b2, mine, surface);
+#if CS_HAS(TEXTURES)
     if (triangle->flags & CS_FACE_TEXTURED)
-        cs_apply_texture(scene, face, (cs_u32)material->texture, b1, b2, mine, surface);
+        cs_apply_textures(scene, material, triangle, face, b1, b2, mine, surface);
+#endif
+#if CS_HAS(COLOURS)
     if (triangle->flags & CS_FACE_COLOURED) cs_apply_colour(scene, face, b1, b2, mine, surface);
+#endif
+#if CS_HAS(MATERIALS)
+    cs_finish_material(material, mine, surface);
+#endif
 }
 
 /* The surfaces that a packet hit, one distinct triangle after another: mostly there are few. */
@@ -128,9 +264,14 @@ static inline cs_surface cs_describe_hits(const cs_scene_buffers *scene, const c
         surface.albedo[axis] = (cs_vfloat)(0.0f);
         surface.emission[axis] = (cs_vfloat)(0.0f);
     }
+#if CS_HAS(MATERIALS)
     surface.bsdf = (cs_vint)(0);
     for (int i = 0; i < CS_MATERIAL_PARAMETERS; i++)
         surface.parameters[i] = (cs_vfloat)(0.0f);
+    surface.alpha = (cs_vfloat)(1.0f);
+    surface.shines_to = (cs_vint)(CS_SHINES_SAMPLED);
+    surface.albedos = scene->albedos;
+#endif
     cs_vint left = hit->triangle;
     for (cs_i32 index = cs_reduce_max(left); index >= 0; index = cs_reduce_max(left)) {
         cs_vint mine = left == (cs_vint)(index);

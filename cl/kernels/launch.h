@@ -4,6 +4,7 @@
 
 #include "clshear/device/camera.h"
 #include "clshear/device/sampler/sampler.h"
+#include "kernels/features.h"
 
 enum {
     /* Floats that the points kernel writes for each sample: the tuple, then x, y, u, v. */
@@ -29,9 +30,12 @@ typedef struct cs_launch {
     cs_u32 page_first;  /* number, in the buffer's order, of the pixel that it begins with */
     cs_u32 shear_mode;  /* CS_SHEAR_ */
     cs_u32 lights;
-    cs_u32 emitters;
+    cs_u32 area_lights; /* 0: none of the lights needs a pair of the tuple */
+    cs_u32 bounces;     /* surfaces after the first one that scatter light */
+    cs_u32 see_through; /* whether some surfaces let rays pass: alpha */
+    cs_f32 clamp;       /* most that a bounce adds to a channel; 0: no limit */
 } cs_launch;
-CS_SHARED_WORDS(cs_launch, 69);
+CS_SHARED_WORDS(cs_launch, 72);
 
 /* How many pixels a work-item draws, so that their packets make CS_TOGETHER.
  * blocks: of a pixel's pattern in the launch. packet: lanes. */

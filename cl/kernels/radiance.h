@@ -6,7 +6,7 @@
 
 #include "kernels/bsdf/bsdf.h"
 #include "kernels/hits.h"
-#include "kernels/light/light.h"
+#include "kernels/light/escaped.h"
 
 typedef struct cs_radiance {
     cs_vfloat channel[3];
@@ -38,6 +38,22 @@ static inline void cs_add_light(const cs_scene_buffers *scene, const cs_surface 
     radiance->shadow_rays += facing ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
 }
 
+#if CS_HAS(LIGHTS)
+/* Adds the environment that the lanes in `escaped` see. */
+static inline void cs_add_environment(const cs_scene_buffers *scene, cs_u32 lights,
+                                      const cs_ray *ray, cs_vint escaped, cs_radiance *radiance)
+{
+    if (!cs_any(escaped)) return;
+    for (cs_u32 i = 0u; i < lights; i++) {
+        if (scene->lights[i].kind != CS_LIGHT_ENVIRONMENT) continue;
+        cs_escaped found =
+            cs_escape_to_environment(scene, scene->lights + i, ray, (cs_vfloat)(0.0f));
+        for (int c = 0; c < 3; c++)
+            radiance->channel[c] += escaped ? found.colour[c] : (cs_vfloat)(0.0f);
+    }
+}
+#endif
+
 /* Radiance that arrives at the lens along each ray. lights: their number. light_pair: the tuple's
  * pair for area lights. */
 static inline cs_radiance cs_radiance_along(const cs_scene_buffers *scene, cs_u32 lights,
@@ -50,6 +66,9 @@ static inline cs_radiance cs_radiance_along(const cs_scene_buffers *scene, cs_u3
     radiance.shadow_rays = (cs_vfloat)(0.0f);
     for (int c = 0; c < 3; c++)
         radiance.channel[c] = (cs_vfloat)(0.0f);
+#if CS_HAS(LIGHTS)
+    cs_add_environment(scene, lights, ray, active & (hit.triangle < 0), &radiance);
+#endif
     cs_vint seen = hit.triangle >= 0;
     if (!cs_any(seen)) return radiance;
     hit.distance = seen ? hit.distance : (cs_vfloat)(0.0f);

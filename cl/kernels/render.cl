@@ -2,17 +2,24 @@
 #include "accumulator.h"
 #include "clshear/device/lens.h"
 #include "kernels/draw.h"
-#include "kernels/radiance.h"
+#include "kernels/path.h"
 
 static inline void cs_trace_packet(const cs_launch *launch, const cs_scene_buffers *scene,
-                                   const cs_place *place, const cs_drawn *drawn, int packet,
-                                   cs_radiance *radiance)
+                                   cs_sample_table sample_table, const cs_place *place,
+                                   const cs_drawn *drawn, int packet, cs_radiance *radiance)
 {
     cs_camera_sample point = drawn->point[packet];
     cs_ray ray = cs_lens_ray(launch->camera, point.x + (cs_f32)place->x, point.y + (cs_f32)place->y,
                              point.u, point.v);
+#if CS_HAS(PATHS)
+    cs_draws draws = {&launch->pattern, sample_table, place->key, drawn->index[packet]};
+    *radiance =
+        cs_path_along(scene, launch, &ray, drawn->light[packet], &draws, drawn->active[packet]);
+#else
+    (void)sample_table;
     *radiance =
         cs_radiance_along(scene, launch->lights, &ray, drawn->light[packet], drawn->active[packet]);
+#endif
 }
 
 /* Samples at places `start` to `end` of the order of a few pixels, gathered and merged into them.
@@ -31,7 +38,7 @@ static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *sc
         for (int packet = 0; packet < drawn.count; packet++) {
             const cs_place *place = places + drawn.place[packet];
             cs_radiance radiance;
-            cs_trace_packet(launch, scene, place, &drawn, packet, &radiance);
+            cs_trace_packet(launch, scene, sample_table, place, &drawn, packet, &radiance);
             cs_accumulator_add(&accumulator, radiance.channel, radiance.shadow_rays,
                                drawn.active[packet], first);
             first =

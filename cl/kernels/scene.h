@@ -14,7 +14,7 @@ enum {
     CS_LEAF_SHIFT = 27, /* bits 27 to 29 of a leaf reference: number of triangles, less one */
     CS_NO_TEXTURE = -1,
     CS_NO_HIT = -1,
-    CS_MATERIAL_PARAMETERS = 4 /* numbers of a material that its BSDF alone knows */
+    CS_MATERIAL_PARAMETERS = 12 /* numbers of a material that its BSDF alone knows */
 };
 
 /* The buffers of a scene, in the order of kernels' arguments: X(identifier, name, type of the
@@ -29,7 +29,9 @@ enum {
     X(TEXTURES, textures, cs_texture)    \
     X(TEXELS, texels, half)              \
     X(LIGHTS, lights, cs_light)          \
-    X(EMITTERS, emitters, cs_emitter)
+    X(EMITTERS, emitters, cs_emitter)    \
+    X(ENVIRONMENT, environment, cs_f32)  \
+    X(ALBEDOS, albedos, cs_f32)
 
 #define CS_SCENE_IDENTIFIER(identifier, name, type) CS_SCENE_##identifier,
 
@@ -91,8 +93,37 @@ typedef struct cs_material {
     cs_f32 emission[3]; /* radiance, both sides */
     cs_u32 bsdf;        /* CS_BSDF_ kind */
     cs_f32 parameters[CS_MATERIAL_PARAMETERS]; /* as the BSDF's kind says */
+    cs_f32 alpha;          /* part that covers what is behind; multiplies the texture's */
+    cs_f32 cutoff;         /* with CS_MATERIAL_MASK: alpha from which on it covers all */
+    cs_u32 flags;          /* CS_MATERIAL_ bits */
+    cs_u32 facets_texture; /* green: roughness, blue: metallic; index from 1 on, 0: none */
+    cs_u32 normal_texture; /* the same */
+    cs_u32 emission_texture;
+    cs_f32 normal_scale;
+    cs_f32 padding;
 } cs_material;
-CS_SHARED_WORDS(cs_material, 12);
+CS_SHARED_WORDS(cs_material, 28);
+
+enum {
+    CS_MATERIAL_BLEND = 1, /* alpha counts */
+    CS_MATERIAL_MASK = 2,  /* alpha is all or nothing */
+    CS_MATERIAL_UNLIT = 4  /* shows its colour to the camera and takes no part in light */
+};
+
+/* The parameters of CS_BSDF_STANDARD. */
+enum {
+    CS_PARAMETER_ROUGHNESS,
+    CS_PARAMETER_METALLIC,
+    CS_PARAMETER_F0,  /* reflectance of the dielectric, met head-on */
+    CS_PARAMETER_F90, /* and at grazing angles */
+    CS_PARAMETER_TRANSMISSION,
+    CS_PARAMETER_COAT,
+    CS_PARAMETER_COAT_ROUGHNESS,
+    CS_PARAMETER_SHEEN, /* three: its colour */
+    CS_PARAMETER_SHEEN_ROUGHNESS = CS_PARAMETER_SHEEN + 3
+};
+
+#define CS_COAT_F0 0.04f /* KHR_materials_clearcoat: an index of refraction of 1.5 */
 
 /* How coordinates outside an image are taken. */
 enum {

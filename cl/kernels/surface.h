@@ -3,7 +3,15 @@
 #define CS_SURFACE_H
 
 #include "clshear/device/packet.h"
+#include "kernels/features.h"
 #include "kernels/scene.h"
+
+/* Who finds what a surface emits. */
+enum {
+    CS_SHINES_SAMPLED, /* the samples of its light, and rays */
+    CS_SHINES_RAYS,    /* rays that happen to hit it */
+    CS_SHINES_CAMERA   /* rays of the camera */
+};
 
 typedef struct cs_surface {
     cs_vint hit; /* lanes that hit anything; the others hold zeros */
@@ -12,8 +20,13 @@ typedef struct cs_surface {
     cs_vfloat normal[3];  /* unit shading normal on the viewer's side */
     cs_vfloat albedo[3];
     cs_vfloat emission[3];
+#if CS_HAS(MATERIALS)
     cs_vint bsdf;                                 /* CS_BSDF_ kind */
     cs_vfloat parameters[CS_MATERIAL_PARAMETERS]; /* of the material, for its BSDF */
+    cs_vfloat alpha;                              /* chance that a ray does not pass */
+    cs_vint shines_to;                            /* CS_SHINES_ */
+    CS_GLOBAL const cs_f32 *albedos;              /* see cs_albedo_at */
+#endif
 } cs_surface;
 
 /* Turns a vector whose third axis is the unit vector `normal` into world space; the other axes are

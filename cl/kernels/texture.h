@@ -3,6 +3,7 @@
 #define CS_TEXTURE_H
 
 #include "clshear/device/packet.h"
+#include "kernels/features.h"
 #include "kernels/scene_buffers.h"
 
 /* Between which two of `size` texels the repeating coordinate `place` lies, and how far on. */
@@ -28,6 +29,7 @@ static inline cs_texel_pair cs_texels_at(cs_vfloat place, cs_u32 size)
     return pair;
 }
 
+#if CS_HAS(WRAPS)
 /* The same for coordinates that do not repeat: beyond its edges the image has the colour of its
  * border, or is seen in a mirror. */
 static inline cs_texel_pair cs_texels_within(cs_vfloat place, cs_u32 size, cs_u32 wrap)
@@ -44,13 +46,15 @@ static inline cs_texel_pair cs_texels_within(cs_vfloat place, cs_u32 size, cs_u3
     pair.part.all = centre - before;
     return pair;
 }
+#endif
 
-/* Bilinear, at the texture coordinates (s, t) of the lanes that are `wanted`; (0, 0) is
- * the lower left corner of the image. */
+/* Bilinear, at the texture coordinates (s, t) of the lanes that are `wanted`; (0, 0) is the lower
+ * left corner of the image. With the feature MATERIALS there is a fourth channel. */
 static inline void cs_texels(const cs_scene_buffers *scene, cs_u32 texture, cs_vfloat s,
                              cs_vfloat t, cs_int_lanes wanted, cs_float_lanes *colour)
 {
     CS_GLOBAL const cs_texture *image = scene->textures + texture;
+#if CS_HAS(WRAPS)
     cs_u32 wrap_s = image->wrap & CS_TEXTURE_WRAP_MASK;
     cs_u32 wrap_t = image->wrap >> CS_TEXTURE_WRAP_BITS;
     cs_texel_pair x = wrap_s == CS_TEXTURE_REPEAT ? cs_texels_at(s, image->width)
@@ -58,6 +62,10 @@ static inline void cs_texels(const cs_scene_buffers *scene, cs_u32 texture, cs_v
     cs_texel_pair y = wrap_t == CS_TEXTURE_REPEAT
                           ? cs_texels_at(1.0f - (t - floor(t)), image->height)
                           : cs_texels_within(1.0f - t, image->height, wrap_t);
+#else
+    cs_texel_pair x = cs_texels_at(s, image->width);
+    cs_texel_pair y = cs_texels_at(1.0f - (t - floor(t)), image->height);
+#endif
     y.first.all *= (cs_i32)image->width;
     y.second.all *= (cs_i32)image->width;
     CS_GLOBAL const half *texels = scene->texels + 4u * (size_t)image->first;
@@ -74,6 +82,9 @@ static inline void cs_texels(const cs_scene_buffers *scene, cs_u32 texture, cs_v
         colour[0].lane[lane] = value.x;
         colour[1].lane[lane] = value.y;
         colour[2].lane[lane] = value.z;
+#if CS_HAS(MATERIALS)
+        colour[3].lane[lane] = value.w;
+#endif
     }
 }
 

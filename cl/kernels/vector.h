@@ -9,4 +9,10 @@ static inline cs_vfloat cs_dot(const cs_vfloat *a, const cs_vfloat *b)
     return fma(a[0], b[0], fma(a[1], b[1], a[2] * b[2]));
 }
 
+/* Of a linear Rec.709 colour. */
+static inline cs_vfloat cs_luminance(const cs_vfloat *colour)
+{
+    return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
+}
+
 #endif

@@ -27,7 +27,7 @@ static clshear_status prepare(transform *t, cs_error *error)
     for (int side = 0; side < 2; side++)
         t->counts[side] = (t->lattice->counts[side] + LANES - 1) / LANES * LANES;
     const size_t plane = (size_t)t->counts[0] * t->counts[1] * sizeof(float);
-    CS_TRY(cs_device_prepare(t->device, CS_PROGRAM_ANALYSIS, error));
+    CS_TRY(cs_device_prepare(t->device, CS_PROGRAM_ANALYSIS, 0, error));
     CS_TRY(cs_buffer_create(t->device, t->stride * CHUNK * sizeof(float), NULL, &t->points, error));
     for (int part = 0; part < 2; part++) {
         CS_TRY(cs_buffer_create(t->device, CHUNK * t->counts[0] * sizeof(float), NULL, &t->x[part],

@@ -2,6 +2,7 @@
 #include "api/arguments.h"
 #include "render/camera_choice.h"
 #include "render/objects.h"
+#include "render/studio.h"
 #include "settings/settings.h"
 
 clshear_status clshear_scene_load(clshear_context *context, const char *path,
@@ -35,6 +36,28 @@ clshear_status clshear_scene_add_mesh(clshear_scene *scene, const clshear_mesh *
     CS_NEEDS(scene);
     CS_TAKE(clshear_mesh, copy, mesh);
     return cs_message_keep(&scene->message, cs_scene_append(scene, &copy, cs_thread_error()));
+}
+
+void clshear_material_init(clshear_material *material)
+{
+    clshear_material defaults;
+    cs_standard_defaults(&defaults);
+    cs_struct_out(material, &defaults, sizeof defaults);
+}
+
+clshear_status clshear_scene_add_material(clshear_scene *scene, const clshear_material *material,
+                                          uint32_t *number)
+{
+    clshear_status status = CLSHEAR_OK;
+    CS_NEEDS(scene);
+    CS_NEEDS(number);
+    CS_TAKE(clshear_material, copy, material);
+    if (scene->is_complete)
+        status = cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,
+                         "material: the scene is complete already");
+    if (status == CLSHEAR_OK)
+        status = cs_scene_add_standard(&scene->scene, &copy, number, cs_thread_error());
+    return cs_message_keep(&scene->message, status);
 }
 
 clshear_status clshear_scene_complete(clshear_scene *scene)
@@ -94,6 +117,17 @@ clshear_status clshear_camera_complete(const clshear_scene *scene, clshear_setti
     CS_NEEDS(settings);
     clshear_status status = check_complete(scene);
     if (status == CLSHEAR_OK) status = cs_camera_complete(scene, settings, cs_thread_error());
+    return cs_message_keep(&scene->message, status);
+}
+
+clshear_status clshear_light_complete(const clshear_scene *scene, clshear_settings *settings)
+{
+    CS_NEEDS(scene);
+    CS_NEEDS(settings);
+    cs_error *error = cs_thread_error();
+    clshear_status status = check_complete(scene);
+    if (status == CLSHEAR_OK) status = cs_camera_complete(scene, settings, error);
+    if (status == CLSHEAR_OK) status = cs_studio_complete(scene, settings, error);
     return cs_message_keep(&scene->message, status);
 }
 

@@ -9,15 +9,20 @@
 #include "device/opencl.h"
 #include "device/program.h"
 
+/* What is compiled for a set of features. */
+typedef struct cs_variant {
+    cl_program programs[CS_PROGRAM_COUNT];
+    cl_kernel kernels[CS_KERNEL_COUNT];
+    size_t local_sizes[CS_KERNEL_COUNT]; /* of each kernel's work-groups, once it is made */
+} cs_variant;
+
 struct cs_device {
     pthread_mutex_t lock; /* of programs, kernels and their arguments */
     cl_device_id id;
     cl_context context;
     cl_command_queue queue;
-    cl_program programs[CS_PROGRAM_COUNT];
-    cl_kernel kernels[CS_KERNEL_COUNT];
-    size_t local_size;                   /* of a work-group, where the kernel allows that many */
-    size_t local_sizes[CS_KERNEL_COUNT]; /* of each kernel's work-groups, once it is made */
+    cs_variant variants[CS_FEATURE_SETS];
+    size_t local_size; /* of a work-group, where the kernel allows that many */
     int packet;
     int threads;
     int is_partition;
@@ -66,15 +71,16 @@ static clshear_status limit_threads(cs_device *device, int threads, cs_error *er
     return CLSHEAR_OK;
 }
 
-static clshear_status create_kernel(cs_device *device, cs_kernel kernel, cs_error *error)
+static clshear_status create_kernel(cs_device *device, cs_variant *variant, cs_kernel kernel,
+                                    cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const char *name = kernel_list[kernel].name;
     cl_int code;
     cl_uint arguments = 0;
     size_t most = device->local_size;
-    cl_kernel made = clCreateKernel(device->programs[kernel_list[kernel].program], name, &code);
-    device->kernels[kernel] = made;
+    cl_kernel made = clCreateKernel(variant->programs[kernel_list[kernel].program], name, &code);
+    variant->kernels[kernel] = made;
     CS_OPENCL(code, "kernel %s cannot be created", name);
     CS_OPENCL(clGetKernelInfo(made, CL_KERNEL_NUM_ARGS, sizeof arguments, &arguments, NULL),
               "kernel %s: no number of arguments", name);
@@ -82,16 +88,17 @@ static clshear_status create_kernel(cs_device *device, cs_kernel kernel, cs_erro
                "kernel %s has %u arguments, not %u", name, arguments,
                kernel_list[kernel].arguments);
     clGetKernelWorkGroupInfo(made, device->id, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL);
-    device->local_sizes[kernel] = most < device->local_size ? most : device->local_size;
+    variant->local_sizes[kernel] = most < device->local_size ? most : device->local_size;
 done:
     return status;
 }
 
-static clshear_status create_kernels(cs_device *device, cs_program program, cs_error *error)
+static clshear_status create_kernels(cs_device *device, cs_variant *variant, cs_program program,
+                                     cs_error *error)
 {
     for (int i = 0; i < CS_KERNEL_COUNT; i++) {
         if (kernel_list[i].program != program) continue;
-        clshear_status status = create_kernel(device, (cs_kernel)i, error);
+        clshear_status status = create_kernel(device, variant, (cs_kernel)i, error);
         if (status != CLSHEAR_OK) return status;
     }
     return CLSHEAR_OK;
@@ -166,23 +173,27 @@ void cs_device_objects(const cs_device *device, cl_context *context, cl_device_i
 }
 
 /* With the device locked. */
-static clshear_status prepare(cs_device *device, cs_program program, cs_error *error)
+static clshear_status prepare(cs_device *device, cs_program program, cs_u32 features,
+                              cs_error *error)
 {
-    if (device->programs[program] != NULL) return CLSHEAR_OK;
+    cs_variant *variant = &device->variants[features];
+    cl_program *made = &variant->programs[program];
+    if (*made != NULL) return CLSHEAR_OK;
     clshear_status status = cs_program_build(device->context, device->id, program, device->packet,
-                                             &device->programs[program], error);
-    if (status == CLSHEAR_OK) status = create_kernels(device, program, error);
-    if (status != CLSHEAR_OK && device->programs[program] != NULL) { /* so that it is tried again */
-        clReleaseProgram(device->programs[program]);
-        device->programs[program] = NULL;
+                                             features, made, error);
+    if (status == CLSHEAR_OK) status = create_kernels(device, variant, program, error);
+    if (status != CLSHEAR_OK && *made != NULL) { /* so that it is tried again */
+        clReleaseProgram(*made);
+        *made = NULL;
     }
     return status;
 }
 
-clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_error *error)
+clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_u32 features,
+                                 cs_error *error)
 {
     pthread_mutex_lock(&device->lock);
-    const clshear_status status = prepare(device, program, error);
+    const clshear_status status = prepare(device, program, features, error);
     pthread_mutex_unlock(&device->lock);
     return status;
 }
@@ -190,10 +201,13 @@ clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_error
 void cs_device_close(cs_device *device)
 {
     if (device == NULL) return;
-    for (int i = 0; i < CS_KERNEL_COUNT; i++)
-        if (device->kernels[i] != NULL) clReleaseKernel(device->kernels[i]);
-    for (int i = 0; i < CS_PROGRAM_COUNT; i++)
-        if (device->programs[i] != NULL) clReleaseProgram(device->programs[i]);
+    for (int f = 0; f < CS_FEATURE_SETS; f++) {
+        const cs_variant *variant = &device->variants[f];
+        for (int i = 0; i < CS_KERNEL_COUNT; i++)
+            if (variant->kernels[i] != NULL) clReleaseKernel(variant->kernels[i]);
+        for (int i = 0; i < CS_PROGRAM_COUNT; i++)
+            if (variant->programs[i] != NULL) clReleaseProgram(variant->programs[i]);
+    }
     if (device->queue != NULL) clReleaseCommandQueue(device->queue);
     if (device->context != NULL) clReleaseContext(device->context);
     if (device->is_partition) clReleaseDevice(device->id);
@@ -289,7 +303,7 @@ void cs_buffer_free(cs_buffer *buffer)
 
 /* Sets the kernel's arguments and starts it, with the device locked: the arguments are the
  * kernel's, whichever thread set them. */
-static clshear_status start(cs_device *device, cs_kernel kernel, size_t count,
+static clshear_status start(cs_device *device, cs_kernel kernel, cs_u32 features, size_t count,
                             const cs_argument *arguments, size_t argument_count, cl_event *done_at,
                             cs_error *error)
 {
@@ -297,31 +311,32 @@ static clshear_status start(cs_device *device, cs_kernel kernel, size_t count,
     const char *name = kernel_list[kernel].name;
     CS_REQUIRE(argument_count == kernel_list[kernel].arguments, CLSHEAR_DEVICE_FAILED,
                "kernel %s: %zu arguments", name, argument_count);
-    CS_TRY(prepare(device, kernel_list[kernel].program, error));
-    size_t local = device->local_sizes[kernel];
+    CS_TRY(prepare(device, kernel_list[kernel].program, features, error));
+    const cs_variant *variant = &device->variants[features];
+    size_t local = variant->local_sizes[kernel];
     size_t global = (count + local - 1) / local * local;
     for (cl_uint i = 0; i < argument_count; i++) {
         const cs_argument *argument = &arguments[i];
         const void *value =
             argument->buffer != NULL ? (const void *)&argument->buffer->memory : argument->value;
         size_t size = value == NULL || argument->buffer != NULL ? sizeof(cl_mem) : argument->size;
-        CS_OPENCL(clSetKernelArg(device->kernels[kernel], i, size, value),
+        CS_OPENCL(clSetKernelArg(variant->kernels[kernel], i, size, value),
                   "kernel %s: argument %u is not accepted", name, i);
     }
-    CS_OPENCL(clEnqueueNDRangeKernel(device->queue, device->kernels[kernel], 1, NULL, &global,
+    CS_OPENCL(clEnqueueNDRangeKernel(device->queue, variant->kernels[kernel], 1, NULL, &global,
                                      &local, 0, NULL, done_at),
               "kernel %s cannot be started", name);
 done:
     return status;
 }
 
-clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
+clshear_status cs_device_run(cs_device *device, cs_kernel kernel, cs_u32 features, size_t count,
                              const cs_argument *arguments, size_t argument_count, cs_error *error)
 {
     cl_event done_at = NULL;
     pthread_mutex_lock(&device->lock);
     clshear_status status =
-        start(device, kernel, count, arguments, argument_count, &done_at, error);
+        start(device, kernel, features, count, arguments, argument_count, &done_at, error);
     pthread_mutex_unlock(&device->lock);
     if (status != CLSHEAR_OK) return status;
     clFlush(device->queue);

@@ -49,19 +49,25 @@ clshear_status cs_buffer_write(cs_buffer *buffer, size_t offset, size_t size, co
 cs_buffer *cs_buffer_retain(cs_buffer *buffer);
 void cs_buffer_free(cs_buffer *buffer);
 
-/* Compiles a program, if that is not done yet. Running a kernel of it does so too. */
-clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_error *error);
+/* Compiles a program, if that is not done yet. Running a kernel of it does so too. `features`, bits
+ * CS_FEATURE_, choose its variant: each is compiled by itself, when it is first wanted. */
+clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_u32 features,
+                                 cs_error *error);
 
 /* Runs a kernel on `count` work-items (more are started, to fill the last work-group) and waits.
  * argument_count: the kernel's number of arguments; anything else fails. */
-clshear_status cs_device_run(cs_device *device, cs_kernel kernel, size_t count,
+clshear_status cs_device_run(cs_device *device, cs_kernel kernel, cs_u32 features, size_t count,
                              const cs_argument *arguments, size_t argument_count, cs_error *error);
 
 /* The same for CS_KERNEL_<kernel> and an array of arguments, whose length is checked when this is
  * compiled. */
-#define CS_RUN(device, kernel, count, arguments, error)         \
-    cs_device_run(device, CS_KERNEL_##kernel, count, arguments, \
+#define CS_RUN_WITH(device, kernel, features, count, arguments, error)    \
+    cs_device_run(device, CS_KERNEL_##kernel, features, count, arguments, \
                   CS_LENGTH_CHECKED(arguments, CS_ARGUMENTS_##kernel), error)
+
+/* The same for the variant without features. */
+#define CS_RUN(device, kernel, count, arguments, error) \
+    CS_RUN_WITH(device, kernel, 0u, count, arguments, error)
 #define CS_LENGTH_CHECKED(array, length)                                                    \
     (sizeof(struct {                                                                        \
         _Static_assert(sizeof(array) / sizeof *(array) == (length), "number of arguments"); \

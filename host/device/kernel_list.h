@@ -2,6 +2,7 @@
 #ifndef CS_DEVICE_KERNEL_LIST_H
 #define CS_DEVICE_KERNEL_LIST_H
 
+#include "kernels/features.h"
 #include "kernels/scene.h"
 
 /* What is compiled at once: X(identifier, text), an array that cmake/EmbedKernels.cmake makes. */

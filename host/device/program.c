@@ -50,7 +50,7 @@ static clshear_status build_failure(cl_program program, cl_device_id device, cl_
 }
 
 clshear_status cs_program_build(cl_context context, cl_device_id device, cs_program which,
-                                int packet, cl_program *result, cs_error *error)
+                                int packet, cs_u32 features, cl_program *result, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cl_int code;
@@ -58,8 +58,9 @@ clshear_status cs_program_build(cl_context context, cl_device_id device, cs_prog
     const char *texts[] = {cs_device_source(), private_text(which)};
     cl_program program = clCreateProgramWithSource(context, 2, texts, NULL, &code);
     CS_OPENCL(code, "cannot load the kernels");
-    snprintf(options, sizeof options, "-cl-std=CL1.2 -DCS_KEEP_FP_CONTRACT_OFF -DCS_PACKET=%d",
-             packet);
+    snprintf(options, sizeof options,
+             "-cl-std=CL1.2 -DCS_KEEP_FP_CONTRACT_OFF -DCS_PACKET=%d -DCS_FEATURES=%u", packet,
+             features);
     code = clBuildProgram(program, 1, &device, options, NULL, NULL);
     if (code != CL_SUCCESS) {
         status = build_failure(program, device, code, error);

@@ -5,8 +5,9 @@
 #include "device/device.h"
 #include "device/opencl.h"
 
-/* Compiles a program for packets of `packet` lanes. */
+/* Compiles a program for packets of `packet` lanes, with what `features`, bits CS_FEATURE_, name.
+ */
 clshear_status cs_program_build(cl_context context, cl_device_id device, cs_program which,
-                                int packet, cl_program *program, cs_error *error);
+                                int packet, cs_u32 features, cl_program *program, cs_error *error);
 
 #endif

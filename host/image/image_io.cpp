@@ -201,6 +201,27 @@ clshear_status read_luminance(const char *path, int most, float **luminance, int
     return CLSHEAR_OK;
 }
 
+clshear_status read_colours(const char *path, float **colours, size_t *width, size_t *height,
+                            cs_error *error)
+{
+    ImageBuf rgba;
+    clshear_status status = read_rgba({path, path, nullptr, 0}, rgba, error);
+    if (status != CLSHEAR_OK) return status;
+    *width = static_cast<size_t>(rgba.spec().width);
+    *height = static_cast<size_t>(rgba.spec().height);
+    auto *values = static_cast<float *>(std::malloc(*width * *height * 3 * sizeof(float)));
+    if (values == nullptr) throw std::bad_alloc();
+    OIIO::ROI rgb = rgba.roi();
+    rgb.chend = 3;
+    if (!rgba.get_pixels(rgb, TypeDesc::FLOAT, values)) {
+        std::free(values);
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,
+                       first_line(rgba.geterror()).c_str());
+    }
+    *colours = values;
+    return CLSHEAR_OK;
+}
+
 /* Copies a text, an integer or a float; returns false for other types. */
 bool copy_attribute(const OIIO::ParamValue &source, cs_attribute *target)
 {
@@ -425,6 +446,12 @@ clshear_status cs_image_read_luminance(const char *path, int most, float **lumin
 {
     return guarded(path, error,
                    [&] { return read_luminance(path, most, luminance, width, height, error); });
+}
+
+extern "C" clshear_status cs_image_read_colours(const char *path, float **colours, size_t *width,
+                                                size_t *height, cs_error *error)
+{
+    return guarded(path, error, [&] { return read_colours(path, colours, width, height, error); });
 }
 
 extern "C" clshear_status cs_image_read(const char *path, cs_loaded_picture *loaded,

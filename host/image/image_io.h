@@ -30,6 +30,10 @@ clshear_status cs_image_read_texels(const char *path, const char *label, const v
 clshear_status cs_image_read_luminance(const char *path, int most, float **luminance, int *width,
                                        int *height, cs_error *error);
 
+/* Three linear floats a texel, rows from the top. `colours` is owned by the caller; free(). */
+clshear_status cs_image_read_colours(const char *path, float **colours, size_t *width,
+                                     size_t *height, cs_error *error);
+
 typedef enum cs_attribute_kind {
     CS_ATTRIBUTE_TEXT,
     CS_ATTRIBUTE_INT,

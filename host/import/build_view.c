@@ -6,14 +6,23 @@
 #include "clshear/device/constants.h"
 #include "import/build_parts.h"
 
+static const float right_angle_deg = 90.0f;
+
+/* Files may give a cone without a soft edge, which is a narrow one here. */
+static void make_cone(const cs_model_light *source, clshear_light *light)
+{
+    light->kind = CLSHEAR_LIGHT_SPOT;
+    light->outer_deg = fminf(source->cone[1] / (CS_PI / 180.0f), right_angle_deg);
+    light->inner_deg = fminf(source->cone[0] / (CS_PI / 180.0f), 0.999f * light->outer_deg);
+    for (int i = 0; i < 3; i++)
+        light->direction[i] = (float)source->axis[i];
+}
+
 static clshear_status build_light(const cs_model *model, const cs_model_light *source,
                                   cs_scene *scene, cs_error *error)
 {
     clshear_light light = {.struct_size = sizeof light, .kind = CLSHEAR_LIGHT_POINT};
     if (source->kind == CS_MODEL_DIRECTIONAL) light.kind = CLSHEAR_LIGHT_DIRECTIONAL;
-    if (source->kind == CS_MODEL_SPOT)
-        cs_warn(model->log, "%s: spot light \"%s\" is taken as a point light", model->path,
-                source->name);
     if (source->range > 0.0f)
         cs_warn(model->log, "%s: the range of light \"%s\" is not used: it shines on", model->path,
                 source->name);
@@ -22,6 +31,7 @@ static clshear_status build_light(const cs_model *model, const cs_model_light *s
         light.direction[i] = (float)-source->axis[i];
         light.colour[i] = source->colour[i];
     }
+    if (source->kind == CS_MODEL_SPOT) make_cone(source, &light);
     if (!cs_is_colour(light.colour)) {
         cs_warn(model->log,
                 "%s: light \"%s\" has the colour %g %g %g, which must be 0 to 1e15; left out",

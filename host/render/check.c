@@ -5,6 +5,7 @@
 #include "pattern/pattern.h"
 #include "render/camera_choice.h"
 #include "render/render_job.h"
+#include "render/studio.h"
 #include "scene/camera.h"
 #include "settings/view.h"
 
@@ -99,6 +100,14 @@ done:
     return status;
 }
 
+/* What the kernels must be compiled with. */
+static cs_u32 features_of(const cs_job *job)
+{
+    cs_u32 features = job->lighting.features | job->scene->device_scene.needs.features;
+    if (cs_integer(&job->settings, BOUNCES) > 0) features |= CS_FEATURE_PATHS;
+    return features;
+}
+
 clshear_status cs_job_begin(cs_job *job, clshear_scene *scene, const clshear_settings *settings,
                             const clshear_film *base, cs_error *error)
 {
@@ -115,7 +124,9 @@ clshear_status cs_job_begin(cs_job *job, clshear_scene *scene, const clshear_set
     job->oracle = (clshear_oracle)cs_integer(&job->settings, ORACLE);
     CS_TRY(check_window(job, error));
     CS_TRY(cs_camera_complete(scene, &job->settings, error));
+    CS_TRY(cs_studio_complete(scene, &job->settings, error));
     CS_TRY(cs_lighting_make(scene, &job->settings, &job->lighting, error));
+    job->features = features_of(job);
     CS_TRY(make_camera(job, error));
 done:
     return status;

@@ -1,53 +1,149 @@
 #include "render/lighting.h"
 
-#include <stdlib.h>
 #include <string.h>
 
+#include "kernels/features.h"
+#include "scene/environment.h"
+
 enum {
-    NUMBERS = 6 /* of a light in the settings: position, colour */
+    LIGHT_NUMBERS = 6, /* of a point light in the settings: position, colour */
+    SUN_NUMBERS = 7    /* of a sun: direction, colour, diameter */
 };
 
-/* Settings are in coordinates of the file. */
-static clshear_status point_light(const double *numbers, const double *origin, cs_light *light,
-                                  cs_error *error)
+static clshear_status add(cs_array *lights, const cs_light *light, cs_error *error)
 {
-    clshear_light point = {.struct_size = sizeof point, .kind = CLSHEAR_LIGHT_POINT};
-    for (int i = 0; i < 3; i++) {
-        point.position[i] = (float)(numbers[i] - origin[i]);
-        point.colour[i] = (float)numbers[3 + i];
-    }
-    return cs_light_make(&point, light, error);
+    cs_light *added = cs_array_extend(lights, 1);
+    if (added == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for lights");
+    *added = *light;
+    return CLSHEAR_OK;
 }
+
+static clshear_status add_made(const clshear_light *light, cs_array *lights, cs_error *error)
+{
+    cs_light made;
+    clshear_status status = cs_light_make(light, &made, error);
+    return status == CLSHEAR_OK ? add(lights, &made, error) : status;
+}
+
+/* The point lights and suns of the settings, which are in coordinates of the file. */
+static clshear_status add_settings(const clshear_settings *settings, const double *origin,
+                                   cs_array *lights, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const cs_setting_value *points = &settings->values[CS_INDEX_LIGHT];
+    const cs_setting_value *suns = &settings->values[CS_INDEX_SUN];
+    for (size_t i = 0; points->is_set && i < points->count; i += LIGHT_NUMBERS) {
+        clshear_light light = {.struct_size = sizeof light, .kind = CLSHEAR_LIGHT_POINT};
+        for (size_t c = 0; c < 3; c++) {
+            light.position[c] = (float)(points->numbers[i + c] - origin[c]);
+            light.colour[c] = (float)points->numbers[i + 3 + c];
+        }
+        CS_TRY(add_made(&light, lights, error));
+    }
+    for (size_t i = 0; suns->is_set && i < suns->count; i += SUN_NUMBERS) {
+        clshear_light light = {.struct_size = sizeof light, .kind = CLSHEAR_LIGHT_DIRECTIONAL};
+        for (size_t c = 0; c < 3; c++) {
+            light.direction[c] = (float)suns->numbers[i + c];
+            light.colour[c] = (float)suns->numbers[i + 3 + c];
+        }
+        light.diameter_deg = (float)suns->numbers[i + 6];
+        CS_TRY(add_made(&light, lights, error));
+    }
+done:
+    return status;
+}
+
+/* All emissive triangles as one light. Their table makes the density of a point its luminance by
+ * the whole power. */
+static clshear_status add_emitters(const cs_device_scene *world, cs_array *lights, cs_error *error)
+{
+    const cs_light light = {.kind = CS_LIGHT_TRIANGLES,
+                            .count = world->emitters,
+                            .parameters = {(float)(1.0 / world->emitted_power)}};
+    return world->emitters > 0 ? add(lights, &light, error) : CLSHEAR_OK;
+}
+
+static clshear_status add_environment(const clshear_scene *scene, const clshear_settings *settings,
+                                      cs_lighting *lighting, cs_array *lights, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const cs_environment_view view = {.rotation_deg = cs_number(settings, ENVIRONMENT_ROTATION),
+                                      .strength = cs_number(settings, ENVIRONMENT_STRENGTH)};
+    const char *text = cs_text(settings, ENVIRONMENT);
+    cs_environment environment = {0};
+    if (text == NULL || *text == '\0' || strcmp(text, "none") == 0) return CLSHEAR_OK;
+    CS_TRY(cs_environment_read(text, &view, &environment, error));
+    CS_TRY(add(lights, &environment.light, error));
+    const cs_array *image = &environment.image;
+    if (image->count > 0)
+        CS_TRY(cs_buffer_create(scene->context->device, image->count * image->item_size,
+                                image->items, &lighting->environment, error));
+done:
+    cs_environment_free(&environment);
+    return status;
+}
+
+static clshear_status collect(const clshear_scene *scene, const clshear_settings *settings,
+                              cs_lighting *lighting, cs_array *lights, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const cs_array *own = &scene->scene.lights;
+    for (size_t i = 0; i < own->count; i++)
+        CS_TRY(add(lights, (const cs_light *)own->items + i, error));
+    CS_TRY(add_settings(settings, scene->scene.origin, lights, error));
+    CS_TRY(add_environment(scene, settings, lighting, lights, error));
+    CS_TRY(add_emitters(&scene->device_scene, lights, error));
+done:
+    return status;
+}
+
+/* What the kinds of light ask of the kernels. */
+static const struct {
+    int is_area;
+    cs_u32 features;
+} kinds[CS_LIGHT_KINDS] = {
+#define DELTA 0
+#define AREA 1
+#define FEW(identifier, name, suffix, extent) {extent, 0u},
+#define MORE(identifier, name, suffix, extent) {extent, CS_FEATURE_LIGHTS},
+    CS_LIGHT_LIST_FEW(FEW) CS_LIGHT_LIST_MORE(MORE)
+#undef MORE
+#undef FEW
+#undef AREA
+#undef DELTA
+};
 
 clshear_status cs_lighting_make(const clshear_scene *scene, const clshear_settings *settings,
                                 cs_lighting *lighting, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    const cs_setting_value *added = &settings->values[CS_INDEX_LIGHT];
-    const cs_array *own = &scene->scene.lights;
-    cs_light *all = NULL;
-    if (!added->is_set) {
-        lighting->lights = cs_buffer_retain(scene->device_scene.buffers[CS_SCENE_LIGHTS]);
-        lighting->count = scene->device_scene.lights;
-        return CLSHEAR_OK;
+    cs_array lights = {.item_size = sizeof(cs_light)};
+    CS_TRY(collect(scene, settings, lighting, &lights, error));
+    lighting->count = (cs_u32)lights.count;
+    for (size_t i = 0; i < lights.count; i++) {
+        const cs_u32 kind = ((const cs_light *)lights.items)[i].kind;
+        lighting->area_count += (cs_u32)kinds[kind].is_area;
+        lighting->features |= kinds[kind].features;
     }
-    const size_t count = own->count + added->count / NUMBERS;
-    all = malloc(count * sizeof *all);
-    CS_REQUIRE(all != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu lights", count);
-    if (own->count > 0) memcpy(all, own->items, own->count * sizeof *all);
-    for (size_t i = own->count; i < count; i++)
-        CS_TRY(point_light(added->numbers + NUMBERS * (i - own->count), scene->scene.origin,
-                           &all[i], error));
-    CS_TRY(cs_buffer_create(scene->context->device, count * sizeof *all, all, &lighting->lights,
-                            error));
-    lighting->count = (cs_u32)count;
+    CS_TRY(cs_buffer_create(scene->context->device, lights.count * lights.item_size, lights.items,
+                            &lighting->lights, error));
 done:
-    free(all);
+    cs_array_free(&lights);
     return status;
 }
 
 void cs_lighting_free(cs_lighting *lighting)
 {
     cs_buffer_free(lighting->lights);
+    cs_buffer_free(lighting->environment);
     *lighting = (cs_lighting){0};
+}
+
+void cs_lit_buffers(const clshear_scene *scene, const cs_lighting *lighting,
+                    const cs_buffer *buffers[CS_SCENE_BUFFERS])
+{
+    for (int i = 0; i < CS_SCENE_BUFFERS; i++)
+        buffers[i] = scene->device_scene.buffers[i];
+    buffers[CS_SCENE_LIGHTS] = lighting->lights;
+    buffers[CS_SCENE_ENVIRONMENT] = lighting->environment;
 }

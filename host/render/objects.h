@@ -9,9 +9,11 @@
 
 /* A scene on the device. */
 typedef struct cs_device_scene {
-    cs_buffer *buffers[CS_SCENE_BUFFERS]; /* in the order of kernels' arguments */
-    uint32_t lights;                      /* all emissive triangles together are one */
+    cs_buffer *buffers[CS_SCENE_BUFFERS]; /* in the order of kernels' arguments; NULL for what each
+                                           * render has of its own */
     uint32_t emitters;                    /* emissive triangles */
+    double emitted_power;                 /* of them: area times luminance */
+    cs_material_needs needs;
     size_t geometry_bytes;
 } cs_device_scene;
 
@@ -42,10 +44,6 @@ clshear_status cs_scene_append(clshear_scene *scene, const clshear_mesh *mesh, c
 /* Adds a light, before or after. */
 clshear_status cs_scene_light(clshear_scene *scene, const clshear_light *light, cs_error *error);
 
-/* The scene's buffers in the order of the list, with `lights` in the place of its own lights. */
-void cs_scene_buffers_of(const clshear_scene *scene, const cs_buffer *lights,
-                         const cs_buffer *buffers[CS_SCENE_BUFFERS]);
-
 /* A row of the list of buffers as an initialiser of a cs_argument. `buffers`, a name where the list
  * is expanded, is that of an array of buffers. */
 #define CS_SCENE_ARGUMENT(identifier, name, type) {.buffer = buffers[CS_SCENE_##identifier]},
@@ -54,9 +52,9 @@ void cs_scene_buffers_of(const clshear_scene *scene, const cs_buffer *lights,
 clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const cs_scene *scene,
                                const cs_flat_bvh *bvh, cs_error *error);
 
-/* Puts the lights there, again after each change; the default light where there is none. */
-clshear_status cs_scene_upload_lights(cs_device_scene *world, cs_device *device,
-                                      const cs_scene *scene, cs_error *error);
+/* Puts the emissive triangles there. */
+clshear_status cs_scene_upload_emitters(cs_device_scene *world, cs_device *device,
+                                        const cs_scene *scene, cs_error *error);
 void cs_device_scene_free(cs_device_scene *world);
 
 #endif

@@ -44,19 +44,19 @@ void cs_batch_free(cs_batch *batch)
     *batch = (cs_batch){0};
 }
 
-clshear_status cs_pass_warm_up(cs_device *device, cs_error *error)
+clshear_status cs_pass_warm_up(cs_device *device, cs_u32 features, cs_error *error)
 {
     const cs_launch launch = {.pixel_count = 0};
     const cs_argument arguments[CS_ARGUMENTS_RENDER] = {
         {.value = &launch, .size = sizeof launch}}; /* and no buffers */
-    return CS_RUN(device, RENDER, 1, arguments, error);
+    return CS_RUN_WITH(device, RENDER, features, 1, arguments, error);
 }
 
 static clshear_status run_kernel(const cs_pass *pass, const cs_batch *batch,
                                  const cs_launch *launch, cs_error *error)
 {
     const cs_buffer *buffers[CS_SCENE_BUFFERS];
-    cs_scene_buffers_of(pass->scene, pass->lights, buffers);
+    cs_lit_buffers(pass->scene, pass->lighting, buffers);
     const cs_argument arguments[] = {
         {.value = launch, .size = sizeof *launch},
         {.buffer = pass->pixels->pages[launch->page_first / pass->pixels->page_pixels]},
@@ -65,9 +65,9 @@ static clshear_status run_kernel(const cs_pass *pass, const cs_batch *batch,
         {.buffer = batch->rows},
         {.buffer = pass->optics},
         CS_SCENE_BUFFER_LIST(CS_SCENE_ARGUMENT)};
-    return CS_RUN(pass->scene->context->device, RENDER,
-                  (launch->pixel_count + launch->pixels_each - 1) / launch->pixels_each, arguments,
-                  error);
+    return CS_RUN_WITH(pass->scene->context->device, RENDER, pass->features,
+                       (launch->pixel_count + launch->pixels_each - 1) / launch->pixels_each,
+                       arguments, error);
 }
 
 /* Tells the caller how far it is, and asks whether to go on. */

@@ -3,6 +3,7 @@
 #define CS_RENDER_SWEEP_H
 
 #include "kernels/launch.h"
+#include "render/lighting.h"
 #include "render/pixels.h"
 #include "settings/settings.h"
 
@@ -23,7 +24,8 @@ typedef struct cs_pass {
     const cs_buffer *optics; /* their table */
     const cs_buffer *shears; /* of every pixel of the window */
     const cs_pixels *pixels;
-    const cs_buffer *lights;
+    const cs_lighting *lighting;
+    cs_u32 features;                  /* CS_FEATURE_ bits of the variant that renders it */
     const clshear_settings *settings; /* whose progress callback is called; NULL: no calls */
     double start_s;
     double rate;  /* samples per second of the last launches */
@@ -46,6 +48,6 @@ clshear_status cs_pass_replicate(cs_pass *pass, const cs_batch *batches, size_t 
 
 /* Drivers finish compiling a kernel when it is first launched. Launches it without pixels, so that
  * those whose time is taken do not wait for that. */
-clshear_status cs_pass_warm_up(cs_device *device, cs_error *error);
+clshear_status cs_pass_warm_up(cs_device *device, cs_u32 features, cs_error *error);
 
 #endif

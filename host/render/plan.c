@@ -101,6 +101,9 @@ static clshear_status plan_batches(cs_job *job, cs_error *error)
 clshear_status cs_job_plan(cs_job *job, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
+    /* What the scene's surfaces need is compiled by now, when the scene was completed. */
+    if (job->features != job->scene->device_scene.needs.features)
+        CS_TRY(cs_pass_warm_up(job->scene->context->device, job->features, error));
     const double start_s = cs_now_s();
     CS_TRY(reserve(job, error));
     CS_TRY(cs_accel_depth(job->scene->accel, &job->camera, job->optics.table.items, job->window,

@@ -33,7 +33,7 @@ static clshear_status run_kernel(const evaluation *e, cs_u32 count, cs_error *er
 {
     cs_device *device = e->job.scene->context->device;
     const cs_buffer *buffers[CS_SCENE_BUFFERS];
-    cs_scene_buffers_of(e->job.scene, e->job.lighting.lights, buffers);
+    cs_lit_buffers(e->job.scene, &e->job.lighting, buffers);
     const cs_argument arguments[] = {{.value = &e->launch, .size = sizeof e->launch},
                                      {.value = &e->pixel[0], .size = sizeof e->pixel[0]},
                                      {.value = &e->pixel[1], .size = sizeof e->pixel[1]},
@@ -44,7 +44,8 @@ static clshear_status run_kernel(const evaluation *e, cs_u32 count, cs_error *er
                                      {.buffer = e->points},
                                      {.buffer = e->radiance},
                                      CS_SCENE_BUFFER_LIST(CS_SCENE_ARGUMENT)};
-    return CS_RUN(device, RADIANCE, count / (cs_u32)cs_device_packet(device), arguments, error);
+    return CS_RUN_WITH(device, RADIANCE, e->job.features, count / (cs_u32)cs_device_packet(device),
+                       arguments, error);
 }
 
 /* Up to `chunk` points; the last packet is filled up with the last point. */
@@ -99,6 +100,7 @@ static clshear_status prepare(evaluation *e, clshear_scene *scene, const clshear
     e->pixel[0] = (cs_u32)x;
     e->pixel[1] = (cs_u32)y;
     e->launch = cs_job_pass(&e->job).launch;
+    e->launch.pattern.sampler = CS_SAMPLER_RANDOM; /* of paths, beyond the tuple */
     CS_TRY(reserve(e, count, error));
 done:
     return status;

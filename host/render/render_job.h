@@ -25,6 +25,7 @@ typedef struct cs_job {
     clshear_oracle oracle;
     cs_camera camera;
     cs_lighting lighting;
+    cs_u32 features; /* CS_FEATURE_ bits that the render needs */
     cs_optics_tables optics;
     cs_buffer *optics_table;
     cs_pattern pattern;

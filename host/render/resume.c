@@ -43,10 +43,12 @@ static void recipe_of(const cs_job *job, char *text, size_t size)
 {
     const cs_scene *scene = &job->scene->scene;
     const cs_setting_value *lights = &job->settings.values[CS_INDEX_LIGHT];
+    const cs_setting_value *suns = &job->settings.values[CS_INDEX_SUN];
     cs_u32 lens = 0, light = 0, world = 0;
     add_array(&lens, &job->optics.table);
     add_array(&light, &scene->lights);
     add_words(&light, lights->numbers, lights->count * sizeof *lights->numbers);
+    if (suns->is_set) add_words(&light, suns->numbers, suns->count * sizeof *suns->numbers);
     add_array(&world, &scene->positions);
     add_array(&world, &scene->vertices);
     add_array(&world, &scene->indices);

@@ -57,14 +57,21 @@ clshear_status cs_scene_append(clshear_scene *scene, const clshear_mesh *mesh, c
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "mesh: positions or indices are NULL");
     if (!cs_is_colour(mesh->diffuse) || !cs_is_colour(mesh->emission))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "mesh: diffuse and emission must be 0 to 1e15");
-    cs_material *material = cs_array_extend(&into->materials, 1);
-    if (material == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    material->texture = CS_NO_TEXTURE;
-    memcpy(material->diffuse, mesh->diffuse, sizeof material->diffuse);
-    memcpy(material->emission, mesh->emission, sizeof material->emission);
-    const clshear_status status =
-        cs_scene_add_mesh(into, mesh, (uint32_t)(into->materials.count - 1), "mesh", error);
-    if (status != CLSHEAR_OK) into->materials.count--;
+    if (mesh->material > into->materials.count)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "mesh: there is no material %u",
+                       mesh->material);
+    const size_t materials = into->materials.count;
+    uint32_t number = mesh->material;
+    if (number == 0) {
+        cs_material *material = cs_array_extend(&into->materials, 1);
+        if (material == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+        material->texture = CS_NO_TEXTURE;
+        memcpy(material->diffuse, mesh->diffuse, sizeof material->diffuse);
+        memcpy(material->emission, mesh->emission, sizeof material->emission);
+        number = (uint32_t)into->materials.count;
+    }
+    const clshear_status status = cs_scene_add_mesh(into, mesh, number - 1, "mesh", error);
+    if (status != CLSHEAR_OK) into->materials.count = materials;
     return status == CLSHEAR_BAD_FILE ? CLSHEAR_BAD_ARGUMENT : status; /* there is no file */
 }
 
@@ -74,12 +81,13 @@ clshear_status cs_scene_complete(clshear_scene *scene, cs_error *error)
     clshear_context *context = scene->context;
     clshear_scene_info *info = &scene->info;
     cs_flat_bvh bvh = {0};
-    CS_TRY(cs_pass_warm_up(context->device, error));
+    CS_TRY(
+        cs_pass_warm_up(context->device, cs_scene_material_needs(&scene->scene).features, error));
     const double compiled_s = cs_now_s();
     CS_TRY(cs_accel_create(&scene->scene, context->threads, &scene->accel, error));
     CS_TRY(cs_accel_build_bvh(scene->accel, &bvh, error));
     CS_TRY(cs_scene_upload(&scene->device_scene, context->device, &scene->scene, &bvh, error));
-    CS_TRY(cs_scene_upload_lights(&scene->device_scene, context->device, &scene->scene, error));
+    CS_TRY(cs_scene_upload_emitters(&scene->device_scene, context->device, &scene->scene, error));
     info->triangles = cs_scene_triangle_count(&scene->scene);
     info->degenerate = scene->scene.degenerate;
     info->nodes = bvh.nodes.count;
@@ -98,8 +106,5 @@ clshear_status cs_scene_light(clshear_scene *scene, const clshear_light *light, 
     clshear_light moved = *light; /* lights are given in coordinates of the file */
     for (int axis = 0; axis < 3; axis++)
         moved.position[axis] = (float)((double)light->position[axis] - scene->scene.origin[axis]);
-    clshear_status status = cs_scene_add_light(&scene->scene, &moved, error);
-    if (status != CLSHEAR_OK || !scene->is_complete) return status;
-    return cs_scene_upload_lights(&scene->device_scene, scene->context->device, &scene->scene,
-                                  error);
+    return cs_scene_add_light(&scene->scene, &moved, error);
 }

@@ -52,6 +52,29 @@ int cs_triangle_has_area(const float *a, const float *b, const float *c);
 /* Checks that there is something to render and computes the bounds. */
 clshear_status cs_scene_finish(cs_scene *scene, const char *name, cs_error *error);
 
+/* glTF's defaults. */
+void cs_standard_defaults(clshear_material *material);
+
+/* Checks a material and converts it for the device. */
+clshear_status cs_standard_make(const clshear_material *material, cs_material *made,
+                                cs_error *error);
+
+/* The same, appended to the scene; `number` becomes its index and 1. */
+clshear_status cs_scene_add_standard(cs_scene *scene, const clshear_material *material,
+                                     uint32_t *number, cs_error *error);
+
+/* Whether the device reads texture coordinates of its triangles. */
+int cs_material_is_textured(const cs_material *material);
+
+/* What the scene's materials ask of the kernels. */
+typedef struct cs_material_needs {
+    cs_u32 features;       /* CS_FEATURE_ bits */
+    int see_through;       /* alpha counts somewhere */
+    int textured_emission; /* which only rays find */
+} cs_material_needs;
+
+cs_material_needs cs_scene_material_needs(const cs_scene *scene);
+
 /* Whether three numbers can be a colour: 0 to 1e15, whose squares and sums are still floats. */
 int cs_is_colour(const float *colour);
 
@@ -61,10 +84,9 @@ clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_erro
 /* The same, appended to the scene. */
 clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error);
 
-/* A white point light under the top of the bounding box, as bright as daylight inside it. */
-cs_light cs_scene_default_light(const cs_scene *scene);
-
-/* The emissive triangles (cs_emitter, in `emitters`), with probabilities in proportion to power. */
-clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, cs_error *error);
+/* The emissive triangles (cs_emitter, in `emitters`), with probabilities in proportion to power:
+ * area times luminance, whose sum is `total`. */
+clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, double *total,
+                                 cs_error *error);
 
 #endif

@@ -8,7 +8,7 @@
 #include "base/number.h"
 #include "settings/settings.h"
 
-static const char *const count_words[] = {"", "a", "two", "three", "four", "five", "six"};
+static const char *const count_words[] = {"", "a", "two", "three", "four", "five", "six", "seven"};
 
 /* Appends formatted text, truncated to `size` bytes. */
 static void append(char *text, size_t size, const char *format, ...)

@@ -187,6 +187,33 @@ CLSHEAR_API clshear_status clshear_list_devices(void (*report)(void *user, int n
  * Scene: triangles, materials, lights and the hierarchy over them
  * --------------------------------------------------------------------------------------------- */
 
+typedef enum clshear_alpha_mode {
+    CLSHEAR_ALPHA_OPAQUE = 0, /* alpha is not used */
+    CLSHEAR_ALPHA_MASK = 1,   /* nothing is there where it is below the cutoff */
+    CLSHEAR_ALPHA_BLEND = 2   /* it is the part that covers what is behind */
+} clshear_alpha_mode;
+
+/* The surface of glTF 2.0 and its extensions; all numbers without a remark are 0 to 1. */
+typedef struct clshear_material {
+    size_t struct_size;
+    float base_colour[3]; /* of a metal's reflection, or of what is below a dielectric's */
+    float metallic;
+    float roughness;
+    float ior;          /* index of refraction of the dielectric: 1 to 10 */
+    float specular;     /* the dielectric's reflection is multiplied by it; 0: Lambert's surface */
+    float transmission; /* part of the base that is transparent, as a thin wall */
+    float alpha;
+    clshear_alpha_mode alpha_mode;
+    float alpha_cutoff;
+    float clearcoat;
+    float clearcoat_roughness;
+    float sheen_colour[3];
+    float sheen_roughness;
+    float emission[3]; /* radiance, on both sides; 0 to 1e15 */
+    int unlit;         /* not 0: shows its base colour and takes no part in light */
+    int double_sided;  /* kept; all surfaces have two sides */
+} clshear_material;
+
 /* A triangle mesh with one material. */
 typedef struct clshear_mesh {
     size_t struct_size;
@@ -197,19 +224,27 @@ typedef struct clshear_mesh {
     size_t triangle_count;
     float diffuse[3];  /* albedo of a Lambertian surface; 0 to 1e15, physical up to 1 */
     float emission[3]; /* radiance, on both sides; 0 to 1e15 */
+    uint32_t
+        material; /* what clshear_scene_add_material gave, in the place of those two; 0: none */
 } clshear_mesh;
 
 typedef enum clshear_light_kind {
     CLSHEAR_LIGHT_POINT = 0,
-    CLSHEAR_LIGHT_DIRECTIONAL = 1
+    CLSHEAR_LIGHT_DIRECTIONAL = 1,
+    CLSHEAR_LIGHT_SPOT = 2
 } clshear_light_kind;
 
 typedef struct clshear_light {
     size_t struct_size;
     clshear_light_kind kind;
-    float position[3];  /* position of a point light */
-    float direction[3]; /* direction towards a directional light; any length above 0 */
-    float colour[3];    /* radiant intensity of a point light, irradiance of a directional one */
+    float position[3];  /* position of a point or spot light */
+    float direction[3]; /* direction towards a directional light, or in which a spot light shines;
+                         * any length above 0 */
+    float colour[3];    /* radiant intensity of a point light, and of a spot light on its axis;
+                         * irradiance of a directional light */
+    float diameter_deg; /* angle that a directional light takes in the sky; 0: sharp shadows */
+    float inner_deg;    /* angle from a spot light's axis up to which it is full */
+    float outer_deg;    /* angle from which on it is dark: above the inner one, at most 90 */
 } clshear_light;
 
 typedef struct clshear_scene_info {
@@ -219,7 +254,7 @@ typedef struct clshear_scene_info {
     size_t nodes;        /* nodes of the hierarchy */
     size_t references;   /* triangles in its leaves; spatial splits repeat some */
     size_t device_bytes; /* geometry on the device: nodes, triangles, faces, vertices */
-    size_t lights;       /* point and directional lights */
+    size_t lights;       /* point, directional and spot lights */
     size_t emitters;     /* emissive triangles */
     int file_camera;     /* 1 if the file has a camera */
     double load_s;       /* time spent reading the file */
@@ -250,12 +285,20 @@ CLSHEAR_API const char *clshear_scene_camera(const clshear_scene *scene, size_t 
 CLSHEAR_API clshear_status clshear_scene_create(clshear_context *context, clshear_scene **scene);
 CLSHEAR_API clshear_status clshear_scene_add_mesh(clshear_scene *scene, const clshear_mesh *mesh);
 
+/* Fills in glTF's defaults: white metal, fully rough. struct_size is set by the caller. */
+CLSHEAR_API void clshear_material_init(clshear_material *material);
+
+/* Adds a material for meshes to come, and gives its number, 1 or more. */
+CLSHEAR_API clshear_status clshear_scene_add_material(clshear_scene *scene,
+                                                      const clshear_material *material,
+                                                      uint32_t *number);
+
 /* Builds the hierarchy and uploads the scene to the device. No mesh can be added afterwards. */
 CLSHEAR_API clshear_status clshear_scene_complete(clshear_scene *scene);
 
-/* Adds a light, before or after the scene is complete. If neither the scene nor the settings have a
- * light, and no triangle is emissive, the render adds a point light under the top of the scene's
- * bounding box. */
+/* Adds a light, before or after the scene is complete. A scene with neither lights nor emissive
+ * triangles is rendered in a neutral studio (clshear_light_complete), unless the settings have
+ * lights. */
 CLSHEAR_API clshear_status clshear_scene_add_light(clshear_scene *scene,
                                                    const clshear_light *light);
 
@@ -281,6 +324,13 @@ CLSHEAR_API void clshear_scene_free(clshear_scene *scene);
  *   image axis. */
 CLSHEAR_API clshear_status clshear_camera_complete(const clshear_scene *scene,
                                                    clshear_settings *settings);
+
+/* Where neither the scene nor the settings have light: sets an even CLSHEAR_ENVIRONMENT and a soft
+ * CLSHEAR_SUN at the camera's upper left, and a CLSHEAR_LIGHT in the eye if that is inside the
+ * scene's bounding box. Completes the camera first. A render does the same, without changing the
+ * settings. */
+CLSHEAR_API clshear_status clshear_light_complete(const clshear_scene *scene,
+                                                  clshear_settings *settings);
 
 /* Sets the focal distance to the depth at the centre of pixel (x, y). */
 CLSHEAR_API clshear_status clshear_camera_focus(const clshear_scene *scene,

@@ -42,8 +42,8 @@
  *             use, argument, help)
  *
  * number    value of the enumerator; never reused, because compiled programs depend on it. It also
- *           gives the group in lists: 1 samples, 20 image, 40 camera, 50 lens, 60 light, 70 reading, 80 device,
- *           and all numbers up to the next group
+ *           gives the group in lists: 1 samples, 20 image, 40 camera, 50 lens, 60 light,
+ *           70 reading, 80 device, and all numbers up to the next group
  * name      name of the flag, without dashes
  * aliases   other names of the flag, separated by spaces
  * kind      SWITCH (0 or 1), INTEGER, NUMBER, CHOICE (a name out of `choices`), TEXT
@@ -127,6 +127,18 @@
     /* Light */ \
     X(LIGHT, 60, "light", "", NUMBER, 6, 64, "", -1e15, 1e15, none, PRIVATE, "X,Y,Z,R,G,B", \
       "add a point light; repeatable") \
+    X(SUN, 65, "sun", "", NUMBER, 7, 64, "", -1e15, 1e15, none, PRIVATE, "X,Y,Z,R,G,B,DEG", \
+      "add a sun: towards it, irradiance, size; repeatable") \
+    X(ENVIRONMENT, 62, "environment", "", TEXT, 1, 1, "", 0, 0, none, RECIPE, "FILE", \
+      "lat-long image around the scene, or R,G,B") \
+    X(ENVIRONMENT_ROTATION, 63, "environment-rotation", "", NUMBER, 1, 1, "0", -1e6, 1e6, none, \
+      RECIPE, "DEG", "turn it about +Y, from above against the clock") \
+    X(ENVIRONMENT_STRENGTH, 64, "environment-strength", "", NUMBER, 1, 1, "1", 0, 1e12, none, \
+      RECIPE, "S", "its radiance is multiplied by this") \
+    X(BOUNCES, 66, "bounces", "", INTEGER, 1, 1, "0", 0, 64, none, RECIPE, "N", \
+      "surfaces that light meets on its way; 0: direct light") \
+    X(CLAMP, 67, "clamp", "", NUMBER, 1, 1, "0", 0, 1e15, none, RECIPE, "L", \
+      "most that a bounce adds to a sample (biased); 0: off") \
     /* Scene file */ \
     X(SMOOTH, 70, "smooth", "", NUMBER, 1, 1, "", 0, 180, none, PRIVATE, "DEG", \
       "smooth faces without normals that meet at less") \

@@ -6,11 +6,18 @@
 #define CS_BSDF_H
 
 #include "kernels/bsdf/lambert.h"
+#include "kernels/bsdf/standard.h"
 
 /* Lanes whose surface is of a kind: all of them, known to the compiler, while there is one kind. */
 static inline cs_vint cs_bsdf_lanes(const cs_surface *surface, cs_i32 kind)
 {
-    return CS_BSDF_KINDS == 1 ? (cs_vint)(-1) : (cs_vint)(surface->bsdf == (cs_vint)(kind));
+#if CS_HAS(MATERIALS)
+    return (cs_vint)(surface->bsdf == (cs_vint)(kind));
+#else
+    (void)surface;
+    (void)kind;
+    return (cs_vint)(-1);
+#endif
 }
 
 /* Takes over the lanes in `mine`. */
@@ -42,9 +49,26 @@ static inline cs_bsdf_value cs_bsdf_eval(const cs_surface *surface, const cs_vfl
     return value;
 }
 
-/* Draws a direction `in` by a point of the unit square in each lane. */
+/* The density, per steradian, with which cs_bsdf_sample draws `in`. */
+static inline cs_vfloat cs_bsdf_density(const cs_surface *surface, const cs_vfloat *out,
+                                        const cs_vfloat *in)
+{
+    cs_vfloat density = (cs_vfloat)(0.0f);
+#define CS_BSDF_DENSITY(identifier, name, suffix)                                  \
+    {                                                                              \
+        cs_vint mine = cs_bsdf_lanes(surface, CS_BSDF_##identifier);               \
+        if (CS_BSDF_KINDS == 1 || cs_any(mine))                                    \
+            density = mine ? cs_bsdf_density_##suffix(surface, out, in) : density; \
+    }
+    CS_BSDF_LIST(CS_BSDF_DENSITY)
+#undef CS_BSDF_DENSITY
+    return density;
+}
+
+/* Draws a direction `in` by a point of the unit square and a number, to choose a lobe by, in each
+ * lane. */
 static inline cs_bsdf_direction cs_bsdf_sample(const cs_surface *surface, const cs_vfloat *out,
-                                               cs_pair pair)
+                                               cs_pair pair, cs_vfloat choice)
 {
     cs_bsdf_direction drawn;
     drawn.density = (cs_vfloat)(0.0f);
@@ -53,16 +77,16 @@ static inline cs_bsdf_direction cs_bsdf_sample(const cs_surface *surface, const 
         drawn.in[axis] = surface->normal[axis];
         drawn.value.colour[axis] = (cs_vfloat)(0.0f);
     }
-#define CS_BSDF_SAMPLE(identifier, name, suffix)                                 \
-    {                                                                            \
-        cs_vint mine = cs_bsdf_lanes(surface, CS_BSDF_##identifier);             \
-        if (CS_BSDF_KINDS == 1 || cs_any(mine)) {                                \
-            cs_bsdf_direction its = cs_bsdf_sample_##suffix(surface, out, pair); \
-            cs_bsdf_take_value(&drawn.value, &its.value, mine);                  \
-            drawn.density = mine ? its.density : drawn.density;                  \
-            for (int axis = 0; axis < 3; axis++)                                 \
-                drawn.in[axis] = mine ? its.in[axis] : drawn.in[axis];           \
-        }                                                                        \
+#define CS_BSDF_SAMPLE(identifier, name, suffix)                                         \
+    {                                                                                    \
+        cs_vint mine = cs_bsdf_lanes(surface, CS_BSDF_##identifier);                     \
+        if (CS_BSDF_KINDS == 1 || cs_any(mine)) {                                        \
+            cs_bsdf_direction its = cs_bsdf_sample_##suffix(surface, out, pair, choice); \
+            cs_bsdf_take_value(&drawn.value, &its.value, mine);                          \
+            drawn.density = mine ? its.density : drawn.density;                          \
+            for (int axis = 0; axis < 3; axis++)                                         \
+                drawn.in[axis] = mine ? its.in[axis] : drawn.in[axis];                   \
+        }                                                                                \
     }
     CS_BSDF_LIST(CS_BSDF_SAMPLE)
 #undef CS_BSDF_SAMPLE

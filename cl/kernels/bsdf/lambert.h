@@ -17,13 +17,26 @@ static inline cs_bsdf_value cs_bsdf_eval_lambert(const cs_surface *surface, cons
     return value;
 }
 
+static inline cs_vfloat cs_bsdf_density_lambert(const cs_surface *surface, const cs_vfloat *out,
+                                                const cs_vfloat *in)
+{
+    cs_vfloat along =
+        in[0] * surface->normal[0] + in[1] * surface->normal[1] + in[2] * surface->normal[2];
+    cs_vfloat square = in[0] * in[0] + in[1] * in[1] + in[2] * in[2];
+    (void)out;
+    return cs_max(along, (cs_vfloat)(0.0f)) * CS_INVERSE_PI /
+           cs_sqrt(cs_max(square, (cs_vfloat)(1e-30f)));
+}
+
 /* The density is proportional to the cosine: a uniform point of the disk, lifted to the hemisphere
  * (Malley). */
 static inline cs_bsdf_direction cs_bsdf_sample_lambert(const cs_surface *surface,
-                                                       const cs_vfloat *out, cs_pair pair)
+                                                       const cs_vfloat *out, cs_pair pair,
+                                                       cs_vfloat choice)
 {
     cs_bsdf_direction drawn;
     cs_vfloat tangent[3];
+    (void)choice;
     tangent[0] = pair.x - 0.5f;
     tangent[1] = pair.y - 0.5f;
     cs_disk_from_square(&tangent[0], &tangent[1]);

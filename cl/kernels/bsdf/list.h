@@ -7,12 +7,25 @@
 #ifndef CS_BSDF_LIST_H
 #define CS_BSDF_LIST_H
 
+#include "kernels/features.h"
+
+#define CS_BSDF_LIST_ALL(X)        \
+    X(LAMBERT, "lambert", lambert) \
+    X(STANDARD, "standard", standard)
+
+/* Programs without the feature MATERIALS (features.h) know the first one only. */
+#if CS_HAS(MATERIALS)
+#define CS_BSDF_LIST(X) CS_BSDF_LIST_ALL(X)
+#define CS_BSDF_KINDS CS_BSDF_ALL
+#else
 #define CS_BSDF_LIST(X) X(LAMBERT, "lambert", lambert)
+#define CS_BSDF_KINDS 1
+#endif
 
 #define CS_BSDF_IDENTIFIER(identifier, name, suffix) CS_BSDF_##identifier,
 
 enum {
-    CS_BSDF_LIST(CS_BSDF_IDENTIFIER) CS_BSDF_KINDS
+    CS_BSDF_LIST_ALL(CS_BSDF_IDENTIFIER) CS_BSDF_ALL
 };
 
 #endif

@@ -16,6 +16,7 @@ static inline cs_light_sample cs_sample_light_point(CS_GLOBAL const cs_light *li
     cs_vfloat cosine = cs_dot(surface->normal, sample.towards);
     cs_vfloat square = cs_max(cs_dot(sample.towards, sample.towards), (cs_vfloat)(1e-30f));
     sample.weight = cosine / (square * sqrt(square));
+    sample.density = (cs_vfloat)(0.0f);
     sample.reach = 1.0f;
     return sample;
 }
@@ -30,7 +31,26 @@ static inline cs_light_sample cs_sample_light_directional(CS_GLOBAL const cs_lig
         sample.colour[axis] = (cs_vfloat)(light->colour[axis]);
     }
     sample.weight = cs_dot(surface->normal, sample.towards);
+    sample.density = (cs_vfloat)(0.0f);
     sample.reach = INFINITY;
+    return sample;
+}
+
+/* colour: radiant intensity within the inner cone. axis: against the way it shines. parameters:
+ * scale and offset from the cosine of the angle from the axis to the square root of the part that
+ * is left (Khronos, KHR_lights_punctual, "inner and outer cone angles"). */
+static inline cs_light_sample cs_sample_light_spot(CS_GLOBAL const cs_light *light,
+                                                   const cs_surface *surface)
+{
+    cs_light_sample sample = cs_sample_light_point(light, surface);
+    cs_vfloat axis[3];
+    for (int i = 0; i < 3; i++)
+        axis[i] = (cs_vfloat)(light->axis[i]);
+    cs_vfloat square = cs_max(cs_dot(sample.towards, sample.towards), (cs_vfloat)(1e-30f));
+    cs_vfloat cosine = cs_dot(axis, sample.towards) / sqrt(square);
+    cs_vfloat inside = cs_clamp(cosine * light->parameters[0] + light->parameters[1],
+                                (cs_vfloat)(0.0f), (cs_vfloat)(1.0f));
+    sample.weight *= inside * inside;
     return sample;
 }
 

@@ -2,7 +2,9 @@
 #ifndef CS_LIGHT_H
 #define CS_LIGHT_H
 
+#include "kernels/features.h"
 #include "kernels/light/delta.h"
+#include "kernels/light/environment.h"
 #include "kernels/light/triangles.h"
 
 #define CS_SAMPLE_DELTA(suffix) cs_sample_light_##suffix(light, surface)
@@ -20,7 +22,10 @@ static inline cs_light_sample cs_sample_light(const cs_scene_buffers *scene,
         sample = CS_SAMPLE_##extent(suffix);            \
         break;
     switch (light->kind) {
-        CS_LIGHT_LIST(CS_LIGHT_CASE)
+        CS_LIGHT_LIST_FEW(CS_LIGHT_CASE)
+#if CS_HAS(LIGHTS)
+        CS_LIGHT_LIST_MORE(CS_LIGHT_CASE)
+#endif
     }
 #undef CS_LIGHT_CASE
     return sample;

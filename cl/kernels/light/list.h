@@ -6,10 +6,18 @@
 #ifndef CS_LIGHT_LIST_H
 #define CS_LIGHT_LIST_H
 
-#define CS_LIGHT_LIST(X)                              \
+/* Those that every program knows, and those that the feature LIGHTS adds (features.h). */
+#define CS_LIGHT_LIST_FEW(X)                          \
     X(POINT, "point", point, DELTA)                   \
     X(DIRECTIONAL, "directional", directional, DELTA) \
     X(TRIANGLES, "emissive triangles", triangles, AREA)
+#define CS_LIGHT_LIST_MORE(X)    \
+    X(SPOT, "spot", spot, DELTA) \
+    X(SUN, "sun", sun, AREA)     \
+    X(ENVIRONMENT, "environment", environment, AREA)
+#define CS_LIGHT_LIST(X) \
+    CS_LIGHT_LIST_FEW(X) \
+    CS_LIGHT_LIST_MORE(X)
 
 #define CS_LIGHT_IDENTIFIER(identifier, name, suffix, extent) CS_LIGHT_##identifier,
 

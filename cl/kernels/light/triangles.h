@@ -50,7 +50,8 @@ static inline void cs_point_on_emitter(CS_GLOBAL const cs_emitter *emitters, cs_
     points->density.lane[lane] = emitter->probability / emitter->area;
 }
 
-/* colour: radiance. `pair` is a stratified point of the unit square. */
+/* colour: radiance. parameters: density of a point, per unit of area and luminance. `pair` is a
+ * stratified point of the unit square. */
 static inline cs_light_sample cs_sample_light_triangles(const cs_scene_buffers *scene,
                                                         CS_GLOBAL const cs_light *light,
                                                         const cs_surface *surface, cs_pair pair)
@@ -70,9 +71,11 @@ static inline cs_light_sample cs_sample_light_triangles(const cs_scene_buffers *
         normal[axis] = points.normal[axis].all;
     }
     cs_vfloat square = cs_max(cs_dot(sample.towards, sample.towards), (cs_vfloat)(1e-30f));
-    cs_vfloat cosines =
-        cs_dot(surface->normal, sample.towards) * fabs(cs_dot(normal, sample.towards));
+    cs_vfloat turned = fabs(cs_dot(normal, sample.towards));
+    cs_vfloat cosines = cs_dot(surface->normal, sample.towards) * turned;
     sample.weight = cosines / (square * square * points.density.all);
+    sample.density = light->parameters[0] * cs_luminance(sample.colour) * square * sqrt(square) /
+                     cs_max(turned, (cs_vfloat)(1e-20f));
     sample.reach = 0.9999f;
     return sample;
 }

@@ -15,16 +15,35 @@ typedef struct given_settings {
     int has_eye;
     int has_focus;
     int has_lens;
+    int has_environment;
 } given_settings;
 
 static given_settings given_by(const clshear_settings *settings)
 {
-    return (given_settings){.has_eye = clshear_settings_is_set(settings, CLSHEAR_EYE),
-                            .has_focus =
-                                clshear_settings_is_set(settings, CLSHEAR_FOCAL_DISTANCE) ||
-                                clshear_settings_is_set(settings, CLSHEAR_FOCUS_PIXEL),
-                            .has_lens = clshear_settings_is_set(settings, CLSHEAR_LENS_RADIUS) ||
-                                        clshear_settings_is_set(settings, CLSHEAR_F_STOP)};
+    return (given_settings){
+        .has_eye = clshear_settings_is_set(settings, CLSHEAR_EYE),
+        .has_focus = clshear_settings_is_set(settings, CLSHEAR_FOCAL_DISTANCE) ||
+                     clshear_settings_is_set(settings, CLSHEAR_FOCUS_PIXEL),
+        .has_lens = clshear_settings_is_set(settings, CLSHEAR_LENS_RADIUS) ||
+                    clshear_settings_is_set(settings, CLSHEAR_F_STOP),
+        .has_environment = clshear_settings_is_set(settings, CLSHEAR_ENVIRONMENT)};
+}
+
+/* The studio that the library made, as flags. */
+static void tell_light(const clshear_settings *settings)
+{
+    static const struct {
+        clshear_setting setting;
+        const char *flag;
+    } parts[] = {
+        {CLSHEAR_ENVIRONMENT, "environment"}, {CLSHEAR_SUN, "sun"}, {CLSHEAR_LIGHT, "light"}};
+    char text[256];
+    fprintf(stderr, "clshear: no light given, a neutral studio:");
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        if (clshear_settings_is_set(settings, parts[i].setting) &&
+            clshear_settings_get_text(settings, parts[i].setting, text, sizeof text) == CLSHEAR_OK)
+            fprintf(stderr, " --%s %s", parts[i].flag, text);
+    fprintf(stderr, "\n");
 }
 
 /* Tells what file and flags left open. */
@@ -47,8 +66,8 @@ static void tell_choices(const program_options *options, const clshear_scene *sc
     if (!info.file_camera && !given->has_eye)
         fprintf(stderr, "clshear: no camera given, the scene is framed: --eye %.9g,%.9g,%.9g\n",
                 eye[0], eye[1], eye[2]);
-    if (info.lights + info.emitters == 0 && !clshear_settings_is_set(settings, CLSHEAR_LIGHT))
-        fprintf(stderr, "clshear: no light given, a point light above the scene's middle\n");
+    if (!given->has_environment && clshear_settings_is_set(settings, CLSHEAR_ENVIRONMENT))
+        tell_light(settings);
 }
 
 int scene_view_open(program_options *options, scene_view *view)
@@ -59,7 +78,7 @@ int scene_view_open(program_options *options, scene_view *view)
     clshear_context_set_warning(view->context, warn, options);
     if (clshear_scene_load(view->context, options->scene, options->settings, &view->scene) !=
             CLSHEAR_OK ||
-        clshear_camera_complete(view->scene, options->settings) != CLSHEAR_OK)
+        clshear_light_complete(view->scene, options->settings) != CLSHEAR_OK)
         return complain_of_library();
     if (!options->quiet) tell_choices(options, view->scene, &given);
     return EXIT_DONE;

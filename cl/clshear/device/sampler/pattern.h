@@ -17,16 +17,20 @@ enum {
 
 /* Families of keys: each random choice in a pattern has a key of its own, cs_key(key, number). */
 enum {
-    CS_KEY_ORDER = 0,     /* order of the blocks */
-    CS_KEY_PAIRING = 1,   /* + slot: which point of a slot goes with which sample */
-    CS_KEY_PAIR = 8,      /* + slot: the points of a slot; or + coordinate (cs_draw_strong_array) */
-    CS_KEY_DIMENSION = 16 /* + CS_SLOT_WIDEST * slot + coordinate within the slot */
+    CS_KEY_ORDER = 0,   /* order of the blocks */
+    CS_KEY_PAIRING = 1, /* + slot: which point of a slot goes with which sample */
+    CS_KEY_PAIR = 8,    /* + slot: the points of a slot; or + coordinate (cs_draw_strong_array) */
+    CS_KEY_DIMENSION = 16, /* + CS_SLOT_WIDEST * slot + coordinate within the slot */
+    CS_KEY_BOUNCES = 64    /* and above: keys of the patterns that paths draw beyond the tuple */
 };
 
 /* Families must not overlap: these fail to compile when there are too many slots. */
 typedef char cs_pairings_fit[CS_KEY_PAIRING + CS_SLOT_COUNT <= CS_KEY_PAIR ? 1 : -1];
 typedef char
     cs_pairs_fit[CS_KEY_PAIR + CS_SLOT_WIDEST * CS_SLOT_COUNT <= CS_KEY_DIMENSION ? 1 : -1];
+
+typedef char
+    cs_slots_fit[CS_KEY_DIMENSION + CS_SLOT_WIDEST * CS_SLOT_COUNT <= CS_KEY_BOUNCES ? 1 : -1];
 
 /* The constants of a pattern. Make it by clshear_pattern_make. */
 typedef struct cs_pattern {

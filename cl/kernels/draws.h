@@ -1,0 +1,32 @@
+/* The random numbers of a path beyond those of its tuple. Device only. */
+#ifndef CS_KERNELS_DRAWS_H
+#define CS_KERNELS_DRAWS_H
+
+#include "clshear/device/sampler/sampler.h"
+
+/* What a surface on a path needs pairs of numbers for. */
+enum {
+    CS_DRAW_LIGHT,  /* the place on area lights; the first surface has the tuple's own slot */
+    CS_DRAW_BSDF,   /* the direction that goes on */
+    CS_DRAW_CHOICE, /* between the lobes of a BSDF; whether the path goes on */
+    CS_DRAW_PURPOSES
+};
+
+/* The samples that a packet traces. */
+typedef struct cs_draws {
+    const cs_pattern *pattern;
+    cs_sample_table table;
+    cs_u32 key;
+    cs_vuint index;
+} cs_draws;
+
+/* A pair for surface number `depth` of the paths. Each is a slot with a key of its own, as well
+ * stratified as the light's, and combined with the others at random (padding: Kollig & Keller
+ * 2002, section 3). */
+static inline cs_pair cs_draw_at(const cs_draws *draws, cs_u32 depth, cs_u32 purpose)
+{
+    cs_u32 key = cs_key(draws->key, CS_KEY_BOUNCES + depth * (cs_u32)CS_DRAW_PURPOSES + purpose);
+    return cs_draw_extra(draws->pattern, draws->table, key, draws->index, CS_SLOT_LIGHT);
+}
+
+#endif

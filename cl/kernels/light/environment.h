@@ -1,0 +1,101 @@
+/* Lights at infinity that have an extent: a sun, and what surrounds the scene. Device only. */
+#ifndef CS_LIGHT_ENVIRONMENT_H
+#define CS_LIGHT_ENVIRONMENT_H
+
+#include "clshear/device/disk.h"
+#include "kernels/light/lat_long.h"
+#include "kernels/light/sample.h"
+
+/* A uniform point of the unit disk from one of the unit square. */
+static inline void cs_unit_disk(cs_pair pair, cs_vfloat *x, cs_vfloat *y)
+{
+    *x = pair.x - 0.5f;
+    *y = pair.y - 0.5f;
+    cs_disk_from_square(x, y);
+    *x /= CS_DISK_RADIUS;
+    *y /= CS_DISK_RADIUS;
+}
+
+/* Density, per steradian, of a sun's directions. */
+static inline cs_f32 cs_sun_density(CS_GLOBAL const cs_light *light)
+{
+    return 1.0f / (2.0f * CS_PI * light->parameters[0]);
+}
+
+/* colour: radiance of the disk. parameters: one less the cosine of the angular radius. Uniform over
+ * the cone: 1 - cosine grows with the square of the disk's radius (Shirley & Wang 1992). */
+static inline cs_light_sample cs_sample_light_sun(const cs_scene_buffers *scene,
+                                                  CS_GLOBAL const cs_light *light,
+                                                  const cs_surface *surface, cs_pair pair)
+{
+    cs_light_sample sample;
+    cs_vfloat tangent[3], axis[3];
+    (void)scene;
+    cs_unit_disk(pair, &tangent[0], &tangent[1]);
+    cs_vfloat square = tangent[0] * tangent[0] + tangent[1] * tangent[1];
+    cs_vfloat fall = square * light->parameters[0];
+    cs_vfloat outward = sqrt(light->parameters[0] * (2.0f - fall));
+    tangent[0] *= outward;
+    tangent[1] *= outward;
+    tangent[2] = 1.0f - fall;
+    for (int i = 0; i < 3; i++) {
+        axis[i] = (cs_vfloat)(light->axis[i]);
+        sample.colour[i] = (cs_vfloat)(light->colour[i]);
+    }
+    cs_from_local(axis, tangent, sample.towards);
+    sample.density = (cs_vfloat)(cs_sun_density(light));
+    sample.weight = cs_dot(surface->normal, sample.towards) / sample.density;
+    sample.reach = INFINITY;
+    return sample;
+}
+
+/* The lanes' directions by an image. */
+static inline void cs_draw_lat_long(const cs_lat_long *image, cs_pair pair, cs_light_sample *sample)
+{
+    cs_float_lanes x, y, density, towards[3], colour[3];
+    x.all = pair.x;
+    y.all = pair.y;
+    for (int lane = 0; lane < CS_PACKET; lane++) {
+        cs_f32 direction[3], radiance[3];
+        density.lane[lane] = cs_lat_long_draw(image, x.lane[lane], y.lane[lane], direction);
+        cs_lat_long_radiance(image, direction, radiance);
+        for (int i = 0; i < 3; i++) {
+            towards[i].lane[lane] = direction[i];
+            colour[i].lane[lane] = radiance[i];
+        }
+    }
+    sample->density = density.all;
+    for (int i = 0; i < 3; i++) {
+        sample->towards[i] = towards[i].all;
+        sample->colour[i] *= colour[i].all;
+    }
+}
+
+/* colour: radiance, times the image's if there is one (light->count above 0, see cs_lat_long_of).
+ * Without an image, directions are drawn as for a diffuse surface. */
+static inline cs_light_sample cs_sample_light_environment(const cs_scene_buffers *scene,
+                                                          CS_GLOBAL const cs_light *light,
+                                                          const cs_surface *surface, cs_pair pair)
+{
+    cs_light_sample sample;
+    for (int i = 0; i < 3; i++)
+        sample.colour[i] = (cs_vfloat)(light->colour[i]);
+    sample.reach = INFINITY;
+    if (light->count == 0u) {
+        cs_vfloat tangent[3];
+        cs_unit_disk(pair, &tangent[0], &tangent[1]);
+        cs_vfloat square = 1.0f - tangent[0] * tangent[0] - tangent[1] * tangent[1];
+        tangent[2] = sqrt(cs_max(square, (cs_vfloat)(0.0f)));
+        cs_from_local(surface->normal, tangent, sample.towards);
+        sample.density = tangent[2] * CS_INVERSE_PI;
+        sample.weight = (cs_vfloat)(CS_PI);
+        return sample;
+    }
+    cs_lat_long image = cs_lat_long_of(light, scene->environment);
+    cs_draw_lat_long(&image, pair, &sample);
+    sample.weight = sample.density > 0.0f ? cs_dot(surface->normal, sample.towards) / sample.density
+                                          : (cs_vfloat)(0.0f);
+    return sample;
+}
+
+#endif

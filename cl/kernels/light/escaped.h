@@ -1,0 +1,71 @@
+/* The light that rays find which were drawn from a BSDF, and with what density the lights' own
+ * samples would have found it. Device only. */
+#ifndef CS_LIGHT_ESCAPED_H
+#define CS_LIGHT_ESCAPED_H
+
+#include "kernels/light/light.h"
+
+/* Density, per steradian, with which the light of emissive triangles draws the point that a ray
+ * hit: cs_scene_emitters makes it proportional to luminance. */
+static inline cs_vfloat cs_emitter_density(const cs_scene_buffers *scene, cs_u32 lights,
+                                           const cs_surface *surface, const cs_ray *ray,
+                                           cs_vfloat distance)
+{
+    cs_f32 per_power = 0.0f;
+    for (cs_u32 i = 0u; i < lights; i++)
+        if (scene->lights[i].kind == CS_LIGHT_TRIANGLES) per_power = scene->lights[i].parameters[0];
+    cs_vfloat square = cs_dot(ray->direction, ray->direction) * distance * distance;
+    cs_vfloat cosine = fabs(cs_dot(surface->outward, ray->direction)) /
+                       sqrt(cs_dot(ray->direction, ray->direction));
+    return per_power * cs_luminance(surface->emission) * square /
+           cs_max(cosine, (cs_vfloat)(1e-20f));
+}
+
+/* Light that comes from beyond all surfaces. */
+typedef struct cs_escaped {
+    cs_vfloat colour[3];
+    cs_vfloat density; /* with which the light's samples would have drawn the direction */
+} cs_escaped;
+
+static inline cs_escaped cs_escape_to_sun(CS_GLOBAL const cs_light *light, const cs_ray *ray)
+{
+    cs_escaped found;
+    cs_vfloat apart[3]; /* its square is twice one less the cosine, without the rounding of that */
+    for (int i = 0; i < 3; i++)
+        apart[i] = ray->direction[i] - light->axis[i];
+    cs_vint inside = cs_dot(apart, apart) < (cs_vfloat)(2.0f * light->parameters[0]);
+    for (int i = 0; i < 3; i++)
+        found.colour[i] = inside ? (cs_vfloat)(light->colour[i]) : (cs_vfloat)(0.0f);
+    found.density = (cs_vfloat)(cs_sun_density(light));
+    return found;
+}
+
+/* cosine: at the surface that the ray left. */
+static inline cs_escaped cs_escape_to_environment(const cs_scene_buffers *scene,
+                                                  CS_GLOBAL const cs_light *light,
+                                                  const cs_ray *ray, cs_vfloat cosine)
+{
+    cs_escaped found;
+    for (int i = 0; i < 3; i++)
+        found.colour[i] = (cs_vfloat)(light->colour[i]);
+    found.density = cs_max(cosine, (cs_vfloat)(0.0f)) * CS_INVERSE_PI;
+    if (light->count == 0u) return found;
+    cs_lat_long image = cs_lat_long_of(light, scene->environment);
+    cs_float_lanes towards[3], colour[3], density;
+    for (int i = 0; i < 3; i++)
+        towards[i].all = ray->direction[i];
+    for (int lane = 0; lane < CS_PACKET; lane++) {
+        cs_f32 radiance[3];
+        cs_f32 direction[3] = {towards[0].lane[lane], towards[1].lane[lane], towards[2].lane[lane]};
+        cs_lat_long_radiance(&image, direction, radiance);
+        density.lane[lane] = cs_lat_long_density(&image, direction);
+        for (int i = 0; i < 3; i++)
+            colour[i].lane[lane] = radiance[i];
+    }
+    found.density = density.all;
+    for (int i = 0; i < 3; i++)
+        found.colour[i] *= colour[i].all;
+    return found;
+}
+
+#endif

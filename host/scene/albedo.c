@@ -1,0 +1,84 @@
+#include "scene/albedo.h"
+
+#include <pthread.h>
+
+#include "kernels/bsdf/bsdf.h"
+
+enum {
+    POINTS = 2584, /* of a Fibonacci lattice, and its generator (Sloan & Joe 1994, section 4.2) */
+    GENERATOR = 1597
+};
+
+static float table[CS_ALBEDO_FLOATS];
+
+/* Albedos for one cosine and roughness, by a lattice: facets by visible normals, each of which
+ * counts with shadowing over masking; sheen by directions that crowd at the horizon, where it
+ * shines: their height is a square. */
+static void integrate(float cosine, float roughness, double *albedo)
+{
+    const float width = cs_facet_width(roughness);
+    const float out[3] = {sqrtf(1.0f - cosine * cosine), 0.0f, cosine};
+    const float slant = cs_facet_slant(cosine, width);
+    for (int p = 0; p < CS_ALBEDO_PLANES; p++)
+        albedo[p] = 0.0;
+    for (int i = 0; i < POINTS; i++) {
+        const cs_pair pair = {((float)i + 0.5f) / POINTS,
+                              ((float)(i * GENERATOR % POINTS) + 0.5f) / POINTS};
+        float facet[3];
+        cs_visible_facet(out, width, pair, facet);
+        const float along = cs_inner(out, facet), up = 2.0f * along * facet[2] - cosine;
+        if (up > 0.0f) {
+            const float part =
+                up * (cosine + slant) / (up * slant + cosine * cs_facet_slant(up, width));
+            albedo[CS_ALBEDO_ALL] += (double)part;
+            albedo[CS_ALBEDO_SCHLICK] += (double)(part * cs_schlick(along));
+        }
+        const float height = pair.y * pair.y, sine = sqrtf(1.0f - height * height);
+        const float in[3] = {sine * cosf(2.0f * CS_PI * pair.x), sine * sinf(2.0f * CS_PI * pair.x),
+                             height};
+        float half_way[3];
+        cs_half_way(out, in, half_way);
+        albedo[CS_ALBEDO_SHEEN] += (double)(4.0f * CS_PI * pair.y * height *
+                                            cs_sheen(half_way[2], cosine, height, roughness));
+    }
+    for (int p = 0; p < CS_ALBEDO_PLANES; p++)
+        albedo[p] /= POINTS;
+}
+
+/* 2 int E(c) c dc of the linear pieces; Simpson's rule is exact for them. */
+static float average_of(const float *values)
+{
+    double sum = 0.0;
+    const double step = 1.0 / (CS_ALBEDO_COSINES - 1);
+    for (int i = 0; i + 1 < CS_ALBEDO_COSINES; i++) {
+        const double a = (double)values[i], b = (double)values[i + 1], c = i * step;
+        sum += (a * c + 4.0 * 0.5 * (a + b) * (c + 0.5 * step) + b * (c + step)) * step / 6.0;
+    }
+    return (float)(2.0 * sum);
+}
+
+static void make_table(void)
+{
+    for (int r = 0; r < CS_ALBEDO_ROUGHNESSES; r++) {
+        float *row = table + (size_t)r * CS_ALBEDO_ROW;
+        for (int c = 0; c < CS_ALBEDO_COSINES; c++) {
+            double albedo[CS_ALBEDO_PLANES];
+            const float cosine = (float)c / (CS_ALBEDO_COSINES - 1);
+            integrate(cosine > 1e-3f ? cosine : 1e-3f, (float)r / (CS_ALBEDO_ROUGHNESSES - 1),
+                      albedo);
+            for (int p = 0; p < CS_ALBEDO_PLANES; p++)
+                row[p * (CS_ALBEDO_COSINES + 1) + c] = (float)albedo[p];
+        }
+        for (int p = 0; p < CS_ALBEDO_PLANES; p++) {
+            float *plane = row + p * (CS_ALBEDO_COSINES + 1);
+            plane[CS_ALBEDO_COSINES] = average_of(plane);
+        }
+    }
+}
+
+const float *cs_albedo_table(void)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, make_table);
+    return table;
+}

@@ -1,0 +1,158 @@
+#include "scene/environment.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/image_io.h"
+#include "scene/scene.h"
+
+enum {
+    MOST_CELLS = 1024 /* across; down half as many */
+};
+
+static const float most_radiance = 1e15f;
+
+/* The scale and the turn. */
+static void describe(const cs_environment_view *view, const float *colour, cs_light *light)
+{
+    const double angle = view->rotation_deg * (3.14159265358979 / 180.0);
+    *light = (cs_light){.kind = CS_LIGHT_ENVIRONMENT};
+    for (int c = 0; c < 3; c++)
+        light->colour[c] = (float)((double)colour[c] * view->strength);
+    light->parameters[3] = (float)cos(angle);
+    light->parameters[4] = (float)sin(angle);
+}
+
+static void copy_texels(const float *texels, size_t count, float *copy)
+{
+    for (size_t i = 0; i < 3 * count; i++) {
+        copy[i] = texels[i] > 0.0f ? texels[i] : 0.0f; /* NaN too */
+        if (copy[i] > most_radiance) copy[i] = most_radiance;
+    }
+}
+
+static double luminance_at(const float *texels, size_t width, size_t x, size_t y)
+{
+    const float *texel = texels + 3 * (y * width + x);
+    return 0.2126 * (double)texel[0] + 0.7152 * (double)texel[1] + 0.0722 * (double)texel[2];
+}
+
+/* Mean luminance of the bilinear image over a texel. Over the half of a texel that is nearer to one
+ * neighbour the interpolation gives it 1/8 of the whole, so the weights along an axis are 1/8, 3/4,
+ * 1/8: no direction that shines has density 0. */
+static double mean_luminance(const float *texels, size_t width, size_t height, size_t x, size_t y)
+{
+    static const double weights[3] = {0.125, 0.75, 0.125};
+    double sum = 0.0;
+    for (size_t j = 0; j < 3; j++)
+        for (size_t i = 0; i < 3; i++) {
+            size_t row = y + j > 0 ? y + j - 1 : 0;
+            if (row >= height) row = height - 1;
+            sum += weights[i] * weights[j] *
+                   luminance_at(texels, width, (x + width + i - 1) % width, row);
+        }
+    return sum;
+}
+
+/* Makes cumulative probabilities of weights; returns their sum. All 0: even. */
+static double accumulate(const double *weights, size_t count, float *cumulative)
+{
+    double total = 0.0, below = 0.0;
+    for (size_t i = 0; i < count; i++)
+        total += weights[i];
+    for (size_t i = 0; i < count; i++) {
+        below += weights[i];
+        cumulative[i] = (float)(total > 0.0 ? below / total : ((double)i + 1.0) / (double)count);
+    }
+    cumulative[count - 1] = 1.0f;
+    return total;
+}
+
+/* The tables behind the texels: rows of cells, then the cells of each row. */
+static void tabulate(const float *texels, size_t width, size_t height, size_t across, size_t down,
+                     double *row_weights, double *weights, float *tables)
+{
+    const double pi = 3.14159265358979;
+    const size_t step_x = width / across, step_y = height / down;
+    for (size_t row = 0; row < down; row++) {
+        for (size_t column = 0; column < across; column++) {
+            weights[column] = 0.0;
+            for (size_t y = row * step_y; y < (row + 1) * step_y; y++)
+                for (size_t x = column * step_x; x < (column + 1) * step_x; x++)
+                    weights[column] += mean_luminance(texels, width, height, x, y);
+        }
+        const double top = cos(pi * (double)row / (double)down);
+        const double bottom = cos(pi * (double)(row + 1) / (double)down);
+        row_weights[row] = accumulate(weights, across, tables + down + row * across);
+        row_weights[row] *= top - bottom;
+    }
+    accumulate(row_weights, down, tables);
+}
+
+/* Cells of the fewest texels each that leave at most `most` of them and are all alike; if that
+ * would be very large ones, a cell is a texel. */
+static size_t cells_of(size_t texels, size_t most)
+{
+    for (size_t step = 1; step <= 64; step++)
+        if (texels % step == 0 && texels / step <= most) return texels / step;
+    return texels;
+}
+
+clshear_status cs_environment_make(const float *texels, size_t width, size_t height,
+                                   const cs_environment_view *view, cs_environment *environment,
+                                   cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const float white[3] = {1.0f, 1.0f, 1.0f};
+    const size_t across = cells_of(width, MOST_CELLS), down = cells_of(height, MOST_CELLS / 2);
+    double *weights = malloc((across + down) * sizeof *weights);
+    environment->image = (cs_array){.item_size = sizeof(cs_f32)};
+    float *buffer = cs_array_extend(&environment->image, 3 * width * height + down + down * across);
+    CS_REQUIRE(weights != NULL && buffer != NULL, CLSHEAR_OUT_OF_MEMORY,
+               "out of memory for an environment of %zu x %zu texels", width, height);
+    describe(view, white, &environment->light);
+    environment->light.count = (cs_u32)width;
+    environment->light.parameters[0] = (float)height;
+    environment->light.parameters[1] = (float)across;
+    environment->light.parameters[2] = (float)down;
+    copy_texels(texels, width * height, buffer);
+    tabulate(buffer, width, height, across, down, weights, weights + down,
+             buffer + 3 * width * height);
+done:
+    free(weights);
+    return status;
+}
+
+/* Whether the text is three numbers. */
+static int read_colour(const char *text, float *colour)
+{
+    char end;
+    return sscanf(text, "%f,%f,%f%c", &colour[0], &colour[1], &colour[2], &end) == 3;
+}
+
+clshear_status cs_environment_read(const char *text, const cs_environment_view *view,
+                                   cs_environment *environment, cs_error *error)
+{
+    float colour[3], *texels = NULL;
+    size_t width = 0, height = 0;
+    if (read_colour(text, colour)) {
+        if (!cs_is_colour(colour))
+            return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                           "environment %.60s: must be three numbers, 0 to 1e15", text);
+        environment->image = (cs_array){.item_size = sizeof(cs_f32)};
+        describe(view, colour, &environment->light);
+        return CLSHEAR_OK;
+    }
+    clshear_status status = cs_image_read_colours(text, &texels, &width, &height, error);
+    if (status == CLSHEAR_OK)
+        status = cs_environment_make(texels, width, height, view, environment, error);
+    free(texels);
+    return status;
+}
+
+void cs_environment_free(cs_environment *environment)
+{
+    cs_array_free(&environment->image);
+}

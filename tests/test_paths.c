@@ -1,0 +1,195 @@
+/* Light by way of several surfaces, against closed forms. */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const uint32_t quad[6] = {0, 1, 2, 0, 2, 3};
+
+static int set_up(void **state)
+{
+    *state = test_context();
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    clshear_context_free(*state);
+    return 0;
+}
+
+/* The cube from -1 to 1, each face a mesh with the same albedo and emission. */
+static clshear_scene *closed_cube(clshear_context *context, float albedo, float emission)
+{
+    static float positions[6][12];
+    clshear_mesh meshes[6];
+    for (int f = 0; f < 6; f++) {
+        const int axis = f / 2, next = (axis + 1) % 3, last = (axis + 2) % 3;
+        for (int k = 0; k < 4; k++) {
+            positions[f][3 * k + axis] = f % 2 == 0 ? -1.0f : 1.0f;
+            positions[f][3 * k + next] = k == 0 || k == 3 ? -1.0f : 1.0f;
+            positions[f][3 * k + last] = k < 2 ? -1.0f : 1.0f;
+        }
+        meshes[f] = (clshear_mesh){.positions = positions[f],
+                                   .indices = quad,
+                                   .vertex_count = 4,
+                                   .triangle_count = 2,
+                                   .diffuse = {albedo, 0.5f * albedo, 0.0f},
+                                   .emission = {emission, emission, emission}};
+    }
+    return test_meshes(context, meshes, 6);
+}
+
+/* A view of a few pixels along -Z from `eye`. */
+static clshear_settings *settings_at(const char *eye, const char *target, double fov_deg, int spp,
+                                     int bounces)
+{
+    clshear_settings *settings = test_settings(NULL, 4, 4, (uint32_t)spp);
+    test_set(settings, CLSHEAR_EYE, "%s", eye);
+    test_set(settings, CLSHEAR_TARGET, "%s", target);
+    test_set(settings, CLSHEAR_UP, "0,0.1,1");
+    test_set_number(settings, CLSHEAR_FOV, fov_deg);
+    test_set_number(settings, CLSHEAR_LENS_RADIUS, 0.0);
+    test_set_number(settings, CLSHEAR_FOCAL_DISTANCE, 1.0);
+    test_set_number(settings, CLSHEAR_REPLICATES, 16);
+    test_set_number(settings, CLSHEAR_BOUNCES, bounces);
+    return settings;
+}
+
+typedef struct estimate {
+    double mean;
+    double error; /* standard error */
+} estimate;
+
+/* Mean of a channel over all pixels. */
+static estimate mean_of(const clshear_film *film, const char *channel)
+{
+    char name[32];
+    estimate found = {0.0, 0.0};
+    snprintf(name, sizeof name, "Variance.%s", channel);
+    const float *value = clshear_film_channel(film, channel);
+    const float *variance = clshear_film_channel(film, name);
+    const clshear_film_info info = test_film_info(film);
+    const int count = info.width * info.height;
+    for (int p = 0; p < count; p++) {
+        found.mean += (double)value[p] / count;
+        found.error += (double)variance[p];
+    }
+    found.error = sqrt(found.error) / count;
+    return found;
+}
+
+static estimate render(clshear_scene *scene, clshear_settings *settings, const char *channel)
+{
+    clshear_film *film = test_render(scene, settings);
+    const estimate found = mean_of(film, channel);
+    clshear_film_free(film);
+    clshear_settings_free(settings);
+    return found;
+}
+
+/* In a closed space whose walls emit E and reflect rho everywhere, every path finds the same: after
+ * n bounces E (1 + rho + ... + rho^(n+1)), and E / (1 - rho) in the end. Sixteen pixels with 16
+ * replicates each: 240 degrees of freedom, so 5 standard errors are a false alarm of 1e-6; 1e-4
+ * is allowed for light that rounding loses at the edges. From the third surface on there is
+ * roulette, which must not change the mean. */
+static void light_in_a_closed_cube(void **state)
+{
+    static const int bounces[] = {0, 1, 2, 5, 64};
+    clshear_scene *scene = closed_cube(*state, 0.8f, 0.5f);
+    for (size_t i = 0; i < sizeof bounces / sizeof *bounces; i++) {
+        const char *const channels[] = {"R", "G", "B"};
+        clshear_settings *settings = settings_at("0.1,0.2,0.3", "0,0.4,-1", 60.0, 1024, bounces[i]);
+        clshear_film *film = test_render(scene, settings);
+        for (int c = 0; c < 3; c++) {
+            const double rho = c == 0 ? 0.8 : c == 1 ? 0.4 : 0.0;
+            const double truth = 0.5 * (1.0 - pow(rho, bounces[i] + 2)) / (1.0 - rho);
+            const estimate found = mean_of(film, channels[c]);
+            print_message("%2d bounces, %s: %.5f of %.5f, error %.5f\n", bounces[i], channels[c],
+                          found.mean, truth, found.error);
+            assert_near(found.mean, truth, 5.0 * found.error + 1e-4 * truth);
+            assert_below(found.error, 0.03 * truth); /* else the test says little */
+        }
+        clshear_film_free(film);
+        clshear_settings_free(settings);
+    }
+    clshear_scene_free(scene);
+}
+
+/* A floor, and 2 above it a square panel of side 2 that shines and reflects nothing. */
+static clshear_scene *floor_and_panel(clshear_context *context)
+{
+    static const float floor_y[12] = {-50, 0, -50, 50, 0, -50, 50, 0, 50, -50, 0, 50};
+    static const float panel[12] = {-1, 2, -1, 1, 2, -1, 1, 2, 1, -1, 2, 1};
+    const clshear_mesh meshes[2] = {{.positions = floor_y,
+                                     .indices = quad,
+                                     .vertex_count = 4,
+                                     .triangle_count = 2,
+                                     .diffuse = {0.5f, 0.5f, 0.5f}},
+                                    {.positions = panel,
+                                     .indices = quad,
+                                     .vertex_count = 4,
+                                     .triangle_count = 2,
+                                     .emission = {3.0f, 3.0f, 3.0f}}};
+    return test_meshes(context, meshes, 2);
+}
+
+/* Both ways to find the panel, weighted, and its own samples alone have the mean that the form
+ * factor gives (Howell, catalogue C-11); nothing else can be found. 5 standard errors as above, and
+ * 1e-3 for the pixels' extent. */
+static void both_ways_to_find_a_light_agree(void **state)
+{
+    clshear_scene *scene = floor_and_panel(*state);
+    const double x = 0.5, root = sqrt(1.0 + x * x); /* half side over height, both ways */
+    const double truth = 0.5 * 3.0 * 4.0 / (2.0 * acos(-1.0)) * 2.0 * x / root * atan(x / root);
+    const estimate one = render(scene, settings_at("4,0.5,0", "0,0,0", 0.2, 1024, 0), "R");
+    const estimate both = render(scene, settings_at("4,0.5,0", "0,0,0", 0.2, 1024, 1), "R");
+    print_message("light alone %.5f, both %.5f of %.5f\n", one.mean, both.mean, truth);
+    assert_near(one.mean, truth, 5.0 * one.error + 1e-3 * truth);
+    assert_near(both.mean, truth, 5.0 * both.error + 1e-3 * truth);
+    assert_near(one.mean, both.mean, 5.0 * hypot(one.error, both.error));
+    clshear_scene_free(scene);
+}
+
+/* The limit holds for bounces only, and can only darken. */
+static void clamping_darkens(void **state)
+{
+    clshear_scene *scene = closed_cube(*state, 0.8f, 0.5f);
+    double before = 0.5;
+    for (int i = 0; i < 3; i++) {
+        clshear_settings *settings = settings_at("0.1,0.2,0.3", "0,0.4,-1", 60.0, 256, 8);
+        if (i < 2) test_set_number(settings, CLSHEAR_CLAMP, i == 0 ? 1e-3 : 0.1);
+        const estimate found = render(scene, settings, "R");
+        assert_above(found.mean, before);
+        before = found.mean;
+    }
+    clshear_scene_free(scene);
+}
+
+/* Threads, and so the cut into launches, do not change a bit; other samplers have the same mean. */
+static void samplers_agree(void **state)
+{
+    static const char *const names[] = {"random", "mj",    "oa",     "halton",
+                                        "sobol",  "rank1", "poisson"};
+    clshear_scene *scene = closed_cube(*state, 0.8f, 0.5f);
+    const double truth = 0.5 * (1.0 - pow(0.8, 7)) / 0.2;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        clshear_settings *settings = settings_at("0.1,0.2,0.3", "0,0.4,-1", 60.0, 1024, 5);
+        test_set(settings, CLSHEAR_SAMPLER, "%s", names[i]);
+        const estimate found = render(scene, settings, "R");
+        print_message("%-8s %.5f of %.5f, error %.5f\n", names[i], found.mean, truth, found.error);
+        assert_near(found.mean, truth, 5.0 * found.error + 1e-4 * truth);
+    }
+    clshear_scene_free(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(light_in_a_closed_cube),
+        cmocka_unit_test(both_ways_to_find_a_light_agree),
+        cmocka_unit_test(clamping_darkens),
+        cmocka_unit_test(samplers_agree),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
