@@ -72,9 +72,9 @@ static inline void cs_describe_bsdf(CS_GLOBAL const cs_material *material, cs_vi
 }
 #endif
 
-#if CS_HAS(TEXTURES) && CS_HAS(MATERIALS)
-/* A texture's four channels at (s, t), in the lanes that are `mine`. Textures count from 1; 0 is
- * white. */
+#if CS_HAS(TEXTURES)
+/* A texture's channels at (s, t), in the lanes that are `mine`; the fourth with the feature
+ * MATERIALS only. Textures count from 1; 0 is white. */
 static inline void cs_map_at(const cs_scene_buffers *scene, cs_u32 number, cs_vfloat s, cs_vfloat t,
                              cs_vint mine, cs_float_lanes *colour)
 {
@@ -137,6 +137,7 @@ static inline void cs_apply_textures(const cs_scene_buffers *scene,
     cs_map_at(scene, (cs_u32)(material->texture + 1), s, t, mine, map);
     for (int c = 0; c < 3; c++)
         surface->albedo[c] = mine ? surface->albedo[c] * map[c].all : surface->albedo[c];
+#if CS_HAS(MATERIALS)
     surface->alpha = mine ? surface->alpha * map[3].all : surface->alpha;
     cs_map_at(scene, material->emission_texture, s, t, mine, map);
     for (int c = 0; c < 3; c++)
@@ -150,26 +151,9 @@ static inline void cs_apply_textures(const cs_scene_buffers *scene,
     if (material->normal_texture == 0u) return;
     cs_map_at(scene, material->normal_texture, s, t, mine, map);
     cs_apply_normal_map(scene, triangle, face, map, material->normal_scale, mine, surface);
-}
-#elif CS_HAS(TEXTURES)
-/* What the material's texture says of the lanes in `mine`: their albedo is multiplied by it. */
-static inline void cs_apply_textures(const cs_scene_buffers *scene,
-                                     CS_GLOBAL const cs_material *material,
-                                     CS_GLOBAL const cs_triangle *triangle,
-                                     CS_GLOBAL const cs_face *face, cs_vfloat b1, cs_vfloat b2,
-                                     cs_vint mine, cs_surface *surface)
-{
-    cs_vfloat s, t;
-    cs_float_lanes colour[3];
-    cs_int_lanes wanted;
+#else
     (void)triangle;
-    cs_texture_place(scene, face, b1, b2, &s, &t);
-    wanted.all = mine;
-    for (int c = 0; c < 3; c++)
-        colour[c].all = (cs_vfloat)(0.0f);
-    cs_texels(scene, (cs_u32)material->texture, s, t, wanted, colour);
-    for (int c = 0; c < 3; c++)
-        surface->albedo[c] = mine ? surface->albedo[c] * colour[c].all : surface->albedo[c];
+#endif
 }
 #endif
 

@@ -81,6 +81,15 @@ static inline void *cs_handle(clshear_status *status, const void *made, size_t s
         return object->member;                                       \
     }
 
+/* Defines the public function that frees an object: what is in it, and the object. */
+#define CS_FREES(object)                                   \
+    void clshear_##object##_free(clshear_##object *object) \
+    {                                                      \
+        if (object == NULL) return;                        \
+        cs_##object##_free(object);                        \
+        free(object);                                      \
+    }
+
 /* Defines a public function that returns an element of an object's array. */
 #define CS_GETTER_AT(type, object, name, member)                                 \
     type clshear_##object##_##name(const clshear_##object *object, size_t index) \

@@ -56,11 +56,11 @@ clshear_status clshear_converge_integrand(const clshear_integrand *integrand, co
 {
     CS_NEEDS(integrand);
     CS_NEEDS(result);
-    clshear_convergence made = {0};
     const cs_study study = {counts, sizes, replicates};
-    return hand_over(cs_converge_integrand(integrand, sampler, seed, &study, reference, &made,
-                                           cs_thread_error()),
-                     &made, result);
+    clshear_convergence made = {0};
+    const clshear_status status = cs_converge_integrand(integrand, sampler, seed, &study, reference,
+                                                        &made, cs_thread_error());
+    return hand_over(status, &made, result);
 }
 
 clshear_status clshear_converge_pixel(clshear_scene *scene, const clshear_settings *settings, int x,
@@ -92,12 +92,7 @@ clshear_status clshear_converge_image(clshear_scene *scene, const clshear_settin
                   &made, result));
 }
 
-void clshear_convergence_free(clshear_convergence *result)
-{
-    if (result == NULL) return;
-    cs_convergence_free(result);
-    free(result);
-}
+CS_FREES(convergence)
 
 CS_GETTER(size_t, convergence, sizes)
 CS_GETTER(double, convergence, mean)

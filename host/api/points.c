@@ -34,12 +34,7 @@ clshear_status clshear_points_read(const char *path, clshear_points **points)
     return hand_over(cs_points_read(path, &made), &made, points);
 }
 
-void clshear_points_free(clshear_points *points)
-{
-    if (points == NULL) return;
-    cs_points_free(points);
-    free(points);
-}
+CS_FREES(points)
 
 CS_GETTER(const float *, points, values)
 CS_GETTER(size_t, points, sets)

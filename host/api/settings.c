@@ -33,12 +33,7 @@ clshear_status clshear_settings_copy(const clshear_settings *settings, clshear_s
     return status;
 }
 
-void clshear_settings_free(clshear_settings *settings)
-{
-    if (settings == NULL) return;
-    cs_settings_free(settings);
-    free(settings);
-}
+CS_FREES(settings)
 
 /* Finds the table's entry of a setting of either kind. Returns NULL and stores a message if the
  * setting is unknown or of a third kind. */

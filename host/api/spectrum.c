@@ -42,12 +42,7 @@ clshear_status clshear_spectrum_of_slice(const float *values, size_t width, size
     return of_values(cs_spectrum_of_slice, values, width, height, spectrum);
 }
 
-void clshear_spectrum_free(clshear_spectrum *spectrum)
-{
-    if (spectrum == NULL) return;
-    cs_spectrum_free(spectrum);
-    free(spectrum);
-}
+CS_FREES(spectrum)
 
 CS_GETTER(const float *, spectrum, power)
 CS_GETTER(size_t, spectrum, width)

@@ -59,7 +59,8 @@ static int find_in_any_case(const char *folder, const char *name, char *path)
         }
         name += length;
         if (*name == '/') {
-            strcat(path, "/");
+            entry[strlen(entry) + 1] = '\0';
+            entry[strlen(entry)] = '/';
             name++;
         }
     }
@@ -118,7 +119,7 @@ int cs_find_file(const char *name, const char *const *folders, size_t count, cha
     char decoded[CS_FILE_PATH], ignored[CS_FILE_PATH];
     if (find_as_written(name, folders, count, found)) return 1;
     if (strchr(name, '%') == NULL || strlen(name) >= sizeof decoded) return 0;
-    strcpy(decoded, name);
+    snprintf(decoded, sizeof decoded, "%s", name);
     cs_decode_percent(decoded);
     if (!find_as_written(decoded, folders, count, ignored)) return 0;
     memcpy(found, ignored, sizeof ignored);

@@ -204,11 +204,9 @@ done:
 
 clshear_status cs_read_gltf(cs_bytes *bytes, cs_model *model, cs_error *error)
 {
-    gltf_reader *reader = calloc(1, sizeof *reader);
+    gltf_reader *reader = malloc(sizeof *reader);
     if (reader == NULL) return cs_model_full(model, error);
-    reader->model = model;
-    reader->error = error;
-    reader->default_material = -1;
+    *reader = (gltf_reader){.model = model, .error = error, .default_material = -1};
     cs_folder_of(model->path, reader->folder, sizeof reader->folder);
     const clshear_status status = read_all(reader, bytes);
     for (size_t i = 0; i < reader->buffer_count && reader->buffers != NULL; i++)

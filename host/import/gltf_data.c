@@ -55,7 +55,7 @@ static clshear_status decode_data(const gltf_reader *reader, const char *place, 
     if (is_base64) {
         *size = decode_base64(comma + 1, *owned);
     } else {
-        strcpy(*owned, comma + 1);
+        memcpy(*owned, comma + 1, strlen(comma));
         cs_decode_percent(*owned);
         *size = strlen(*owned);
     }

@@ -39,7 +39,7 @@ static clshear_status add_positions(gltf_primitive *primitive, long long accesso
         status = gltf_complain(reader, primitive->place, -1, "its POSITION is no VEC3");
     else if (added == NULL)
         status = cs_model_full(reader->model, reader->error);
-    for (size_t i = 0; i < primitive->count && status == CLSHEAR_OK; i++)
+    for (size_t i = 0; status == CLSHEAR_OK && added != NULL && i < primitive->count; i++)
         for (int axis = 0; axis < 3; axis++)
             added[i][axis] = m[axis] * (double)values[3 * i] +
                              m[4 + axis] * (double)values[3 * i + 1] +
@@ -77,7 +77,7 @@ static clshear_status add_normals(gltf_primitive *primitive, long long accessor)
         status = wrong_count(primitive, "normals", count);
     else if (added == NULL)
         status = cs_model_full(reader->model, reader->error);
-    for (size_t i = 0; i < count && status == CLSHEAR_OK; i++) {
+    for (size_t i = 0; status == CLSHEAR_OK && added != NULL && i < count; i++) {
         double turned[3];
         for (int axis = 0; axis < 3; axis++)
             turned[axis] = rows[axis][0] * (double)values[3 * i] +

@@ -101,7 +101,10 @@ clshear_status cs_model_add_polygon(cs_model *model, const cs_corner *corners, s
     }
     cs_model_triangle *triangles = cs_model_extend(&model->triangles, count - 2);
     if (count > 4) cut = malloc(3 * (count - 2) * sizeof *cut);
-    if (triangles == NULL || cut == NULL) return cs_model_full(model, error);
+    if (triangles == NULL || cut == NULL) {
+        if (cut != few) free(cut);
+        return cs_model_full(model, error);
+    }
     cs_polygon_cut(positions, corners, count, &model->cutting, cut);
     for (size_t i = 0; i < count - 2; i++) {
         for (int k = 0; k < 3; k++)

@@ -126,9 +126,11 @@ static int smooth_groups(smoothing *work)
         if (!takes_part(work, i, 0)) continue;
         good = number_in_group(work, i, &number);
         if (good && number == sums.count) good = cs_array_extend(&sums, 1) != NULL;
-        double *sum = good ? ((double(*)[3])sums.items)[number] : NULL;
+        double(*all)[3] = sums.items;
+        good = good && all != NULL;
         for (int axis = 0; axis < 3 && good; axis++)
-            sum[axis] += (double)work->parts[i].weight * (double)work->parts[i].normal[axis];
+            all[number][axis] +=
+                (double)work->parts[i].weight * (double)work->parts[i].normal[axis];
     }
     float(*normals)[3] = good ? cs_model_extend(&work->model->normals, sums.count) : NULL;
     good = normals != NULL;

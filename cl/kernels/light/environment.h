@@ -78,9 +78,9 @@ static inline cs_light_sample cs_sample_light_environment(const cs_scene_buffers
                                                           const cs_surface *surface, cs_pair pair)
 {
     cs_light_sample sample;
+    sample.reach = INFINITY;
     for (int i = 0; i < 3; i++)
         sample.colour[i] = (cs_vfloat)(light->colour[i]);
-    sample.reach = INFINITY;
     if (light->count == 0u) {
         cs_vfloat tangent[3];
         cs_unit_disk(pair, &tangent[0], &tangent[1]);
