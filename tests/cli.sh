@@ -82,6 +82,8 @@ case $?$output in 1*"no OpenCL device found; install"*) ;; *) wrong "no driver: 
 # Full outputs and formats that are too small.
 output=$("$program" --list-samplers 2>&1 >/dev/full)
 case $?$output in 1*"standard output: cannot be written"*) ;; *) wrong "/dev/full: $output" ;; esac
+expect 1 "environment 1,2: neither R,G,B nor a file" -- "$cornell" --quiet --environment 1,2 --out refused.exr
+expect 1 "environment gone.hdr: neither" -- "$cornell" --quiet --environment gone.hdr --out refused.exr
 expect 1 "65500" -- "$cornell" --quiet --spp 1 --width 65536 --height 1 --out wide.jpg
 
 # Renders. Settings beside the scene are read and said; the command line wins.

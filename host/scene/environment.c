@@ -1,9 +1,11 @@
 #include "scene/environment.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "image/image_io.h"
 #include "scene/scene.h"
@@ -145,6 +147,10 @@ clshear_status cs_environment_read(const char *text, const cs_environment_view *
         describe(view, colour, &environment->light);
         return CLSHEAR_OK;
     }
+    if (access(text, R_OK) != 0)
+        return cs_fail(error, CLSHEAR_BAD_FILE,
+                       "environment %.200s: neither R,G,B nor a file that can be read: %s", text,
+                       strerror(errno));
     clshear_status status = cs_image_read_colours(text, &texels, &width, &height, error);
     if (status == CLSHEAR_OK)
         status = cs_environment_make(texels, width, height, view, environment, error);

@@ -14,8 +14,8 @@ enum {
     CS_SHEAR_EQUAL_AREA = 2 /* the first pair chooses the fibre, the second the place on it */
 };
 
-/* How a lens coordinate is distributed. Kernels know apertures by the kind of u's marginal alone:
- * it says what the chord at u is as well. */
+/* Distribution of a lens coordinate. Kernels tell apertures apart by the kind of u's marginal
+ * alone; it determines the length of the chord at u, too. */
 typedef enum cs_marginal_kind {
     CS_MARGINAL_UNIFORM = 0, /* on [-1/2, 1/2]; a square: all chords are alike */
     CS_MARGINAL_DISK = 1,    /* of the disk of area 1 */
@@ -26,8 +26,7 @@ typedef enum cs_marginal_kind {
 /* Shape of the aperture and the pixel filter. Make it by clshear_lens_optics.
  *
  * Lens coordinates (u, v) have their origin in the middle of the lens; u points right and v down.
- * One unit of them is cs_camera.aperture_width. They are those of the aperture before the squeeze.
- */
+ * Their unit is cs_camera.aperture_width. They describe the aperture before the squeeze. */
 typedef struct cs_optics {
     cs_u32 marginal;         /* cs_marginal_kind of u */
     cs_u32 has_closed_form;  /* 1 for a disk or a square with a box filter one pixel wide, else 0 */

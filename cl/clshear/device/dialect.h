@@ -38,8 +38,8 @@ typedef float cs_f32;
 #define CS_PACKET 1
 #endif
 
-/* For functions whose loops must know what the caller passes as a constant: compilers would leave
- * them as calls, which here cost twice the time. Everywhere else they choose well. */
+/* Marks a function as always inlined: its loops need the constant arguments of its caller. Left as
+ * calls, such functions take twice the time. */
 #define CS_INLINED static inline __attribute__((always_inline))
 
 /* Fails to compile unless `type` is `words` 4-byte words long. A struct made of 4-byte scalars has

@@ -114,7 +114,7 @@ CS_INLINED cs_vfloat cs_trapezoid_fibre(cs_vfloat mass, cs_vfloat side)
 
 /* A step towards a root. */
 typedef struct cs_root_step {
-    cs_vfloat back; /* what to subtract from t */
+    cs_vfloat back; /* the step: the next t is t - back */
     cs_vint rough;  /* mask of the lanes whose result is not good enough */
 } cs_root_step;
 

@@ -149,7 +149,7 @@ CS_INLINED cs_vfloat cs_disk_window_height(cs_disk_window window, cs_vfloat chor
 }
 
 /* The next functions find the u that has the share `mass`, at most 1/2, of the window's area on its
- * left. In the area's second derivative, only those of the window's two sides count that are arcs.
+ * left. A side of the window adds to the area's second derivative only where it is an arc.
  * Two steps leave an error of the share below 5e-6, but for one tuple in a thousand, mostly in
  * corners cut by the disk's edge, where it is below 2e-4. */
 

@@ -3,8 +3,7 @@
  * The fibre coordinate is t = X + blur * U, X distributed as the pixel filter, U as the marginal.
  * The filter is constant on steps [x_k, x_k+1] with density f_k, so with C the mass of the marginal
  * and H its integral P(T < t) = sum of f_k * blur * (H((t - x_k) / blur) - H((t - x_k+1) / blur)),
- * and what the steps have of the density at t are f_k * (C((t - x_k) / blur) - C((t - x_k+1) /
- * blur)). */
+ * and the density at t is the sum of f_k * (C((t - x_k) / blur) - C((t - x_k+1) / blur)). */
 #ifndef CLSHEAR_DEVICE_FIBRE_H
 #define CLSHEAR_DEVICE_FIBRE_H
 
@@ -120,8 +119,9 @@ CS_INLINED cs_vfloat cs_fibre_quantile_unimodal(const cs_fibre_axis *axis, cs_vf
     return t;
 }
 
-/* The same for any density: Newton's steps in brackets, until the mass is right by 1e-6 and what
- * the integrals lose in rounding, 1e-7 * blur / filter width. */
+/* Quantile of t for any density: the t at which P(T < t) is `mass`. Newton's steps in brackets end
+ * when the error of the mass is below 1e-6 + 1e-7 * blur / filter width; the second term is the
+ * rounding error of the integrals. */
 CS_INLINED cs_vfloat cs_fibre_quantile_any(const cs_fibre_axis *axis, cs_vfloat mass)
 {
     cs_fibre_guess guess = cs_fibre_guess_at(axis, mass);

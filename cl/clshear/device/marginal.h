@@ -189,7 +189,7 @@ CS_INLINED cs_marginal_row cs_marginal_texel_row(const cs_marginal *marginal, cs
     return row;
 }
 
-/* What a marginal is at a place u. */
+/* Density, mass and integral of a marginal at a place u. */
 typedef struct cs_marginal_value {
     cs_vfloat density;  /* density of U at u */
     cs_vfloat below;    /* P(U < u) */
