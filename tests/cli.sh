@@ -379,6 +379,14 @@ wait $child
 [ $? -eq 143 ] || wrong "early interrupt: exit code, $(cat h.txt)"
 [ ! -e never.exr ] || wrong "early interrupt: a picture"
 
+# What nohup starts goes on after a hangup.
+nohup "$program" "$cornell" --spp 4000 --width 64 --height 64 --quiet --out nohup.exr 2>h.txt &
+child=$!
+sleep 1
+kill -HUP $child
+wait $child
+[ $? -eq 0 ] || wrong "nohup: exit code, $(cat h.txt)"
+
 # A full disk: one line, exit 1, the old picture untouched and nothing left behind.
 echo old >kept.exr
 (

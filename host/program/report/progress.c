@@ -6,10 +6,17 @@
 #include <unistd.h>
 
 static volatile sig_atomic_t interrupted;
+static int hangup_ignored;
 
 static void note_interrupt(int signal_number)
 {
     interrupted = signal_number;
+}
+
+void progress_note_signals(void)
+{
+    struct sigaction given;
+    hangup_ignored = sigaction(SIGHUP, NULL, &given) == 0 && given.sa_handler == SIG_IGN;
 }
 
 static void catch_interrupts(void)
@@ -21,9 +28,8 @@ static void catch_interrupts(void)
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
-    struct sigaction before;
-    sigaction(SIGHUP, NULL, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, NULL); /* else nohup */
+    if (hangup_ignored) action.sa_handler = SIG_IGN;
+    sigaction(SIGHUP, &action, NULL);
 }
 
 int interrupting_signal(void)

@@ -11,6 +11,10 @@ typedef struct progress_line {
     int catches; /* whether signals are caught */
 } progress_line;
 
+/* Notes that hangups are to be ignored, as nohup asks. Call it first: compilers of OpenCL drivers
+ * install handlers of their own. */
+void progress_note_signals(void);
+
 /* The signal that asked the render to stop; 0: none. */
 int interrupting_signal(void);
 
