@@ -105,7 +105,7 @@ static int fill_vertex(const emission *work, const vertex_key *key)
     if (key->texture != CS_NO_INDEX) {
         const cs_material_description *material =
             (const cs_material_description *)model->materials.items + key->material;
-        const cs_map *map = &material->base_map;
+        const cs_map *map = cs_material_placing(material);
         const float *st = ((const float(*)[2])model->textures.items)[key->texture];
         const double s = (double)st[0], t = (double)st[1];
         vertex->texture[0] =
@@ -172,7 +172,7 @@ static clshear_status add_triangles(cs_model *model, cs_scene *scene, cs_error *
     int good = plain != NULL;
     cs_index_map_init(&work.vertices, sizeof(vertex_key));
     for (size_t i = 0; i < model->triangles.count && good; i++) {
-        const int textured = materials[triangles[i].material].texture != CS_NO_TEXTURE;
+        const int textured = cs_material_is_textured(&materials[triangles[i].material]);
         for (int k = 0; k < 3 && textured; k++)
             if (triangles[i].corner[k].texture == CS_NO_INDEX) {
                 plain[triangles[i].material]++;
