@@ -156,7 +156,7 @@ static void set_standard(const cs_material_description *d, cs_material *made)
 static void set_alpha(const cs_material_description *d, int covers, cs_material *made)
 {
     made->alpha = part(d->base_colour[3]);
-    made->cutoff = d->alpha_cutoff;
+    made->cutoff = d->alpha_cutoff > 0.0f ? fminf(d->alpha_cutoff, 2.0f) : 0.0f;
     if (covers &&
         (d->alpha_mode == CS_ALPHA_BLEND ? made->alpha == 1.0f : made->alpha >= made->cutoff))
         return; /* everywhere there */
@@ -164,12 +164,17 @@ static void set_alpha(const cs_material_description *d, int covers, cs_material 
     if (d->alpha_mode == CS_ALPHA_MASK) made->flags |= CS_MATERIAL_MASK;
 }
 
+static float limited_scale(float value)
+{
+    return fabsf(value) < 1e6f ? value : 1.0f; /* of NaN too */
+}
+
 cs_material cs_material_make(const cs_material_description *description,
                              const cs_material_textures *textures)
 {
     const cs_material_description *d = description;
     cs_material made = {.texture = textures->base,
-                        .normal_scale = d->normal_scale,
+                        .normal_scale = limited_scale(d->normal_scale),
                         .normal_texture = (cs_u32)(textures->normal + 1)};
     for (int c = 0; c < 3; c++) {
         made.diffuse[c] = d->base_colour[c];
