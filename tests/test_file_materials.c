@@ -1,4 +1,5 @@
 /* What files say of materials, from the lines of a file to the numbers on the device. */
+#include "material_files.h"
 #include "support.h"
 
 #include <math.h>
@@ -37,69 +38,14 @@ static cs_scene load(const char *path)
     return scene;
 }
 
-static void write_bytes(const char *name, const void *bytes, size_t size)
-{
-    FILE *stream = fopen(test_path(name), "wb");
-    assert_non_null(stream);
-    assert_int_equal(fwrite(bytes, 1, size, stream), size);
-    fclose(stream);
-}
-
-/* A TGA picture of 2 x 2 texels from the upper left: blue, green, red, alpha. */
-static void write_picture(const char *name, const unsigned char texels[16])
-{
-    unsigned char bytes[18 + 16] = {0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 2, 0, 32, 0x28};
-    memcpy(bytes + 18, texels, 16);
-    write_bytes(name, bytes, sizeof bytes);
-}
-
-static void write_even_picture(const char *name, int red, int green, int blue, int alpha)
-{
-    unsigned char texels[16];
-    for (size_t i = 0; i < 4; i++) {
-        const int texel[4] = {blue, green, red, alpha};
-        for (size_t c = 0; c < 4; c++)
-            texels[4 * i + c] = (unsigned char)texel[c];
-    }
-    write_picture(name, texels);
-}
-
-/* A square with a material whose lines (MTL) these are. */
 static cs_scene load_mtl(const char *lines)
 {
-    char text[1024];
-    snprintf(text, sizeof text, "newmtl m\n%s\n", lines);
-    test_file("surface.mtl", text);
-    return load(test_file("surface.obj", "mtllib surface.mtl\nusemtl m\n"
-                                         "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
-                                         "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n"));
+    return load(material_mtl(lines));
 }
 
-/* A square with a material in glTF, with ' for ". Textures 0 and 1 are grey.tga and tone.tga. */
 static cs_scene load_gltf(const char *material)
 {
-    static const float data[20] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, 0, 1, 1, 1, 1, 0, 0, 0};
-    static const unsigned char indices[6] = {0, 1, 2, 0, 2, 3};
-    unsigned char bytes[sizeof data + sizeof indices];
-    char text[4096];
-    memcpy(bytes, data, sizeof data);
-    memcpy(bytes + sizeof data, indices, sizeof indices);
-    write_bytes("surface.bin", bytes, sizeof bytes);
-    snprintf(text, sizeof text,
-             "{'asset':{'version':'2.0'},'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}],"
-             "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':1},'indices':2,"
-             "'material':0}]}],'materials':[%s],"
-             "'buffers':[{'uri':'surface.bin','byteLength':86}],"
-             "'bufferViews':[{'buffer':0,'byteLength':86}],'accessors':["
-             "{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3'},"
-             "{'bufferView':0,'byteOffset':48,'componentType':5126,'count':4,'type':'VEC2'},"
-             "{'bufferView':0,'byteOffset':80,'componentType':5121,'count':6,'type':'SCALAR'}],"
-             "'textures':[{'source':0},{'source':1}],"
-             "'images':[{'uri':'grey.tga'},{'uri':'tone.tga'}]}",
-             material);
-    for (char *at = text; *at != '\0'; at++)
-        if (*at == '\'') *at = '"';
-    return load(test_file("surface.gltf", text));
+    return load(material_gltf(material));
 }
 
 static const cs_material *first_of(const cs_scene *scene)
@@ -288,8 +234,8 @@ static cs_u32 base_of(const cs_scene *scene)
 static void maps_of_gltf(void **state)
 {
     (void)state;
-    write_even_picture("grey.tga", 128, 255, 0, 51);
-    write_even_picture("tone.tga", 128, 128, 255, 255);
+    material_even_picture("grey.tga", 128, 255, 0, 51);
+    material_even_picture("tone.tga", 128, 128, 255, 255);
     cs_scene scene =
         load_gltf("{'alphaMode':'BLEND','emissiveFactor':[2,2,2],'emissiveTexture':{'index':1},"
                   "'normalTexture':{'index':1,'scale':0.5},'occlusionTexture':{'index':0},"
@@ -322,10 +268,10 @@ static void maps_of_mtl(void **state)
     static const unsigned char ramp[16] = {0,   0,   0,   255, 255, 255, 255, 255,
                                            255, 255, 255, 255, 0,   0,   0,   255};
     (void)state;
-    write_even_picture("grey.tga", 128, 128, 128, 255);
-    write_even_picture("tone.tga", 255, 255, 255, 51);
-    write_even_picture("bent.tga", 100, 140, 240, 255);
-    write_picture("ramp.tga", ramp);
+    material_even_picture("grey.tga", 128, 128, 128, 255);
+    material_even_picture("tone.tga", 255, 255, 255, 51);
+    material_even_picture("bent.tga", 100, 140, 240, 255);
+    material_picture("ramp.tga", ramp);
     cs_scene scene = load_mtl("map_Kd grey.tga\nmap_d tone.tga");
     expect_texel(&scene, base_of(&scene), 0.2158, 0.2158, 0.2158, 0.2); /* has alpha */
     assert_int_equal(first_of(&scene)->flags, CS_MATERIAL_BLEND);
@@ -399,7 +345,7 @@ static void unsound_materials_are_found(void **state)
         {PARAMETER(SHEEN_ROUGHNESS), 2.0f, 0},
     };
     (void)state;
-    write_even_picture("grey.tga", 128, 128, 128, 255);
+    material_even_picture("grey.tga", 128, 128, 128, 255);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         cs_scene scene = load_mtl("map_Kd grey.tga\nPr 0.5\nnorm grey.tga");
         char *material = scene.materials.items;

@@ -45,7 +45,7 @@ static int are_normals(const float *rgba, size_t count)
  * wide. */
 static int take_heights(float *rgba, size_t width, size_t height)
 {
-    float *heights = malloc(width * height * sizeof *heights);
+    float *heights = calloc(width * height + 1, sizeof *heights);
     if (heights == NULL) return 0;
     for (size_t i = 0; i < width * height; i++)
         heights[i] = grey_of(rgba + 4 * i);

@@ -48,13 +48,13 @@ static int read_numbers(char **at, double *numbers, int most)
 
 typedef struct value_line {
     const char *key;
-    int is_raw;    /* a member of mtl_values, otherwise of the description */
     size_t offset; /* of the member, floats */
+    int is_raw;    /* a member of mtl_values, otherwise of the description */
     int count;
 } value_line;
 
-#define MEMBER(name) 0, offsetof(cs_material_description, name)
-#define RAW(name) 1, offsetof(mtl_values, name)
+#define MEMBER(name) offsetof(cs_material_description, name), 0
+#define RAW(name) offsetof(mtl_values, name), 1
 
 static const value_line value_lines[] = {
     {"Kd", MEMBER(base_colour), 3},

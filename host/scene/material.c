@@ -94,10 +94,11 @@ const cs_map *cs_material_placing(const cs_material_description *description)
 static int is_apart(const cs_material_description *d, const cs_map *map)
 {
     const cs_map *placing = cs_material_placing(d);
-    return map->image != CS_NO_IMAGE &&
-           (map->set != placing->set ||
-            memcmp(map->across, placing->across, sizeof map->across) != 0 ||
-            memcmp(map->up, placing->up, sizeof map->up) != 0);
+    if (map->image == CS_NO_IMAGE) return 0;
+    int differs = map->set != placing->set;
+    for (int i = 0; i < 3; i++)
+        differs |= map->across[i] != placing->across[i] || map->up[i] != placing->up[i];
+    return differs;
 }
 
 void cs_material_unsupported(const cs_material_description *d, char *text, size_t size)
