@@ -10,11 +10,12 @@ static const double key_radiance = 0.6;
 static const double key_diameter_deg = 10.0;
 static const double pi = 3.14159265358979;
 
+/* Textured emission is a screen or a label rather than what lights a scene. */
 static int has_light(const clshear_scene *scene, const clshear_settings *settings)
 {
     return scene->scene.lights.count > 0 || scene->device_scene.emitters > 0 ||
-           scene->device_scene.needs.textured_emission || cs_is_set(settings, LIGHT) ||
-           cs_is_set(settings, SUN) || cs_is_set(settings, ENVIRONMENT);
+           cs_is_set(settings, LIGHT) || cs_is_set(settings, SUN) ||
+           cs_is_set(settings, ENVIRONMENT);
 }
 
 static void normalise(double *vector)
