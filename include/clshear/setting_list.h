@@ -139,7 +139,7 @@
       RECIPE, "DEG", "turn it about +Y, from above against the clock") \
     X(ENVIRONMENT_STRENGTH, 64, "environment-strength", "", NUMBER, 1, 1, "1", 0, 1e12, none, \
       RECIPE, "S", "its radiance is multiplied by this") \
-    X(BOUNCES, 66, "bounces", "", INTEGER, 1, 1, "0", 0, 64, none, RECIPE, "N", \
+    X(BOUNCES, 66, "bounces", "", INTEGER, 1, 1, "4", 0, 64, none, RECIPE, "N", \
       "surfaces that light meets on its way; 0: direct light") \
     X(CLAMP, 67, "clamp", "", NUMBER, 1, 1, "0", 0, 1e15, none, RECIPE, "L", \
       "most that a bounce adds to a sample (biased); 0: off") \
