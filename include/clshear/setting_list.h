@@ -134,7 +134,7 @@
     X(QUAD, 68, "quad", "", NUMBER, 12, 64, "", -1e15, 1e15, none, PRIVATE, \
       "C,C,C,U,U,U,V,V,V,R,G,B", "add a panel: corner, two edges; shines along U x V") \
     X(ENVIRONMENT, 62, "environment", "", TEXT, 1, 1, "", 0, 0, none, RECIPE, "FILE", \
-      "lat-long image around the scene, or R,G,B") \
+      "lat-long image, R,G,B or gradient:ZENITH,HORIZON") \
     X(ENVIRONMENT_ROTATION, 63, "environment-rotation", "", NUMBER, 1, 1, "0", -1e6, 1e6, none, \
       RECIPE, "DEG", "turn it about +Y, from above against the clock") \
     X(ENVIRONMENT_STRENGTH, 64, "environment-strength", "", NUMBER, 1, 1, "1", 0, 1e12, none, \
