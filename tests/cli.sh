@@ -382,6 +382,23 @@ for signal in INT:130 TERM:143 HUP:129; do
     oiiotool --info h.exr | grep -q "64 x   64, 13 channel" || wrong "$signal: bad file"
 done
 
+# Before the first samples there is nothing to keep: the signal ends the program at once.
+"$program" "$cornell" --spp 1 --width 6000 --height 6000 --out never.exr 2>h.txt &
+child=$!
+sleep 1.5
+kill -TERM $child
+wait $child
+[ $? -eq 143 ] || wrong "early interrupt: exit code, $(cat h.txt)"
+[ ! -e never.exr ] || wrong "early interrupt: a picture"
+
+# What nohup starts goes on after a hangup.
+nohup "$program" "$cornell" --spp 4000 --width 64 --height 64 --quiet --out nohup.exr 2>h.txt &
+child=$!
+sleep 1
+kill -HUP $child
+wait $child
+[ $? -eq 0 ] || wrong "nohup: exit code, $(cat h.txt)"
+
 # A full disk: one line, exit 1, the old picture untouched and nothing left behind.
 echo old >kept.exr
 (

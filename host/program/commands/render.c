@@ -89,7 +89,6 @@ static clshear_status make_film(const render_job *job, clshear_scene *scene, cls
     if (status != CLSHEAR_OK) return status;
     progress_line progress = progress_start(job->options.quiet);
     clshear_settings_set_progress(job->options.settings, progress_report, &progress);
-    catch_interrupts();
     status = base != NULL ? clshear_render_extend(scene, job->options.settings, base, film)
                           : clshear_render(scene, job->options.settings, film);
     progress_end(&progress);
