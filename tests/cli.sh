@@ -279,6 +279,18 @@ for scene in bare.obj floor.obj; do
     expect 0 "no light given" -- $scene $small --out k.exr
     oiiotool --stats k.exr | awk '/Stats Avg/ { exit !($3 > 0.01) }' || wrong "$scene is dark"
 done
+# Pictures that cannot be meant are remarked on; others are not.
+remarks="black|brighter|everything is in focus"
+# shellcheck disable=SC2086
+{
+    expect 0 "black: the camera does not see" -- bare.obj $small --eye 0,0,1e5 --target 0,0,2e5 \
+        --light 0,0,9,1,1,1 --out k.exr
+    expect 0 "black: no light reaches" -- bare.obj $small --light 1e6,1e6,1e6,0,0,0 --out k.exr
+    expect 0 "is brighter than 1" -- bare.obj $small --environment 99,99,99 --out k.exr
+    expect 0 "everything is in focus" -- bare.obj $small --lens-radius 1e-6 --out k.exr
+    expect 0 "" -- bare.obj $small --out k.exr
+    if echo "$output" | grep -qE "$remarks"; then wrong "a remark on a good picture: $output"; fi
+}
 mkdir -p folder.exr
 expect 1 "folder.exr: is a folder" -- bare.obj --out folder.exr
 

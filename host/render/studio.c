@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/vec.h"
+#include "render/lighting.h"
 
 /* A white surface that faces the sun shows 1: 0.4 by the environment, 0.6 by the sun. */
 static const char *const environment = "0.4,0.4,0.4";
@@ -14,8 +15,11 @@ static const double pi = 3.14159265358979;
 static int has_light(const clshear_scene *scene, const clshear_settings *settings)
 {
     return scene->scene.lights.count > 0 || scene->device_scene.emitters > 0 ||
-           cs_is_set(settings, LIGHT) || cs_is_set(settings, SUN) ||
-           cs_is_set(settings, ENVIRONMENT);
+           scene->device_scene.needs.textured_emission ||
+           cs_is_set(settings, ENVIRONMENT)
+#define OR_SET(identifier, suffix) || cs_is_set(settings, identifier)
+               CS_LIGHT_SETTING_LIST(OR_SET);
+#undef OR_SET
 }
 
 static void normalise(double *vector)
