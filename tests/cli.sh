@@ -163,6 +163,11 @@ expect 2 "--block 16: must be" -- predict "$cornell" --pixel 3,4 --block 16
 expect 2 "--integrand blob: must be one of step box" -- predict --integrand blob
 expect 0 "target,sampler,shear,n,replicates,variance,slope" -- converge --integrand box --sampler mj --nreps 20
 [ "$(echo "$output" | grep -c '^box,mj,none,')" -eq 4 ] || wrong "converge: $output"
+expect 0 "mean,local_slope,local_slope_low,local_slope_high" -- converge --integrand disk --sampler mj --nreps 20 \
+    --nsamps 16,64,256 --local-slopes
+# Least squares through three points at equal distances is the mean of the slopes between them.
+echo "$output" | awk -F, 'NR == 2 { slope = $7 } NR > 1 && NR < 4 { mean += $11 / 2 } END { exit !(NR == 4 && $11 == "" &&
+    slope - mean < 2e-4 && mean - slope < 2e-4) }' || wrong "local slopes: $output"
 expect 0 "" -- converge "$cornell" --quiet --pixels '302,130;3,4' --sampler mj --nreps 8 --nsamps 4,16 \
     --out c.json --plot c.png --reference 0.3
 python3 -c 'import json; s = json.load(open("c.json"))["series"]; assert len(s) == 4 and len(s[0]["mse"]) == 2' ||
