@@ -15,7 +15,6 @@ static const double pi = 3.14159265358979;
 static int has_light(const clshear_scene *scene, const clshear_settings *settings)
 {
     return scene->scene.lights.count > 0 || scene->device_scene.emitters > 0 ||
-           scene->device_scene.needs.textured_emission ||
            cs_is_set(settings, ENVIRONMENT)
 #define OR_SET(identifier, suffix) || cs_is_set(settings, identifier)
                CS_LIGHT_SETTING_LIST(OR_SET);
