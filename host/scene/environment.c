@@ -180,7 +180,7 @@ clshear_status cs_environment_read(const char *text, const cs_environment_view *
     }
     if (access(text, R_OK) != 0)
         return cs_fail(error, CLSHEAR_BAD_FILE,
-                       "environment %.200s: neither R,G,B nor gradient: and two of them nor a file "
+                       "environment %.200s: neither R,G,B nor a file "
                        "that can be read: %s",
                        text, strerror(errno));
     clshear_status status = cs_image_read_colours(text, &texels, &width, &height, error);
