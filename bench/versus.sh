@@ -12,30 +12,32 @@ git -C "$root" worktree add --quiet --detach "$scratch/before" "$1"
 "$root/scripts/build"
 "$scratch/before/scripts/build"
 
-# kernel_s PROGRAM FLAGS...: seconds on the device
+# kernel_s TREE FLAGS...: seconds on the device for the tree's own Cornell box, whose settings each
+# tree's program knows
 kernel_s() {
-    "$@" --quiet --stats --out "$scratch/frame.exr" | awk '$1 == "kernels" { print $2 }'
+    local tree=$1
+    shift
+    "$tree/build/clshear" "$tree/scenes/cornell.obj" "$@" --quiet --stats --out "$scratch/frame.exr" | awk '$1 == "kernels" { print $2 }'
 }
 
 compare() {
     local title=$1 before now
     shift
-    kernel_s "$scratch/before/build/clshear" "$@" >/dev/null # compiles
-    kernel_s "$root/build/clshear" "$@" >/dev/null
+    kernel_s "$scratch/before" "$@" >/dev/null # compiles
+    kernel_s "$root" "$@" >/dev/null
     for _ in $(seq "$rounds"); do
-        before=$(kernel_s "$scratch/before/build/clshear" "$@")
-        now=$(kernel_s "$root/build/clshear" "$@")
+        before=$(kernel_s "$scratch/before" "$@")
+        now=$(kernel_s "$root" "$@")
         echo "$before $now"
     done | awk -v title="$title" '{ print $1 / $2, title }' | sort -g |
         awk '{ ratio[NR] = $1; $1 = ""; title = $0 } END {
             printf "|%s | %.3f | %.3f ... %.3f |\n", title, ratio[int((NR + 1) / 2)], ratio[1], ratio[NR] }'
 }
 
-cornell=$root/scenes/cornell.obj
 echo "| frame | before / now | range |"
 echo "|---|---|---|"
-compare "square" "$cornell" --width 256 --height 256 --spp 256
-compare "disk" "$cornell" --width 256 --height 256 --spp 256 --aperture disk
-compare "disk, 16 samples" "$cornell" --width 512 --height 512 --spp 16 --aperture disk
-compare "hexagon, gaussian" "$cornell" --width 128 --height 128 --spp 256 --blades 6 --filter gaussian
-compare "one lane" "$cornell" --width 128 --height 128 --spp 64 --packet 1
+compare "square" --width 256 --height 256 --spp 256
+compare "disk" --width 256 --height 256 --spp 256 --aperture disk
+compare "disk, 16 samples" --width 512 --height 512 --spp 16 --aperture disk
+compare "hexagon, gaussian" --width 128 --height 128 --spp 256 --blades 6 --filter gaussian
+compare "one lane" --width 128 --height 128 --spp 64 --packet 1

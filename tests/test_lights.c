@@ -29,7 +29,7 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* Straight down on (x, 0, 0) from a height of 1. */
+/* Straight down on (x, 0, 0) from a height of 1, with direct light. */
 static clshear_settings *looking_down_at(double x, int spp)
 {
     clshear_settings *settings = test_settings(NULL, 4, 4, (uint32_t)spp);
@@ -40,6 +40,7 @@ static clshear_settings *looking_down_at(double x, int spp)
     test_set_number(settings, CLSHEAR_LENS_RADIUS, 0.0);
     test_set_number(settings, CLSHEAR_FOCAL_DISTANCE, 1.0);
     test_set_number(settings, CLSHEAR_REPLICATES, 16);
+    test_set_number(settings, CLSHEAR_BOUNCES, 0.0);
     return settings;
 }
 

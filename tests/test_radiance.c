@@ -92,6 +92,7 @@ static clshear_settings *settings_of(const cs_view *view, int size)
     set_vector(settings, CLSHEAR_TARGET, view->target);
     set_vector(settings, CLSHEAR_UP, view->up);
     test_set_number(settings, CLSHEAR_FOV, (double)view->fov_deg);
+    test_set_number(settings, CLSHEAR_BOUNCES, 0.0);
     test_set_number(settings, CLSHEAR_LENS_RADIUS, (double)view->lens_radius);
     test_set_number(settings, CLSHEAR_FOCAL_DISTANCE, (double)view->focal_distance);
     test_set_number(settings, CLSHEAR_APERTURE, view->aperture);
