@@ -163,6 +163,17 @@ expect 2 "--block 16: must be" -- predict "$cornell" --pixel 3,4 --block 16
 expect 2 "--integrand blob: must be one of step box" -- predict --integrand blob
 expect 0 "target,sampler,shear,n,replicates,variance,slope" -- converge --integrand box --sampler mj --nreps 20
 [ "$(echo "$output" | grep -c '^box,mj,none,')" -eq 4 ] || wrong "converge: $output"
+# The variance of a wall is least at its own shear: none and the opposite one are worse.
+for shear in own 0 13; do
+    forced="--shear-px $shear"
+    [ $shear = own ] && forced=
+    expect 0 "pixel 302:130" -- converge "$cornell" --quiet --pixels 302,130 --sampler mj --shear equal-area \
+        --oracle centre --nsamps 256,1024 --nreps 200 $forced
+    variance=$(echo "$output" | awk -F, '$4 == 1024 { print $6 }')
+    [ $shear = own ] && least=$variance && continue
+    # Seventeen times at 0, more at 13; 200 replicates give a ratio a relative error of 14 %, or twice that with heavy tails.
+    awk -v a="$variance" -v b="$least" 'BEGIN { exit !(a > 3 * b) }' || wrong "--shear-px $shear: $variance, own $least"
+done
 expect 0 "mean,local_slope,local_slope_low,local_slope_high" -- converge --integrand disk --sampler mj --nreps 20 \
     --nsamps 16,64,256 --local-slopes
 # Least squares through three points at equal distances is the mean of the slopes between them.

@@ -61,12 +61,17 @@ static clshear_status choose_shears(cs_job *job, cs_error *error)
 {
     const float *extended = job->base != NULL ? cs_film_channel(job->base, "Shear") : NULL;
     const float *rules = job->base != NULL ? cs_film_channel(job->base, "Oracle") : NULL;
-    const int pilot = job->oracle == CLSHEAR_ORACLE_PILOT;
+    const int is_given = cs_is_set(&job->settings, SHEAR_PX);
+    const int pilot = job->oracle == CLSHEAR_ORACLE_PILOT && !is_given;
     const cs_rule rule = cs_rule_of(job->oracle);
     for (size_t i = 0; i < job->pixel_count; i++) {
         job->rule[i] = rules != NULL ? (uint8_t)rules[i] : (uint8_t)rule;
-        job->shear_px[i] =
-            extended != NULL ? extended[i] : cs_oracle_shear(&job->camera, &job->depth[i], rule);
+        if (extended != NULL)
+            job->shear_px[i] = extended[i];
+        else if (is_given)
+            job->shear_px[i] = (cs_f32)cs_number(&job->settings, SHEAR_PX);
+        else
+            job->shear_px[i] = cs_oracle_shear(&job->camera, &job->depth[i], rule);
     }
     if (!pilot || extended != NULL || job->spp < least_spp_for_pilot ||
         job->shear_kind != CLSHEAR_SHEAR_EQUAL_AREA)

@@ -163,7 +163,9 @@ clshear_status cs_pixel_shear(clshear_scene *scene, const clshear_settings *sett
                "pixel %d,%d is outside the %d x %d image", x, y, job.width, job.height);
     CS_TRY(cs_accel_depth(scene->accel, &job.camera, job.optics.table.items, window,
                           (int)cs_integer(&job.settings, LENS_RAYS), &depth, error));
-    *shear_px = cs_oracle_shear(&job.camera, &depth, cs_rule_of(job.oracle));
+    *shear_px = cs_is_set(&job.settings, SHEAR_PX)
+                    ? (float)cs_number(&job.settings, SHEAR_PX)
+                    : cs_oracle_shear(&job.camera, &depth, cs_rule_of(job.oracle));
 done:
     cs_job_free(&job);
     return status;

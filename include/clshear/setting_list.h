@@ -73,6 +73,8 @@
       "equal-area, toroidal or none") \
     X(ORACLE, 6, "oracle", "", CHOICE, 1, 1, "pilot", 0, 0, oracle, RECIPE, "RULE", \
       "pilot, centre, median, near or far") \
+    X(SHEAR_PX, 12, "shear-px", "", NUMBER, 1, 1, "", -1e6, 1e6, none, RECIPE, "S", \
+      "shear by S pixels everywhere, not by the oracle") \
     X(LENS_RAYS, 7, "lens-rays", "", INTEGER, 1, 1, "16", 0, 256, none, RECIPE, "N", \
       "rays for the depths of a pixel") \
     X(ADAPTIVE, 8, "adaptive", "", SWITCH, 1, 1, "0", 0, 1, none, RECORD, "", \
