@@ -112,8 +112,8 @@ static inline void cs_draw_facet(const cs_vfloat *normal, const cs_vfloat *out, 
     const cs_vfloat two[3] = {(cs_vfloat)(0.0f), (cs_vfloat)(1.0f), (cs_vfloat)(0.0f)};
     cs_from_local(normal, one, tangent);
     cs_from_local(normal, two, other);
-    cs_vfloat local[3] = {cs_inner(out, tangent), cs_inner(out, other), cosine};
-    cs_visible_facet(local, width, pair, facet);
+    cs_vfloat seen_out[3] = {cs_inner(out, tangent), cs_inner(out, other), cosine};
+    cs_visible_facet(seen_out, width, pair, facet);
     cs_from_local(normal, facet, half_way);
 }
 
