@@ -247,6 +247,41 @@ static void maps_say_what_they_should(void **state)
     clshear_scene_free(scene);
 }
 
+/* A slab of smooth glass, 2 thick, under and over a sky of radiance 1. White glass shows 1. Where
+ * half of the light is left after 2, the sum over all ways within is R + T^2 a / (1 - R a), with
+ * R = 0.04 head-on, T = 1 - R and a = 0.5. 1e-3 is for the width of the facets. */
+static void slab_of_glass(void **state)
+{
+    static const uint32_t facing_up[6] = {0, 2, 1, 0, 3, 2};
+    for (int absorbs = 0; absorbs < 2; absorbs++) {
+        clshear_scene *scene = NULL;
+        clshear_mesh mesh = {.struct_size = sizeof mesh,
+                             .positions = floor_y,
+                             .indices = quad,
+                             .vertex_count = 4,
+                             .triangle_count = 2};
+        clshear_material material = material_of(0.0f, 0.0f);
+        material.transmission = 1.0f;
+        material.solid = 1;
+        material.attenuation_distance = absorbs ? 2.0f : 0.0f;
+        material.attenuation_colour[0] = 0.5f;
+        test_ok(clshear_scene_create(*state, &scene));
+        test_ok(clshear_scene_add_material(scene, &material, &mesh.material));
+        test_ok(clshear_scene_add_mesh(scene, &mesh));
+        mesh.positions = roof_y;
+        mesh.indices = facing_up;
+        test_ok(clshear_scene_add_mesh(scene, &mesh));
+        test_ok(clshear_scene_complete(scene));
+        clshear_settings *settings = looking_at_floor(4.0, 0.01, 12);
+        test_set(settings, CLSHEAR_ENVIRONMENT, "1,1,1");
+        const double truth = absorbs ? 0.04 + 0.96 * 0.96 * 0.5 / (1.0 - 0.04 * 0.5) : 1.0;
+        const estimate found = render(scene, settings);
+        print_message("slab: %.4f of %.4f, error %.4f\n", found.mean, truth, found.error);
+        assert_near(found.mean, truth, 1e-3 + 5.0 * found.error);
+        clshear_scene_free(scene);
+    }
+}
+
 static void wrong_materials_are_refused(void **state)
 {
     clshear_scene *scene = NULL;
@@ -277,6 +312,7 @@ int main(void)
         cmocka_unit_test(alpha_shows_what_is_behind),
         cmocka_unit_test(no_reflection_is_lambert),
         cmocka_unit_test(maps_say_what_they_should),
+        cmocka_unit_test(slab_of_glass),
         cmocka_unit_test(wrong_materials_are_refused),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -200,6 +200,7 @@ static inline void cs_describe_triangle(const cs_scene_buffers *scene, const cs_
     }
 #if CS_HAS(MATERIALS)
     cs_describe_bsdf(material, mine, surface);
+    surface->inside = mine ? (cs_vint)(along > 0.0f) : surface->inside;
 #endif
     if (triangle->flags == 0u) {
 #if CS_HAS(MATERIALS)
@@ -253,6 +254,7 @@ static inline cs_surface cs_describe_hits(const cs_scene_buffers *scene, const c
     for (int i = 0; i < CS_MATERIAL_PARAMETERS; i++)
         surface.parameters[i] = (cs_vfloat)(0.0f);
     surface.alpha = (cs_vfloat)(1.0f);
+    surface.inside = (cs_vint)(0);
     surface.shines_to = (cs_vint)(CS_SHINES_SAMPLED);
     surface.albedos = scene->albedos;
 #endif

@@ -21,12 +21,15 @@ typedef struct cs_path {
     cs_vfloat throughput[3]; /* radiance at the lens for one at the end of the ray */
     cs_vfloat density;       /* with which the BSDF drew the ray; of camera rays it is not used */
     cs_vfloat cosine;        /* of the ray at the surface that it left; negative behind it */
-    cs_u32 depth;            /* surfaces behind the path */
-    cs_f32 clamp;            /* as in cs_launch */
-    cs_u32 see_through;      /* as in cs_launch */
-    cs_u32 lights;           /* as in cs_launch */
-    cs_u32 shadows;          /* rays to lights so far */
-    cs_radiance radiance;    /* found so far */
+#if CS_HAS(MATERIALS)
+    cs_vfloat squeezed; /* by which solids, that the path is in, lower the throughput */
+#endif
+    cs_u32 depth;         /* surfaces behind the path */
+    cs_f32 clamp;         /* as in cs_launch */
+    cs_u32 see_through;   /* as in cs_launch */
+    cs_u32 lights;        /* as in cs_launch */
+    cs_u32 shadows;       /* rays to lights so far */
+    cs_radiance radiance; /* found so far */
 } cs_path;
 
 /* Weight of a sample with density `own` where another way would have drawn it with `other`. The
@@ -97,7 +100,7 @@ static inline void cs_path_add_escaped(const cs_scene_buffers *scene, const cs_h
 static inline cs_vint cs_lets_through(const cs_surface *surface)
 {
 #if CS_HAS(MATERIALS)
-    return (surface->bsdf == (cs_vint)(CS_BSDF_STANDARD)) &
+    return (surface->bsdf != (cs_vint)(CS_BSDF_LAMBERT)) &
            (surface->parameters[CS_PARAMETER_TRANSMISSION] > 0.0f);
 #else
     (void)surface;
@@ -268,11 +271,39 @@ static inline void cs_path_add_light(const cs_scene_buffers *scene, const cs_sur
 static inline void cs_path_roulette(cs_vfloat chance, cs_path *path)
 {
     cs_vfloat most = cs_max(path->throughput[0], cs_max(path->throughput[1], path->throughput[2]));
+#if CS_HAS(MATERIALS)
+    most *= path->squeezed;
+#endif
     cs_vfloat stays = cs_clamp(most, (cs_vfloat)(0.0f), (cs_vfloat)(1.0f));
     path->alive = path->alive & (chance < stays);
     for (int c = 0; c < 3; c++)
         path->throughput[c] /= cs_max(stays, (cs_vfloat)(1e-20f));
 }
+
+#if CS_HAS(MATERIALS)
+/* Takes off what the inside of a solid absorbed on the way to its surface (Beer). */
+static inline void cs_path_absorb(const cs_surface *surface, cs_vfloat distance, cs_path *path)
+{
+    cs_vint within = surface->hit & surface->inside & (surface->bsdf == (cs_vint)(CS_BSDF_GLASS));
+    if (!cs_any(within)) return;
+    cs_vfloat way = distance * sqrt(cs_dot(path->ray.direction, path->ray.direction));
+    for (int c = 0; c < 3; c++) {
+        cs_vfloat left = exp(-way * surface->parameters[CS_PARAMETER_ABSORPTION + c]);
+        path->throughput[c] *= within ? left : (cs_vfloat)(1.0f);
+    }
+}
+
+/* Radiance changes with the square of the index of refraction; roulette has to look at the light
+ * that arrives in the end. */
+static inline void cs_path_cross(const cs_surface *surface, const cs_vfloat *in, cs_path *path)
+{
+    cs_vint crosses = surface->hit & (cs_dot(surface->outward, in) < 0.0f) &
+                      (surface->bsdf == (cs_vint)(CS_BSDF_GLASS));
+    cs_vfloat index = surface->parameters[CS_PARAMETER_INDEX];
+    cs_vfloat ratio = surface->inside ? 1.0f / index : index;
+    path->squeezed *= crosses ? ratio * ratio : (cs_vfloat)(1.0f);
+}
+#endif
 
 /* Turns the ray into one that leaves the surface as the BSDF draws it. */
 static inline void cs_path_scatter(const cs_surface *surface, const cs_vfloat *origin,
@@ -291,6 +322,9 @@ static inline void cs_path_scatter(const cs_surface *surface, const cs_vfloat *o
         path->throughput[i] *= weight * drawn.value.colour[i];
         path->ray.direction[i] = drawn.in[i];
     }
+#if CS_HAS(MATERIALS)
+    cs_path_cross(surface, drawn.in, path);
+#endif
     if (path->depth >= (cs_u32)CS_ROULETTE_FROM) cs_path_roulette(choice.y, path);
 }
 
@@ -301,6 +335,9 @@ static inline cs_path cs_path_begin(const cs_launch *launch, const cs_ray *ray, 
     path.alive = active;
     path.density = (cs_vfloat)(0.0f);
     path.cosine = (cs_vfloat)(0.0f);
+#if CS_HAS(MATERIALS)
+    path.squeezed = (cs_vfloat)(1.0f);
+#endif
     path.depth = 0u;
     path.clamp = launch->clamp;
     path.see_through = launch->see_through;
@@ -326,6 +363,9 @@ static inline int cs_path_advance(const cs_scene_buffers *scene, const cs_launch
     cs_path_add_escaped(scene, &hit, path);
 #endif
     if (!cs_any(seen)) return 0;
+#if CS_HAS(MATERIALS)
+    cs_path_absorb(&surface, hit.distance, path);
+#endif
     cs_path_add_emission(scene, launch->lights, &surface, hit.distance, path);
     /* The last ray only finds what the lights' samples of the last surface might. */
     if (path->depth > launch->bounces) return 0;

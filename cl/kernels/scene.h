@@ -14,7 +14,7 @@ enum {
     CS_LEAF_SHIFT = 27, /* bits 27 to 29 of a leaf reference: number of triangles, less one */
     CS_NO_TEXTURE = -1,
     CS_NO_HIT = -1,
-    CS_MATERIAL_PARAMETERS = 12 /* numbers of a material that its BSDF alone knows */
+    CS_MATERIAL_PARAMETERS = 16 /* numbers of a material that its BSDF alone knows */
 };
 
 /* The buffers of a scene, in the order of kernels' arguments: X(identifier, name, type of the
@@ -102,7 +102,7 @@ typedef struct cs_material {
     cs_f32 normal_scale;
     cs_f32 padding;
 } cs_material;
-CS_SHARED_WORDS(cs_material, 28);
+CS_SHARED_WORDS(cs_material, 32);
 
 enum {
     CS_MATERIAL_BLEND = 1, /* alpha counts */
@@ -110,7 +110,7 @@ enum {
     CS_MATERIAL_UNLIT = 4  /* shows its colour to the camera and takes no part in light */
 };
 
-/* The parameters of CS_BSDF_STANDARD. */
+/* The parameters of CS_BSDF_STANDARD and, from the index on, of CS_BSDF_GLASS. */
 enum {
     CS_PARAMETER_ROUGHNESS,
     CS_PARAMETER_METALLIC,
@@ -120,7 +120,9 @@ enum {
     CS_PARAMETER_COAT,
     CS_PARAMETER_COAT_ROUGHNESS,
     CS_PARAMETER_SHEEN, /* three: its colour */
-    CS_PARAMETER_SHEEN_ROUGHNESS = CS_PARAMETER_SHEEN + 3
+    CS_PARAMETER_SHEEN_ROUGHNESS = CS_PARAMETER_SHEEN + 3,
+    CS_PARAMETER_INDEX,     /* of refraction, inside; outside it is 1 */
+    CS_PARAMETER_ABSORPTION /* three: a unit of length */
 };
 
 #define CS_COAT_F0 0.04f /* KHR_materials_clearcoat: an index of refraction of 1.5 */

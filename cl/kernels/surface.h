@@ -24,8 +24,9 @@ typedef struct cs_surface {
     cs_vint bsdf;                                 /* CS_BSDF_ kind */
     cs_vfloat parameters[CS_MATERIAL_PARAMETERS]; /* of the material, for its BSDF */
     cs_vfloat alpha;                              /* chance that a ray does not pass */
-    cs_vint shines_to;                            /* CS_SHINES_ */
-    CS_GLOBAL const cs_f32 *albedos;              /* see cs_albedo_at */
+    cs_vint inside;    /* lanes that came from behind: the triangle's normal points away */
+    cs_vint shines_to; /* CS_SHINES_ */
+    CS_GLOBAL const cs_f32 *albedos; /* see cs_albedo_at */
 #endif
 } cs_surface;
 

@@ -133,6 +133,7 @@ static void read_reflection(const json_t *json, cs_material_description *materia
     const json_t *ext = gltf_extension(json, "KHR_materials_specular");
     const double ior = gltf_number(gltf_extension(json, "KHR_materials_ior"), "ior", 1.5);
     const double edge = (ior - 1.0) / (ior + 1.0);
+    material->ior = (float)ior;
     double colour[3] = {1, 1, 1};
     gltf_numbers(ext, "specularColorFactor", colour, 3);
     const double grey = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
@@ -153,6 +154,8 @@ static void read_layers(const json_t *json, cs_material_description *material)
     ask_map(ext, "transmissionTexture", "a map of transmission", material);
     ext = gltf_extension(json, "KHR_materials_volume");
     material->thickness = (float)gltf_number(ext, "thicknessFactor", 0.0);
+    gltf_floats(ext, "attenuationColor", material->attenuation_colour, 3);
+    material->attenuation_distance = (float)gltf_number(ext, "attenuationDistance", 0.0);
     ext = gltf_extension(json, "KHR_materials_clearcoat");
     material->clearcoat = (float)gltf_number(ext, "clearcoatFactor", 0.0);
     material->clearcoat_roughness = (float)gltf_number(ext, "clearcoatRoughnessFactor", 0.0);

@@ -118,7 +118,9 @@ static int material_is_sound(const cs_material *m, size_t textures)
            m->facets_texture <= textures && m->normal_texture <= textures &&
            m->emission_texture <= textures && m->bsdf < CS_BSDF_ALL && (m->flags & ~flags) == 0 &&
            cs_is_colour(m->diffuse) && cs_is_colour(m->emission) &&
-           are_within(m->parameters, CS_MATERIAL_PARAMETERS, 0.0f, 1.0f) &&
+           are_within(m->parameters, CS_PARAMETER_INDEX, 0.0f, 1.0f) &&
+           are_within(m->parameters + CS_PARAMETER_INDEX,
+                      CS_MATERIAL_PARAMETERS - CS_PARAMETER_INDEX, 0.0f, FLT_MAX) &&
            are_within(&m->alpha, 1, 0.0f, 1.0f) && are_within(&m->cutoff, 1, 0.0f, FLT_MAX) &&
            are_within(&m->normal_scale, 1, -most_normal_scale, most_normal_scale);
 }
@@ -157,8 +159,8 @@ static int lights_are_sound(const cs_scene *scene)
         if (one->count != 0 || !cs_is_colour(one->colour) ||
             !are_within(one->position, 3, -FLT_MAX, FLT_MAX) ||
             !are_within(one->axis, 3, -FLT_MAX, FLT_MAX) ||
-            !are_within(one->parameters, sizeof one->parameters / sizeof *one->parameters,
-                        -FLT_MAX, FLT_MAX))
+            !are_within(one->parameters, sizeof one->parameters / sizeof *one->parameters, -FLT_MAX,
+                        FLT_MAX))
             return 0;
     }
     return 1;

@@ -21,6 +21,8 @@ void cs_material_init(cs_material_description *description, const char *name)
     *description = (cs_material_description){
         .base_colour = {mid_grey, mid_grey, mid_grey, 1.0f},
         .roughness = 1.0f,
+        .ior = 1.5f,
+        .attenuation_colour = {1.0f, 1.0f, 1.0f},
         .emissive_strength = 1.0f,
         .normal_scale = 1.0f,
         .alpha_cutoff = 0.5f,
@@ -116,7 +118,6 @@ void cs_material_unsupported(const cs_material_description *d, char *text, size_
              is_apart(d, &d->normal_map) || is_apart(d, &d->alpha_map) ||
              (is_apart(d, &d->emissive_map) && shines),
          "texture coordinates that differ between its maps (those of the first count)"},
-        {d->transmission > 0.0f && d->thickness > 0.0f, "refraction by a solid (taken as thin)"},
     };
     *text = '\0';
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
@@ -152,6 +153,8 @@ static void set_standard(const cs_material_description *d, cs_material *made)
         p[CS_PARAMETER_SHEEN + c] = part(d->sheen_colour[c]);
         made->diffuse[c] = part(made->diffuse[c]);
     }
+    if (d->thickness > 0.0f)
+        cs_standard_solid(d->ior, d->attenuation_colour, d->attenuation_distance, made);
 }
 
 static void set_alpha(const cs_material_description *d, int covers, cs_material *made)

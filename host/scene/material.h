@@ -57,6 +57,8 @@ typedef struct cs_material_description {
     cs_map alpha_map;
     float transmission; /* part of the base that is transparent; 0 to 1 */
     float thickness;    /* of the solid, world units; 0: a thin wall */
+    float ior;          /* of the solid; 1 to 10 */
+    float attenuation_colour[3], attenuation_distance; /* as in clshear_material */
     float clearcoat, clearcoat_roughness;
     float sheen_colour[3], sheen_roughness;
     int unlit;

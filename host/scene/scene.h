@@ -59,7 +59,12 @@ void cs_standard_defaults(clshear_material *material);
 clshear_status cs_standard_make(const clshear_material *material, cs_material *made,
                                 cs_error *error);
 
-/* The same, appended to the scene; `number` becomes its index and 1. */
+/* Makes the transparent part of a standard surface refract as a solid does; arguments as in
+ * clshear_material. */
+void cs_standard_solid(float ior, const float *attenuation_colour, float attenuation_distance,
+                       cs_material *made);
+
+/* The same as cs_standard_make, appended to the scene; `number` becomes its index and 1. */
 clshear_status cs_scene_add_standard(cs_scene *scene, const clshear_material *material,
                                      uint32_t *number, cs_error *error);
 

@@ -16,7 +16,8 @@ void cs_standard_defaults(clshear_material *material)
                                    .specular = 1.0f,
                                    .alpha = 1.0f,
                                    .alpha_mode = CLSHEAR_ALPHA_OPAQUE,
-                                   .alpha_cutoff = 0.5f};
+                                   .alpha_cutoff = 0.5f,
+                                   .attenuation_colour = {1.0f, 1.0f, 1.0f}};
 }
 
 static clshear_status check(const clshear_material *material, cs_error *error)
@@ -47,10 +48,31 @@ static clshear_status check(const clshear_material *material, cs_error *error)
     if (!(material->ior >= 1.0f && material->ior <= 10.0f))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "material: ior %g: must be 1 to 10",
                        (double)material->ior);
+    for (int c = 0; c < 3; c++)
+        if (!(material->attenuation_colour[c] >= 0.0f && material->attenuation_colour[c] <= 1.0f))
+            return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                           "material: attenuation_colour must be 0 to 1");
+    if (!(material->attenuation_distance >= 0.0f && material->attenuation_distance <= 1e15f))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "material: attenuation_distance %g: must be 0 to 1e15",
+                       (double)material->attenuation_distance);
     if (material->alpha_mode < CLSHEAR_ALPHA_OPAQUE || material->alpha_mode > CLSHEAR_ALPHA_BLEND)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "material: alpha mode %d is not known",
                        (int)material->alpha_mode);
     return CLSHEAR_OK;
+}
+
+void cs_standard_solid(float ior, const float *attenuation_colour, float attenuation_distance,
+                       cs_material *made)
+{
+    const float least_ior = 1.01f; /* below, floats lose the facets that bend light so little */
+    const float darkest = 1e-6f;   /* black would be infinite absorption */
+    if (ior < least_ior || !(made->parameters[CS_PARAMETER_TRANSMISSION] > 0.0f)) return;
+    made->bsdf = CS_BSDF_GLASS;
+    made->parameters[CS_PARAMETER_INDEX] = ior;
+    for (int c = 0; c < 3 && attenuation_distance > 0.0f; c++)
+        made->parameters[CS_PARAMETER_ABSORPTION + c] =
+            -logf(fmaxf(attenuation_colour[c], darkest)) / fmaxf(attenuation_distance, 1e-15f);
 }
 
 clshear_status cs_standard_make(const clshear_material *material, cs_material *made,
@@ -79,6 +101,9 @@ clshear_status cs_standard_make(const clshear_material *material, cs_material *m
     if (material->alpha_mode == CLSHEAR_ALPHA_MASK) made->flags |= CS_MATERIAL_MASK;
     if (material->alpha_mode == CLSHEAR_ALPHA_BLEND) made->flags |= CS_MATERIAL_BLEND;
     if (material->unlit) made->flags |= CS_MATERIAL_UNLIT;
+    if (material->solid)
+        cs_standard_solid(material->ior, material->attenuation_colour,
+                          material->attenuation_distance, made);
     return CLSHEAR_OK;
 }
 

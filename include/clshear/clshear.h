@@ -201,7 +201,7 @@ typedef struct clshear_material {
     float roughness;
     float ior;          /* index of refraction of the dielectric: 1 to 10 */
     float specular;     /* the dielectric's reflection is multiplied by it; 0: Lambert's surface */
-    float transmission; /* part of the base that is transparent, as a thin wall */
+    float transmission; /* part of the base that is transparent, as a thin wall or a solid */
     float alpha;
     clshear_alpha_mode alpha_mode;
     float alpha_cutoff;
@@ -212,6 +212,11 @@ typedef struct clshear_material {
     float emission[3]; /* radiance, on both sides; 0 to 1e15 */
     int unlit;         /* not 0: shows its base colour and takes no part in light */
     int double_sided;  /* kept; all surfaces have two sides */
+    int solid;         /* not 0: what is transparent refracts, with `ior` on the side of a triangle
+                          from which its corners run clockwise. The surface has to be closed. An ior
+                          below 1.01 is taken as a thin wall */
+    float attenuation_colour[3]; /* of white light, what is left inside a solid after ... */
+    float attenuation_distance;  /* ... this way, in units of the scene; 0: all of it */
 } clshear_material;
 
 /* A triangle mesh with one material. */

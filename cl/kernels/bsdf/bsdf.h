@@ -5,8 +5,7 @@
 #ifndef CS_BSDF_H
 #define CS_BSDF_H
 
-#include "kernels/bsdf/lambert.h"
-#include "kernels/bsdf/standard.h"
+#include "kernels/bsdf/glass.h"
 
 /* Lanes whose surface is of a kind: all of them, known to the compiler, while there is one kind. */
 static inline cs_vint cs_bsdf_lanes(const cs_surface *surface, cs_i32 kind)

@@ -9,9 +9,10 @@
 
 #include "kernels/features.h"
 
-#define CS_BSDF_LIST_ALL(X)        \
-    X(LAMBERT, "lambert", lambert) \
-    X(STANDARD, "standard", standard)
+#define CS_BSDF_LIST_ALL(X)           \
+    X(LAMBERT, "lambert", lambert)    \
+    X(STANDARD, "standard", standard) \
+    X(GLASS, "glass", glass)
 
 /* Programs without the feature MATERIALS (features.h) know the first one only. */
 #if CS_HAS(MATERIALS)

@@ -3,7 +3,10 @@
  *
  * Walter et al. 2007 (distribution), Heitz 2014 (height-correlated shadowing, equation 99), Dupuy &
  * Benyoub 2023 (visible normals by spherical caps), Kulla & Conty 2017 (light that meets several
- * facets). Directions are unit vectors. */
+ * facets). Directions are unit vectors.
+ *
+ * CS_FACETS_OF_MITSUBA, which only scripts/agreement defines, takes shadowing and masking apart and
+ * leaves out what meets several facets, as Mitsuba 3 does. */
 #ifndef CS_BSDF_MICROFACET_H
 #define CS_BSDF_MICROFACET_H
 
@@ -57,11 +60,24 @@ static inline cs_vfloat cs_facet_slant(cs_vfloat cosine, cs_vfloat width)
     return cs_sqrt(width * width + (1.0f - width * width) * cosine * cosine);
 }
 
-/* Shadowing and masking by 4 times both cosines. */
+/* Shadowing and masking by 4 times both cosines, as if they had nothing to do with each other
+ * (Walter et al. 2007, equation 23). */
+static inline cs_vfloat cs_facet_visibility_apart(cs_vfloat cos_out, cs_vfloat cos_in,
+                                                  cs_vfloat width)
+{
+    return 1.0f /
+           ((cos_out + cs_facet_slant(cos_out, width)) * (cos_in + cs_facet_slant(cos_in, width)));
+}
+
+/* Shadowing and masking of one height by 4 times both cosines. */
 static inline cs_vfloat cs_facet_visibility(cs_vfloat cos_out, cs_vfloat cos_in, cs_vfloat width)
 {
+#ifdef CS_FACETS_OF_MITSUBA
+    return cs_facet_visibility_apart(cos_out, cos_in, width);
+#else
     return 0.5f /
            (cos_in * cs_facet_slant(cos_out, width) + cos_out * cs_facet_slant(cos_in, width));
+#endif
 }
 
 /* Density of `in` when it mirrors `out` at a visible facet. */
@@ -85,6 +101,20 @@ static inline void cs_visible_facet(const cs_vfloat *out, cs_vfloat width, cs_pa
     cap[1] = (outward * cs_sin(angle) + seen[1]) * width;
     cap[2] = cs_max(up + seen[2], (cs_vfloat)(1e-7f));
     cs_normalised(cap, facet);
+}
+
+/* A facet's normal that `out` sees around the surface's normal; `cosine` is between the two. */
+static inline void cs_draw_facet(const cs_vfloat *normal, const cs_vfloat *out, cs_vfloat cosine,
+                                 cs_vfloat width, cs_pair pair, cs_vfloat *half_way)
+{
+    cs_vfloat tangent[3], other[3], facet[3];
+    const cs_vfloat one[3] = {(cs_vfloat)(1.0f), (cs_vfloat)(0.0f), (cs_vfloat)(0.0f)};
+    const cs_vfloat two[3] = {(cs_vfloat)(0.0f), (cs_vfloat)(1.0f), (cs_vfloat)(0.0f)};
+    cs_from_local(normal, one, tangent);
+    cs_from_local(normal, two, other);
+    cs_vfloat seen_out[3] = {cs_inner(out, tangent), cs_inner(out, other), cosine};
+    cs_visible_facet(seen_out, width, pair, facet);
+    cs_from_local(normal, facet, half_way);
 }
 
 /* (1 - cosine)^5 (Schlick 1994). */

@@ -119,6 +119,19 @@ static inline void cs_half_way(const cs_vfloat *a, const cs_vfloat *b, cs_vfloat
     cs_normalised(sum, half_way);
 }
 
+/* Per steradian, what no single facet lets go towards directions with the albedo `seen`. */
+static inline cs_vfloat cs_met_again(const cs_standard *s, const cs_albedo *seen)
+{
+#ifdef CS_FACETS_OF_MITSUBA
+    (void)s;
+    (void)seen;
+    return (cs_vfloat)(0.0f);
+#else
+    return (1.0f - s->albedo.plane[CS_ALBEDO_ALL]) * (1.0f - seen->plane[CS_ALBEDO_ALL]) *
+           CS_INVERSE_PI / cs_max(1.0f - s->average.plane[CS_ALBEDO_ALL], (cs_vfloat)(1e-6f));
+#endif
+}
+
 /* The value on this side: facets, what meets several of them, base, coat, sheen. */
 static inline void cs_standard_front(const cs_standard *s, const cs_surface *surface,
                                      const cs_vfloat *in, cs_vfloat cos_in, cs_vfloat *value)
@@ -130,9 +143,7 @@ static inline void cs_standard_front(const cs_standard *s, const cs_surface *sur
     cs_vfloat facets = cs_facet_distribution(surface->normal, half_way, s->width) *
                        cs_facet_visibility(s->cosine, cos_in, s->width);
     cs_albedo seen = cs_albedo_at(surface->albedos, cos_in, p[CS_PARAMETER_ROUGHNESS]);
-    cs_vfloat lost = (1.0f - s->albedo.plane[CS_ALBEDO_ALL]) * (1.0f - seen.plane[CS_ALBEDO_ALL]) *
-                     CS_INVERSE_PI /
-                     cs_max(1.0f - s->average.plane[CS_ALBEDO_ALL], (cs_vfloat)(1e-6f));
+    cs_vfloat lost = cs_met_again(s, &seen);
     cs_vfloat passed = (1.0f - cs_dielectric_albedo(s, &s->albedo)) *
                        (1.0f - cs_dielectric_albedo(s, &seen)) * CS_INVERSE_PI /
                        cs_max(1.0f - cs_dielectric_albedo(s, &s->average), (cs_vfloat)(1e-6f));
@@ -165,9 +176,7 @@ static inline void cs_standard_behind(const cs_standard *s, const cs_surface *su
                        cs_facet_visibility(s->cosine, cos_in, s->width);
     cs_albedo seen =
         cs_albedo_at(surface->albedos, cos_in, surface->parameters[CS_PARAMETER_ROUGHNESS]);
-    cs_vfloat lost = (1.0f - s->albedo.plane[CS_ALBEDO_ALL]) * (1.0f - seen.plane[CS_ALBEDO_ALL]) *
-                     CS_INVERSE_PI /
-                     cs_max(1.0f - s->average.plane[CS_ALBEDO_ALL], (cs_vfloat)(1e-6f));
+    cs_vfloat lost = cs_met_again(s, &seen);
     cs_vfloat passed =
         (1.0f - s->f0 - (s->f90 - s->f0) * grazing) * facets + (1.0f - s->repeated) * lost;
     for (int c = 0; c < 3; c++)
@@ -236,14 +245,8 @@ static inline cs_vfloat cs_bsdf_density_standard(const cs_surface *surface, cons
 static inline void cs_mirror_at_facet(const cs_standard *s, const cs_surface *surface,
                                       cs_vfloat width, cs_pair pair, cs_vfloat *in)
 {
-    cs_vfloat tangent[3], other[3], facet[3], half_way[3];
-    const cs_vfloat one[3] = {(cs_vfloat)(1.0f), (cs_vfloat)(0.0f), (cs_vfloat)(0.0f)};
-    const cs_vfloat two[3] = {(cs_vfloat)(0.0f), (cs_vfloat)(1.0f), (cs_vfloat)(0.0f)};
-    cs_from_local(surface->normal, one, tangent);
-    cs_from_local(surface->normal, two, other);
-    cs_vfloat out[3] = {cs_inner(s->out, tangent), cs_inner(s->out, other), s->cosine};
-    cs_visible_facet(out, width, pair, facet);
-    cs_from_local(surface->normal, facet, half_way);
+    cs_vfloat half_way[3];
+    cs_draw_facet(surface->normal, s->out, s->cosine, width, pair, half_way);
     cs_vfloat twice = 2.0f * cs_inner(s->out, half_way);
     for (int i = 0; i < 3; i++)
         in[i] = twice * half_way[i] - s->out[i];

@@ -1,0 +1,176 @@
+/* Solid glass: light is reflected by its facets or refracted into what is behind them. Shared.
+ *
+ * Walter et al. 2007, with facets met once: very rough glass is a little dark. The dielectric's
+ * transparent part, transmission (1 - metallic), is glass; the rest is the standard surface. The
+ * side of the triangle's normal is outside, with the index 1. The base colour tints what is
+ * refracted. */
+#ifndef CS_BSDF_GLASS_H
+#define CS_BSDF_GLASS_H
+
+#include "kernels/bsdf/standard.h"
+
+#if CS_HAS(MATERIALS)
+
+typedef struct cs_glass {
+    cs_vfloat out[3]; /* unit */
+    cs_vfloat cosine; /* of it */
+    cs_vfloat width;
+    cs_vfloat index_here; /* of refraction, on the side of `out` */
+    cs_vfloat index_beyond;
+    cs_vfloat part; /* of the surface that is glass */
+} cs_glass;
+
+static inline cs_glass cs_glass_of(const cs_surface *surface, const cs_vfloat *out)
+{
+    cs_glass g;
+    const cs_vfloat *p = surface->parameters;
+    cs_normalised(out, g.out);
+    g.cosine = cs_max(cs_inner(g.out, surface->normal), (cs_vfloat)(1e-4f));
+    g.width = cs_facet_width(p[CS_PARAMETER_ROUGHNESS]);
+    g.index_here = surface->inside ? p[CS_PARAMETER_INDEX] : (cs_vfloat)(1.0f);
+    g.index_beyond = surface->inside ? (cs_vfloat)(1.0f) : p[CS_PARAMETER_INDEX];
+    g.part = p[CS_PARAMETER_TRANSMISSION] * (1.0f - p[CS_PARAMETER_METALLIC]);
+    return g;
+}
+
+/* What is not glass: a standard surface without transparency. */
+static inline cs_surface cs_beside_glass(const cs_surface *surface, const cs_glass *g)
+{
+    cs_surface rest = *surface;
+    rest.parameters[CS_PARAMETER_TRANSMISSION] = (cs_vfloat)(0.0f);
+    rest.parameters[CS_PARAMETER_METALLIC] /= cs_max(1.0f - g->part, (cs_vfloat)(1e-6f));
+    return rest;
+}
+
+/* Part of unpolarised light that a facet reflects (Walter et al. 2007, equation 22); 1 where
+ * nothing gets out. `cosine` is between `out` and the facet's normal. */
+static inline cs_vfloat cs_glass_reflectance(const cs_glass *g, cs_vfloat cosine)
+{
+    cs_vfloat ratio = g->index_beyond / g->index_here;
+    cs_vfloat square = ratio * ratio - 1.0f + cosine * cosine;
+    cs_vfloat root = cs_sqrt(cs_max(square, (cs_vfloat)(0.0f)));
+    cs_vfloat across = (root - cosine) / cs_max(root + cosine, (cs_vfloat)(1e-20f));
+    cs_vfloat along = (cosine * (root + cosine) - 1.0f) /
+                      cs_max(cosine * (root - cosine) + 1.0f, (cs_vfloat)(1e-20f));
+    cs_vfloat part = 0.5f * across * across * (1.0f + along * along);
+    return square > 0.0f ? part : (cs_vfloat)(1.0f);
+}
+
+/* The facets' value, in front and behind, and the density with which they draw `in`, unit. */
+typedef struct cs_glass_answer {
+    cs_vfloat value;
+    cs_vfloat density;
+} cs_glass_answer;
+
+static inline cs_glass_answer cs_glass_answer_to(const cs_glass *g, const cs_surface *surface,
+                                                 const cs_vfloat *in)
+{
+    cs_glass_answer answer;
+    cs_vfloat sum[3], half_way[3];
+    cs_vfloat cosine = cs_inner(in, surface->normal);
+    cs_vint mirrored = cosine > 0.0f;
+    for (int i = 0; i < 3; i++)
+        sum[i] = mirrored ? g->out[i] + in[i] : g->index_here * g->out[i] + g->index_beyond * in[i];
+    cs_normalised(sum, half_way);
+    cs_vfloat side =
+        cs_inner(half_way, surface->normal) < 0.0f ? (cs_vfloat)(-1.0f) : (cs_vfloat)(1.0f);
+    for (int i = 0; i < 3; i++)
+        half_way[i] *= side;
+    cs_vfloat cos_in = cs_max(cs_abs(cosine), (cs_vfloat)(1e-4f));
+    cs_vfloat to_out = cs_inner(g->out, half_way), to_in = cs_inner(in, half_way);
+    cs_vfloat reflected = cs_glass_reflectance(g, to_out);
+    cs_vfloat facets = cs_facet_distribution(surface->normal, half_way, g->width) *
+                       cs_facet_visibility_apart(g->cosine, cos_in, g->width);
+    cs_vfloat drawn = cs_facet_density(surface->normal, half_way, g->cosine, g->width);
+    /* From solid angles of facets to those of refracted light (equation 17), by both indices. */
+    cs_vfloat stretch = g->index_here * to_out + g->index_beyond * to_in;
+    stretch = 4.0f * to_out * cs_abs(to_in) / cs_max(stretch * stretch, (cs_vfloat)(1e-20f));
+    cs_vfloat crosses = (1.0f - reflected) * stretch;
+    cs_vint meets =
+        (to_out > 0.0f) & (mirrored ? (cs_vint)(to_in > 0.0f) : (cs_vint)(to_in < 0.0f));
+    answer.value = (mirrored ? reflected : crosses * g->index_here * g->index_here) * facets;
+    answer.density = (mirrored ? reflected : crosses * g->index_beyond * g->index_beyond) * drawn;
+    answer.value = meets ? answer.value : (cs_vfloat)(0.0f);
+    answer.density = meets ? answer.density : (cs_vfloat)(0.0f);
+    return answer;
+}
+
+static inline cs_bsdf_value cs_bsdf_eval_glass(const cs_surface *surface, const cs_vfloat *out,
+                                               const cs_vfloat *in)
+{
+    cs_glass g = cs_glass_of(surface, out);
+    cs_bsdf_value value;
+    cs_vfloat unit[3];
+    cs_normalised(in, unit);
+    cs_glass_answer answer = cs_glass_answer_to(&g, surface, unit);
+    cs_vint behind = cs_inner(unit, surface->normal) < 0.0f;
+    value.scale = (cs_vfloat)(1.0f);
+    for (int c = 0; c < 3; c++)
+        value.colour[c] = g.part * answer.value * (behind ? surface->albedo[c] : (cs_vfloat)(1.0f));
+    if (!cs_any(g.part < 1.0f)) return value;
+    cs_surface beside = cs_beside_glass(surface, &g);
+    cs_bsdf_value rest = cs_bsdf_eval_standard(&beside, out, unit);
+    for (int c = 0; c < 3; c++)
+        value.colour[c] += (1.0f - g.part) * rest.colour[c];
+    return value;
+}
+
+static inline cs_vfloat cs_bsdf_density_glass(const cs_surface *surface, const cs_vfloat *out,
+                                              const cs_vfloat *in)
+{
+    cs_glass g = cs_glass_of(surface, out);
+    cs_vfloat unit[3];
+    cs_normalised(in, unit);
+    cs_vfloat density = g.part * cs_glass_answer_to(&g, surface, unit).density;
+    if (!cs_any(g.part < 1.0f)) return density;
+    cs_surface beside = cs_beside_glass(surface, &g);
+    return density + (1.0f - g.part) * cs_bsdf_density_standard(&beside, out, unit);
+}
+
+/* A direction that a visible facet mirrors or refracts; `choice` says which. The lanes in `lost`
+ * found none: it is on the wrong side of the surface. */
+static inline void cs_glass_draw(const cs_glass *g, const cs_surface *surface, cs_pair pair,
+                                 cs_vfloat choice, cs_vfloat *in, cs_vint *lost)
+{
+    cs_vfloat half_way[3];
+    cs_draw_facet(surface->normal, g->out, g->cosine, g->width, pair, half_way);
+    cs_vfloat cosine = cs_inner(g->out, half_way), ratio = g->index_here / g->index_beyond;
+    cs_vint mirrored = choice < cs_glass_reflectance(g, cosine);
+    cs_vfloat square = 1.0f - ratio * ratio * (1.0f - cosine * cosine);
+    cs_vfloat bent = ratio * cosine - cs_sqrt(cs_max(square, (cs_vfloat)(0.0f)));
+    cs_vfloat drawn[3];
+    for (int i = 0; i < 3; i++)
+        drawn[i] = mirrored ? 2.0f * cosine * half_way[i] - g->out[i]
+                            : bent * half_way[i] - ratio * g->out[i];
+    cs_normalised(drawn, in);
+    cs_vfloat side = cs_inner(in, surface->normal);
+    *lost = mirrored ? (cs_vint)(side <= 0.0f) : (cs_vint)(side >= 0.0f);
+}
+
+static inline cs_bsdf_direction cs_bsdf_sample_glass(const cs_surface *surface,
+                                                     const cs_vfloat *out, cs_pair pair,
+                                                     cs_vfloat choice)
+{
+    cs_glass g = cs_glass_of(surface, out);
+    cs_bsdf_direction drawn;
+    cs_vint lost;
+    cs_vfloat among = choice / cs_max(g.part, (cs_vfloat)(1e-20f));
+    cs_glass_draw(&g, surface, pair, among, drawn.in, &lost);
+    if (cs_any(g.part < 1.0f)) {
+        cs_surface beside = cs_beside_glass(surface, &g);
+        cs_vint by_rest = choice >= g.part;
+        among = (choice - g.part) / cs_max(1.0f - g.part, (cs_vfloat)(1e-20f));
+        cs_bsdf_direction rest = cs_bsdf_sample_standard(&beside, out, pair, among);
+        for (int i = 0; i < 3; i++)
+            drawn.in[i] = by_rest ? rest.in[i] : drawn.in[i];
+        lost = by_rest ? (cs_vint)(rest.density <= 0.0f) : lost;
+    }
+    cs_vfloat density = cs_bsdf_density_glass(surface, out, drawn.in);
+    drawn.density = lost ? (cs_vfloat)(0.0f) : density;
+    drawn.value = cs_bsdf_eval_glass(surface, out, drawn.in);
+    return drawn;
+}
+
+#endif /* MATERIALS */
+
+#endif
