@@ -163,6 +163,11 @@ expect 2 "--block 16: must be" -- predict "$cornell" --pixel 3,4 --block 16
 expect 2 "--integrand blob: must be one of step box" -- predict --integrand blob
 expect 0 "target,sampler,shear,n,replicates,variance,slope" -- converge --integrand box --sampler mj --nreps 20
 [ "$(echo "$output" | grep -c '^box,mj,none,')" -eq 4 ] || wrong "converge: $output"
+expect 0 "mean,local_slope,local_slope_low,local_slope_high" -- converge --integrand disk --sampler mj --nreps 20 \
+    --nsamps 16,64,256 --local-slopes
+# Least squares through three points at equal distances is the mean of the slopes between them.
+echo "$output" | awk -F, 'NR == 2 { slope = $7 } NR > 1 && NR < 4 { mean += $11 / 2 } END { exit !(NR == 4 && $11 == "" &&
+    slope - mean < 2e-4 && mean - slope < 2e-4) }' || wrong "local slopes: $output"
 expect 0 "" -- converge "$cornell" --quiet --pixels '302,130;3,4' --sampler mj --nreps 8 --nsamps 4,16 \
     --out c.json --plot c.png --reference 0.3
 python3 -c 'import json; s = json.load(open("c.json"))["series"]; assert len(s) == 4 and len(s[0]["mse"]) == 2' ||
@@ -279,6 +284,18 @@ for scene in bare.obj floor.obj; do
     expect 0 "no light given" -- $scene $small --out k.exr
     oiiotool --stats k.exr | awk '/Stats Avg/ { exit !($3 > 0.01) }' || wrong "$scene is dark"
 done
+# Pictures that cannot be meant are remarked on; others are not.
+remarks="black|brighter|everything is in focus"
+# shellcheck disable=SC2086
+{
+    expect 0 "black: the camera does not see" -- bare.obj $small --eye 0,0,1e5 --target 0,0,2e5 \
+        --light 0,0,9,1,1,1 --out k.exr
+    expect 0 "black: no light reaches" -- bare.obj $small --light 1e6,1e6,1e6,0,0,0 --out k.exr
+    expect 0 "is brighter than 1" -- bare.obj $small --environment 99,99,99 --out k.exr
+    expect 0 "everything is in focus" -- bare.obj $small --lens-radius 1e-6 --out k.exr
+    expect 0 "" -- bare.obj $small --out k.exr
+    if echo "$output" | grep -qE "$remarks"; then wrong "a remark on a good picture: $output"; fi
+}
 mkdir -p folder.exr
 expect 1 "folder.exr: is a folder" -- bare.obj --out folder.exr
 
@@ -369,6 +386,23 @@ for signal in INT:130 TERM:143 HUP:129; do
     [ -s h.exr ] || wrong "$signal: no picture"
     oiiotool --info h.exr | grep -q "64 x   64, 13 channel" || wrong "$signal: bad file"
 done
+
+# Before the first samples there is nothing to keep: the signal ends the program at once.
+"$program" "$cornell" --spp 1 --width 6000 --height 6000 --out never.exr 2>h.txt &
+child=$!
+sleep 1.5
+kill -TERM $child
+wait $child
+[ $? -eq 143 ] || wrong "early interrupt: exit code, $(cat h.txt)"
+[ ! -e never.exr ] || wrong "early interrupt: a picture"
+
+# What nohup starts goes on after a hangup.
+nohup "$program" "$cornell" --spp 4000 --width 64 --height 64 --quiet --out nohup.exr 2>h.txt &
+child=$!
+sleep 1
+kill -HUP $child
+wait $child
+[ $? -eq 0 ] || wrong "nohup: exit code, $(cat h.txt)"
 
 # A full disk: one line, exit 1, the old picture untouched and nothing left behind.
 echo old >kept.exr

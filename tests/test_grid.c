@@ -67,6 +67,29 @@ static void divisions_are_exact(void **state)
                 assert_int_equal(cs_divide(near, divisor, 1.0f / (cs_f32)divisor), near / divisor);
 }
 
+/* The least and the greatest place of each stratum, in units of 2^-24: with one another they cover
+ * [0, 1) without gaps, and every place lies in its stratum, by whole numbers. */
+static void strata_reach_every_float(void **state)
+{
+    static const cs_u32 counts[] = {
+        1, 2, 3, 7, 16, 49, 1000, 4096, 65537, 99991, 700001, CS_MAX_PATTERN - 1, CS_MAX_PATTERN};
+    (void)state;
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
+        const cs_u32 count = counts[c];
+        const cs_strata strata = cs_strata_of(count);
+        cs_u32 next = 0;
+        for (cs_u32 k = 0; k < count; k++) {
+            const cs_u32 low = (cs_u32)(cs_in_stratum(&strata, k, 0u) * 0x1p24f);
+            const cs_u32 high = (cs_u32)(cs_in_stratum(&strata, k, 0xffffffffu) * 0x1p24f);
+            assert_int_equal(low, next);
+            assert_int_equal((uint64_t)low * count >> 24, k);
+            assert_int_equal((uint64_t)high * count >> 24, k);
+            next = high + 1;
+        }
+        assert_int_equal(next, 1u << 24);
+    }
+}
+
 static void permutations_are_bijections(void **state)
 {
     (void)state;
@@ -111,9 +134,9 @@ static void permutations_mix_pairs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(grids_are_nearly_square), cmocka_unit_test(orders_are_bijections),
-        cmocka_unit_test(divisions_are_exact),     cmocka_unit_test(permutations_are_bijections),
-        cmocka_unit_test(permutations_mix_pairs),
+        cmocka_unit_test(grids_are_nearly_square),     cmocka_unit_test(orders_are_bijections),
+        cmocka_unit_test(divisions_are_exact),         cmocka_unit_test(strata_reach_every_float),
+        cmocka_unit_test(permutations_are_bijections), cmocka_unit_test(permutations_mix_pairs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -283,7 +283,8 @@ static void material_lines(void **state)
 {
     (void)state;
     write_text("lines.mtl", "newmtl a\nKd 0.25\nnewmtl b\nKd 2 1 1\nKe 1 2 3\n"
-                            "newmtl c\nKd xyz 1 1 1\nPm 1\nPr 0.2\nmap_Bump x.png\nd 0.5\n");
+                            "newmtl c\nKd xyz 1 1 1\nPm 1\nPr 0.2\nmap_Bump x.png\nd 0.5\naniso 1\n"
+                            "map_Ks y.png\n");
     cs_scene scene =
         load_text("lines.obj", "mtllib lines.mtl\n" SQUARE "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n"
                                "usemtl c\nf 1 2 4\n");
@@ -292,7 +293,8 @@ static void material_lines(void **state)
     expect_close(material_of(&scene, 1)->emission, 1, 2, 3);
     expect_warning("\"b\" has the colour 2 1 1: above 1");
     expect_warning("lines.mtl:7: Kd \"xyz 1 1 1\" is not a number");
-    expect_warning("\"c\": not supported, left out: metal, gloss, a bump map, opacity\n");
+    expect_warning("texture x.png is not there; it is left out");
+    expect_warning("\"c\": not supported, left out: anisotropy, a map of highlights\n");
     cs_scene_free(&scene);
 }
 
@@ -633,11 +635,11 @@ static void extensions_of_gltf(void **state)
                          "{\"name\":\"m\",\"emissiveFactor\":[1,0.5,0],\"normalTexture\":"
                          "{\"index\":0},\"pbrMetallicRoughness\":{\"metallicFactor\":1},"
                          "\"extensions\":{\"KHR_materials_emissive_strength\":"
-                         "{\"emissiveStrength\":10},\"KHR_materials_unlit\":{}}}",
+                         "{\"emissiveStrength\":10},\"ACME_fur\":{}}}",
                          "{\"mesh\":0}", ",\"extensionsRequired\":[\"KHR_mesh_quantization\"]"));
     expect_close(material_of(&scene, 0)->emission, 10, 5, 0);
     expect_close(material_of(&scene, 0)->diffuse, 1, 1, 1);
-    expect_warning("\"m\": not supported, left out: metal, a normal map, no shading (unlit)\n");
+    expect_warning("\"m\": not supported, left out: ACME_fur\n");
     cs_scene_free(&scene);
 }
 
@@ -712,13 +714,15 @@ static void alpha_does_not_darken(void **state)
 {
     const unsigned char tga[] = {0, 0, 2, 0, 0,  0, 0, 0,   0,   0, 0, 0,
                                  1, 0, 1, 0, 32, 8, 0, 128, 255, 64}; /* blue, green, red, alpha */
+    const cs_texel_use use = {CS_TEXELS_COLOUR, 0.0f, 1.0f};
     cs_texels texels;
     cs_error error;
     (void)state;
     const char *path = write_bytes("alpha.tga", tga, sizeof tga);
-    assert_int_equal(cs_image_read_texels(path, path, NULL, 0, 0, 1, &texels, &error), CLSHEAR_OK);
+    assert_int_equal(cs_image_read_texels(path, path, NULL, 0, &use, &texels, &error), CLSHEAR_OK);
     assert_int_equal(texels.halves[0], 0x3c00);                            /* 1 */
     assert_true(texels.halves[1] >= 0x32e0 && texels.halves[1] <= 0x3300); /* 0.2158 */
+    assert_true(texels.halves[3] >= 0x3400 && texels.halves[3] <= 0x3408); /* 64 / 255 */
     free(texels.halves);
 }
 

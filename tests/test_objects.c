@@ -210,6 +210,37 @@ static void stopped_renders_succeed(void **state)
     clshear_settings_free(settings);
 }
 
+/* Counts questions before the first samples; `user` is two numbers: of questions, and the one that
+ * is answered by "stop". */
+static int stop_before_samples(void *user, const clshear_progress *state)
+{
+    int *counts = user;
+    if (state->samples_per_s > 0.0) return 0;
+    return ++counts[0] == counts[1];
+}
+
+/* While depths are found, the caller is asked about every 4 million rays, and what it stops has no
+ * samples. 256 x 256 pixels with 257 rays each are 16.8 million: four bands of rows. */
+static void depths_can_be_stopped(void **state)
+{
+    test_fixture *made = *state;
+    for (int stop = 0; stop <= 2; stop += 2) {
+        clshear_settings *settings = test_settings(made->settings, 256, 256, 1);
+        int counts[2] = {0, stop};
+        test_set(settings, CLSHEAR_LENS_RAYS, "256");
+        test_set(settings, CLSHEAR_ORACLE, "centre");
+        clshear_settings_set_progress(settings, stop_before_samples, counts);
+        clshear_film *film = test_render(made->scene, settings);
+        const float *samples = clshear_film_channel(film, "Samples");
+        assert_int_equal(test_film_info(film).complete, stop == 0);
+        assert_int_equal(counts[0], stop == 0 ? 4 : 2);
+        for (int i = 0; i < 256 * 256; i++)
+            assert_int_equal((int)samples[i], stop == 0 ? 1 : 0);
+        clshear_film_free(film);
+        clshear_settings_free(settings);
+    }
+}
+
 static void failures_leave_results_alone(void **state)
 {
     test_fixture *made = *state;
@@ -302,6 +333,7 @@ int main(void)
         cmocka_unit_test(scenes_must_be_complete),
         cmocka_unit_test(meshes_of_other_versions_are_taken),
         cmocka_unit_test(stopped_renders_succeed),
+        cmocka_unit_test(depths_can_be_stopped),
         cmocka_unit_test(failures_leave_results_alone),
         cmocka_unit_test(channels_are_copied_with_strides),
         cmocka_unit_test(foreign_contexts_render_the_same),

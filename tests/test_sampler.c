@@ -223,6 +223,98 @@ static void large_patterns_are_sound(void **state)
         }
 }
 
+/* The samplers whose coordinates lie in strata, with a place in them at random. */
+static const cs_u32 on_grids[] = {CS_SAMPLER_JITTERED, CS_SAMPLER_JITTERED4D, CS_SAMPLER_NROOKS,
+                                  CS_SAMPLER_MJ,       CS_SAMPLER_CMJ,        CS_SAMPLER_OA,
+                                  CS_SAMPLER_OA3};
+enum {
+    LOW_BITS = 4 /* of 24: with 2^20 strata no more are at random */
+};
+
+/* Chi-square per degree of freedom of the last LOW_BITS bits of coordinate `dimension`, from
+ * `patterns` patterns. */
+static double low_bits_chi(const test_pattern *drawn, cs_u32 patterns, int dimension)
+{
+    double hits[1 << LOW_BITS] = {0}, chi = 0.0;
+    const cs_u32 count = drawn->pattern.grid.count;
+    for (cs_u32 t = 0; t < patterns; t++)
+        for (cs_u32 i = 0; i < count; i++) {
+            cs_f32 tuple[CS_DIMENSIONS];
+            test_draw(drawn, cs_pattern_key(8, t, 0), i, tuple);
+            hits[(cs_u32)(tuple[dimension] * 0x1p24f) % (1u << LOW_BITS)] += 1.0;
+        }
+    const double expected = (double)patterns * count / (1 << LOW_BITS);
+    for (int b = 0; b < 1 << LOW_BITS; b++)
+        chi += (hits[b] - expected) * (hits[b] - expected) / expected;
+    return chi / ((1 << LOW_BITS) - 1);
+}
+
+/* Coordinates of grids are as fine as a float's, at every N: the last bits are at random, each
+ * value of them as often as any other. Chi-square with 15 degrees of freedom is above 4.3 times
+ * their number with a chance of 1e-7; bits that are always 0 give thousands. */
+static void coordinates_are_whole_floats(void **state)
+{
+    static const cs_u32 numbers[] = {16, 101, 4096, CS_MAX_PATTERN};
+    (void)state;
+    for (size_t s = 0; s < sizeof on_grids / sizeof *on_grids; s++)
+        for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
+            const cs_u32 count = cs_sampler_count(on_grids[s], numbers[k]);
+            if (count == 0) continue;
+            test_pattern drawn = test_pattern_of(on_grids[s], count, CS_ORDER_SEQUENCE);
+            for (int d = 0; d<CS_DIMENSIONS; d += count> 4096 ? 3 : 1) {
+                const double chi = low_bits_chi(&drawn, count < 65536 ? 65536 / count : 1, d);
+                if (chi > 4.3)
+                    fail_msg("%s, N = %u, coordinate %d: chi-square %g of the last bits",
+                             cs_sampler_name(on_grids[s]), count, d, chi);
+            }
+            test_pattern_free(&drawn);
+        }
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* The largest distance of the distribution of `count` numbers in [0, 1) from the uniform one. */
+static double distance_from_uniform(double *values, size_t count)
+{
+    double most = 0.0;
+    qsort(values, count, sizeof *values, by_size);
+    for (size_t i = 0; i < count; i++) {
+        most = fmax(most, fabs(values[i] - (double)i / (double)count));
+        most = fmax(most, fabs(values[i] - (double)(i + 1) / (double)count));
+    }
+    return most;
+}
+
+/* Places within the strata are uniform (Kolmogorov & Smirnov), and those of x and y independent:
+ * the fraction of their sum is uniform too. 16384 points: a distance above 2.9 / sqrt(16384) has a
+ * chance of 2 exp(-2 * 2.9^2) = 1e-7. */
+static void places_in_strata_are_uniform(void **state)
+{
+    enum {
+        POINTS = 16384
+    };
+    static double of_x[POINTS], of_sum[POINTS];
+    static const cs_u32 numbers[] = {16, 256, 1024};
+    (void)state;
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
+        const cs_u32 count = numbers[k];
+        test_pattern drawn = test_pattern_of(CS_SAMPLER_MJ, count, CS_ORDER_SEQUENCE);
+        for (cs_u32 i = 0; i < POINTS; i++) {
+            cs_f32 t[CS_DIMENSIONS];
+            test_draw(&drawn, cs_pattern_key(9, i / count, 0), i % count, t);
+            of_x[i] = fmod((double)t[0] * count, 1.0);
+            of_sum[i] = fmod((double)t[0] * count + (double)t[1] * count, 1.0);
+        }
+        assert_below(distance_from_uniform(of_x, POINTS), 2.9 / 128.0);
+        assert_below(distance_from_uniform(of_sum, POINTS), 2.9 / 128.0);
+        test_pattern_free(&drawn);
+    }
+}
+
 /* Every name is found, and the message about an unknown name lists all of them. */
 static void names_are_found(void **state)
 {
@@ -254,6 +346,8 @@ int main(void)
         cmocka_unit_test(orders_hold_the_same_samples),
         cmocka_unit_test(progressive_samplers_go_on),
         cmocka_unit_test(large_patterns_are_sound),
+        cmocka_unit_test(coordinates_are_whole_floats),
+        cmocka_unit_test(places_in_strata_are_uniform),
         cmocka_unit_test(names_are_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -26,6 +26,10 @@ static int close_settings(void **state)
     return 0;
 }
 
+enum {
+    MOST_NUMBERS = 12 /* in one value of a setting */
+};
+
 /* Fills one value of a setting with `value`, except where the order of numbers matters. */
 static size_t numbers_of(const cs_setting *entry, double value, double *numbers)
 {
@@ -36,7 +40,7 @@ static size_t numbers_of(const cs_setting *entry, double value, double *numbers)
 
 static clshear_status set_all(clshear_settings *settings, const cs_setting *entry, double value)
 {
-    double numbers[8];
+    double numbers[MOST_NUMBERS];
     return clshear_settings_set_numbers(settings, entry->setting, numbers,
                                         numbers_of(entry, value, numbers));
 }
@@ -49,20 +53,22 @@ static void bounds_are_enforced(void **state)
     clshear_settings *settings = *state;
     for (size_t i = 0; i < CS_SETTING_COUNT; i++) {
         const cs_setting *entry = &cs_setting_table[i];
-        double low, high, before[8], after[8];
+        double low, high, before[MOST_NUMBERS], after[MOST_NUMBERS];
         size_t count;
         test_ok(clshear_setting_bounds(entry->setting, &low, &high));
         if (entry->kind == CLSHEAR_TEXT || entry->setting == CLSHEAR_CROP) continue;
         test_ok(set_all(settings, entry, low));
         test_ok(set_all(settings, entry, high));
-        test_ok(clshear_settings_get_numbers(settings, entry->setting, before, 8, &count));
+        test_ok(
+            clshear_settings_get_numbers(settings, entry->setting, before, MOST_NUMBERS, &count));
         const int whole = entry->kind != CLSHEAR_NUMBER;
         const double wrong[] = {whole ? low - 1.0 : nextafter(low, -INFINITY),
                                 whole ? high + 1.0 : nextafter(high, INFINITY), NAN,
                                 whole ? low + 0.5 : INFINITY};
         for (int w = 0; w < 4; w++)
             test_refused(set_all(settings, entry, wrong[w]), CLSHEAR_BAD_ARGUMENT, entry->name);
-        test_ok(clshear_settings_get_numbers(settings, entry->setting, after, 8, &count));
+        test_ok(
+            clshear_settings_get_numbers(settings, entry->setting, after, MOST_NUMBERS, &count));
         assert_int_equal(count, entry->values);
         assert_memory_equal(before, after, count * sizeof *before);
     }

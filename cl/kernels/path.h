@@ -24,6 +24,7 @@ typedef struct cs_path {
     cs_u32 depth;            /* surfaces behind the path */
     cs_f32 clamp;            /* as in cs_launch */
     cs_u32 see_through;      /* as in cs_launch */
+    cs_u32 lights;           /* as in cs_launch */
     cs_u32 shadows;          /* rays to lights so far */
     cs_radiance radiance;    /* found so far */
 } cs_path;
@@ -65,15 +66,21 @@ static inline void cs_path_add_emission(const cs_scene_buffers *scene, cs_u32 li
 }
 
 #if CS_HAS(LIGHTS)
-/* Adds what comes from beyond the scene to the lanes in `escaped`. The camera does not see suns. */
-static inline void cs_path_add_escaped(const cs_scene_buffers *scene, cs_u32 lights,
-                                       cs_vint escaped, cs_path *path)
+/* Adds lights that the paths met, and what comes from beyond the scene. The camera does not see
+ * suns. */
+static inline void cs_path_add_escaped(const cs_scene_buffers *scene, const cs_hit *hit,
+                                       cs_path *path)
 {
-    if (!cs_any(escaped)) return;
-    for (cs_u32 i = 0u; i < lights; i++) {
+    if (!cs_any(path->alive & (hit->triangle < 0))) return;
+    for (cs_u32 i = 0u; i < path->lights; i++) {
         CS_GLOBAL const cs_light *light = scene->lights + i;
+        cs_vint escaped = path->alive & (hit->triangle == (cs_vint)(CS_NO_HIT));
         cs_escaped found;
-        if (light->kind == CS_LIGHT_ENVIRONMENT)
+        if (cs_is_shape(light)) {
+            escaped = path->alive & (hit->triangle == (cs_vint)(cs_shape_hit(i)));
+            if (!cs_any(escaped)) continue;
+            found = cs_escape_to_shape(light, &path->ray);
+        } else if (light->kind == CS_LIGHT_ENVIRONMENT)
             found = cs_escape_to_environment(scene, light, &path->ray, path->cosine);
         else if (light->kind == CS_LIGHT_SUN && path->depth > 0u)
             found = cs_escape_to_sun(light, &path->ray);
@@ -118,11 +125,16 @@ static inline cs_vint cs_is_open(const cs_surface *surface, const cs_vfloat *tow
 }
 
 /* The nearest surfaces along the rays up to hit->distance; returns the lanes that have one. Lanes
- * without one get distance 0. */
-static inline cs_vint cs_find_surfaces(const cs_scene_buffers *scene, const cs_ray *ray,
-                                       cs_hit *hit, cs_surface *surface)
+ * without one get distance 0. lights: their number. */
+static inline cs_vint cs_find_surfaces(const cs_scene_buffers *scene, cs_u32 lights,
+                                       const cs_ray *ray, cs_hit *hit, cs_surface *surface)
 {
     cs_traverse(scene->nodes, scene->triangles, ray, 0, hit);
+#if CS_HAS(LIGHTS)
+    cs_meet_shapes(scene, lights, ray, 0, hit);
+#else
+    (void)lights;
+#endif
     cs_vint seen = hit->triangle >= 0;
     hit->distance = seen ? hit->distance : (cs_vfloat)(0.0f);
     if (cs_any(seen)) *surface = cs_describe_hits(scene, ray, hit);
@@ -153,7 +165,7 @@ static inline cs_u32 cs_passing_key(cs_u32 depth, cs_u32 ray, cs_u32 passed)
 static inline cs_vint cs_path_hit(const cs_scene_buffers *scene, const cs_draws *draws,
                                   cs_path *path, cs_hit *hit, cs_surface *surface)
 {
-    cs_vint seen = cs_find_surfaces(scene, &path->ray, hit, surface);
+    cs_vint seen = cs_find_surfaces(scene, path->lights, &path->ray, hit, surface);
 #if CS_HAS(MATERIALS)
     cs_vint passes = seen; /* lanes that stopped once have stopped */
     for (cs_u32 n = 0u; cs_any(seen) && n < (cs_u32)CS_MOST_PASSED; n++) {
@@ -165,7 +177,7 @@ static inline cs_vint cs_path_hit(const cs_scene_buffers *scene, const cs_draws 
         for (int i = 0; i < 3; i++)
             path->ray.origin[i] = passes ? from[i] : path->ray.origin[i];
         hit->distance = path->alive ? (cs_vfloat)(INFINITY) : (cs_vfloat)(-1.0f);
-        seen = cs_find_surfaces(scene, &path->ray, hit, surface);
+        seen = cs_find_surfaces(scene, path->lights, &path->ray, hit, surface);
     }
 #else
     (void)draws;
@@ -184,7 +196,8 @@ static inline void cs_shadow_through(const cs_scene_buffers *scene, cs_ray *ray,
         cs_surface surface;
         cs_vfloat origin[3], from[3];
         hit->distance = left;
-        cs_vint seen = cs_find_surfaces(scene, ray, hit, &surface);
+        cs_vint seen = cs_find_surfaces(scene, path->lights, ray, hit, &surface);
+        left = hit->triangle < (cs_vint)(CS_NO_HIT) ? (cs_vfloat)(-1.0f) : left;
         if (!cs_any(seen)) break;
         cs_vint passes = cs_passes(&surface, draws, cs_passing_key(path->depth, path->shadows, n));
         cs_vfloat rest =
@@ -210,8 +223,12 @@ static inline void cs_path_shadow(const cs_scene_buffers *scene, cs_ray *ray, co
     }
 #endif
     (void)draws;
-    (void)path;
     cs_traverse(scene->nodes, scene->triangles, ray, 1, hit);
+#if CS_HAS(LIGHTS)
+    cs_meet_shapes(scene, path->lights, ray, 1, hit);
+#else
+    (void)path;
+#endif
 }
 
 /* Adds what one light reflects towards the path, as cs_add_light does for direct light alone. */
@@ -287,6 +304,7 @@ static inline cs_path cs_path_begin(const cs_launch *launch, const cs_ray *ray, 
     path.depth = 0u;
     path.clamp = launch->clamp;
     path.see_through = launch->see_through;
+    path.lights = launch->lights;
     path.shadows = 0u;
     path.radiance.shadow_rays = (cs_vfloat)(0.0f);
     for (int c = 0; c < 3; c++) {
@@ -305,7 +323,7 @@ static inline int cs_path_advance(const cs_scene_buffers *scene, const cs_launch
     hit.distance = path->alive ? (cs_vfloat)(INFINITY) : (cs_vfloat)(-1.0f);
     cs_vint seen = cs_path_hit(scene, draws, path, &hit, &surface);
 #if CS_HAS(LIGHTS)
-    cs_path_add_escaped(scene, launch->lights, path->alive & (hit.triangle < 0), path);
+    cs_path_add_escaped(scene, &hit, path);
 #endif
     if (!cs_any(seen)) return 0;
     cs_path_add_emission(scene, launch->lights, &surface, hit.distance, path);

@@ -14,10 +14,12 @@ typedef struct cs_radiance {
 } cs_radiance;
 
 /* Adds what a light reflects from the surface towards `out`. The shadow ray begins at `origin`, off
- * the surface, and ends where `light->towards` does: what the light gives does not shift. */
-static inline void cs_add_light(const cs_scene_buffers *scene, const cs_surface *surface,
-                                const cs_vfloat *origin, const cs_vfloat *out,
-                                const cs_light_sample *light, cs_radiance *radiance)
+ * the surface, and ends where `light->towards` does: what the light gives does not shift. lights:
+ * their number. */
+static inline void cs_add_light(const cs_scene_buffers *scene, cs_u32 lights,
+                                const cs_surface *surface, const cs_vfloat *origin,
+                                const cs_vfloat *out, const cs_light_sample *light,
+                                cs_radiance *radiance)
 {
     cs_vint facing =
         surface->hit & (light->weight > 0.0f) & (cs_dot(surface->outward, light->towards) > 0.0f);
@@ -31,6 +33,11 @@ static inline void cs_add_light(const cs_scene_buffers *scene, const cs_surface 
     cs_hit blocked;
     blocked.distance = facing ? (cs_vfloat)(light->reach) : (cs_vfloat)(-1.0f);
     cs_traverse(scene->nodes, scene->triangles, &shadow, 1, &blocked);
+#if CS_HAS(LIGHTS)
+    cs_meet_shapes(scene, lights, &shadow, 1, &blocked);
+#else
+    (void)lights;
+#endif
     cs_bsdf_value bsdf = cs_bsdf_eval(surface, out, light->towards);
     cs_vfloat weight = blocked.distance > 0.0f ? light->weight * bsdf.scale : (cs_vfloat)(0.0f);
     for (int c = 0; c < 3; c++)
@@ -39,17 +46,26 @@ static inline void cs_add_light(const cs_scene_buffers *scene, const cs_surface 
 }
 
 #if CS_HAS(LIGHTS)
-/* Adds the environment that the lanes in `escaped` see. */
-static inline void cs_add_environment(const cs_scene_buffers *scene, cs_u32 lights,
-                                      const cs_ray *ray, cs_vint escaped, cs_radiance *radiance)
+/* Adds the lights, of `lights`, that the camera's rays see: shapes that they met and, in the lanes
+ * in `active`, the environment. */
+static inline void cs_add_escaped(const cs_scene_buffers *scene, cs_u32 lights, const cs_ray *ray,
+                                  const cs_hit *hit, cs_vint active, cs_radiance *radiance)
 {
-    if (!cs_any(escaped)) return;
+    if (!cs_any(active & (hit->triangle < 0))) return;
     for (cs_u32 i = 0u; i < lights; i++) {
-        if (scene->lights[i].kind != CS_LIGHT_ENVIRONMENT) continue;
-        cs_escaped found =
-            cs_escape_to_environment(scene, scene->lights + i, ray, (cs_vfloat)(0.0f));
+        CS_GLOBAL const cs_light *light = scene->lights + i;
+        cs_vint sees = active & (hit->triangle == (cs_vint)(CS_NO_HIT));
+        cs_escaped found;
+        if (light->kind == CS_LIGHT_ENVIRONMENT) {
+            found = cs_escape_to_environment(scene, light, ray, (cs_vfloat)(0.0f));
+        } else if (cs_is_shape(light)) {
+            sees = hit->triangle == (cs_vint)(cs_shape_hit(i));
+            found = cs_escape_to_shape(light, ray);
+        } else {
+            continue;
+        }
         for (int c = 0; c < 3; c++)
-            radiance->channel[c] += escaped ? found.colour[c] : (cs_vfloat)(0.0f);
+            radiance->channel[c] += sees ? found.colour[c] : (cs_vfloat)(0.0f);
     }
 }
 #endif
@@ -67,7 +83,8 @@ static inline cs_radiance cs_radiance_along(const cs_scene_buffers *scene, cs_u3
     for (int c = 0; c < 3; c++)
         radiance.channel[c] = (cs_vfloat)(0.0f);
 #if CS_HAS(LIGHTS)
-    cs_add_environment(scene, lights, ray, active & (hit.triangle < 0), &radiance);
+    cs_meet_shapes(scene, lights, ray, 0, &hit);
+    cs_add_escaped(scene, lights, ray, &hit, active, &radiance);
 #endif
     cs_vint seen = hit.triangle >= 0;
     if (!cs_any(seen)) return radiance;
@@ -81,7 +98,7 @@ static inline cs_radiance cs_radiance_along(const cs_scene_buffers *scene, cs_u3
     }
     for (cs_u32 i = 0u; i < lights; i++) {
         cs_light_sample light = cs_sample_light(scene, scene->lights + i, &surface, light_pair);
-        cs_add_light(scene, &surface, origin, out, &light, &radiance);
+        cs_add_light(scene, lights, &surface, origin, out, &light, &radiance);
     }
     return radiance;
 }

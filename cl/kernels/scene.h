@@ -146,7 +146,7 @@ CS_SHARED_WORDS(cs_texture, 4);
 typedef struct cs_light {
     cs_f32 position[3];
     cs_u32 kind;    /* CS_LIGHT_ */
-    cs_f32 axis[3]; /* unit vector from what is lit towards the light */
+    cs_f32 axis[3]; /* unit vector from what is lit towards the light; of some kinds, an edge */
     cs_u32 count;   /* emissive triangles */
     cs_f32 colour[3];
     cs_f32 parameters[5]; /* numbers that the kind alone knows */

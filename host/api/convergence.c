@@ -103,3 +103,9 @@ void clshear_convergence_fit(const clshear_convergence *result, clshear_fit *fit
 {
     cs_struct_out(fit, &result->fit, sizeof result->fit);
 }
+
+void clshear_convergence_local_fit(const clshear_convergence *result, size_t index,
+                                   clshear_fit *fit)
+{
+    cs_struct_out(fit, &result->local[index], sizeof result->local[index]);
+}

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "device/opencl.h"
+#include "device/pocl_cache.h"
 #include "device/program.h"
 
 /* What is compiled for a set of features. */
@@ -78,10 +79,12 @@ static clshear_status create_kernel(cs_device *device, cs_variant *variant, cs_k
     const char *name = kernel_list[kernel].name;
     cl_int code;
     cl_uint arguments = 0;
+    char advice[1280] = "";
     size_t most = device->local_size;
     cl_kernel made = clCreateKernel(variant->programs[kernel_list[kernel].program], name, &code);
     variant->kernels[kernel] = made;
-    CS_OPENCL(code, "kernel %s cannot be created", name);
+    if (code != CL_SUCCESS) cs_pocl_cache_advice(device->id, advice, sizeof advice);
+    CS_OPENCL(code, "kernel %s cannot be created%s", name, advice);
     CS_OPENCL(clGetKernelInfo(made, CL_KERNEL_NUM_ARGS, sizeof arguments, &arguments, NULL),
               "kernel %s: no number of arguments", name);
     CS_REQUIRE(arguments == kernel_list[kernel].arguments, CLSHEAR_DEVICE_FAILED,

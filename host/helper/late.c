@@ -33,13 +33,13 @@ clshear_status cs_read_late(cs_bytes *bytes, cs_model *model, cs_error *error)
 
 /* In the place of image_io.cpp, which is in the module. */
 clshear_status cs_image_read_texels(const char *path, const char *label, const void *memory,
-                                    size_t size, float base, float gain, cs_texels *texels,
+                                    size_t size, const cs_texel_use *use, cs_texels *texels,
                                     cs_error *error)
 {
-    clshear_status (*read)(const char *, const char *, const void *, size_t, float, float,
+    clshear_status (*read)(const char *, const char *, const void *, size_t, const cs_texel_use *,
                            cs_texels *, cs_error *);
     void *address = find("clshear-import-images.so", "cs_image_read_texels", error);
     if (address == NULL) return CLSHEAR_BAD_FILE;
     memcpy(&read, &address, sizeof read);
-    return read(path, label, memory, size, base, gain, texels, error);
+    return read(path, label, memory, size, use, texels, error);
 }

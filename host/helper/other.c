@@ -82,7 +82,7 @@ static clshear_status add_material(const importing *work, const struct aiMateria
     take_colour(source, "$clr.emissive", material->emissive);
     material->emissive_map.missing = aiGetMaterialTextureCount(source, aiTextureType_EMISSIVE) > 0;
     material->normal_map.missing = aiGetMaterialTextureCount(source, aiTextureType_NORMALS) > 0;
-    material->bump_map.missing = aiGetMaterialTextureCount(source, aiTextureType_HEIGHT) > 0;
+    material->normal_map.missing |= aiGetMaterialTextureCount(source, aiTextureType_HEIGHT) > 0;
     material->alpha_map.missing = aiGetMaterialTextureCount(source, aiTextureType_OPACITY) > 0;
     clshear_status status = take_map(work, source, &material->base_map);
     cs_material_whiten(material);

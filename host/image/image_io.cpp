@@ -51,18 +51,19 @@ void forget(const char *path)
     OIIO::ImageCache::create(true)->invalidate(OIIO::ustring(path), true);
 }
 
-/* Any number of channels as linear RGBA: grey is repeated, alpha counts as 1. Files of integers
- * (`is_integer`) that say nothing of their curve have that of sRGB. */
-ImageBuf linear_rgba(const ImageBuf &source, bool is_integer)
+/* Any number of channels as RGBA: grey is repeated, alpha is 1 where there is none. Colours become
+ * linear; files of integers (`is_integer`) that say nothing of their curve have that of sRGB. */
+ImageBuf linear_rgba(const ImageBuf &source, bool is_integer, bool is_colour)
 {
     const int channels = source.nchannels();
-    const int grey = channels < 3;
-    const int order[4] = {0, grey ? 0 : 1, grey ? 0 : 2, -1};
+    const int alpha = source.spec().alpha_channel;
+    const int grey = channels < (alpha >= 0 ? 4 : 3);
+    const int order[4] = {0, grey ? 0 : 1, grey ? 0 : 2, alpha};
     const float fill[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     ImageBuf rgba = OIIO::ImageBufAlgo::channels(source, 4, order, fill);
     std::string space = source.spec().get_string_attribute("oiio:ColorSpace");
     if (space.empty()) space = is_integer ? "sRGB" : "linear";
-    if (space != "sRGB") return rgba;
+    if (space != "sRGB" || !is_colour) return rgba;
     return OIIO::ImageBufAlgo::colorconvert(rgba, "sRGB", "linear", false);
 }
 
@@ -105,7 +106,7 @@ std::string reason_of(const ImageBuf &image, const std::string &path)
     return reason.empty() ? "not an image that can be read" : reason;
 }
 
-/* Colours as the file has them, not multiplied by alpha: alpha is no part of a colour here. */
+/* Colours as they are before alpha multiplies them. */
 ImageBuf without_alpha(ImageBuf &&source)
 {
     const ImageSpec &spec = source.spec();
@@ -120,8 +121,8 @@ ImageBuf without_alpha(ImageBuf &&source)
 /* Texels in one image: more are a damaged head rather than a picture. */
 constexpr uint64_t most_texels = uint64_t(1) << 28;
 
-/* An image as linear RGBA. */
-clshear_status read_rgba(const Source &from, ImageBuf &rgba, cs_error *error)
+/* An image as RGBA, its colours (`is_colour`) linear. */
+clshear_status read_rgba(const Source &from, bool is_colour, ImageBuf &rgba, cs_error *error)
 {
     if (from.memory == nullptr && cs_is_special_file(from.path))
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: is not a regular file", from.label);
@@ -146,20 +147,38 @@ clshear_status read_rgba(const Source &from, ImageBuf &rgba, cs_error *error)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
                        reason_of(source, path).c_str());
     const bool is_integer = !source.nativespec().format.is_floating_point();
-    rgba = linear_rgba(without_alpha(std::move(source)), is_integer);
+    rgba = linear_rgba(without_alpha(std::move(source)), is_integer, is_colour);
     if (rgba.has_error())
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
                        first_line(rgba.geterror()).c_str());
     return CLSHEAR_OK;
 }
 
-clshear_status read_texels(const Source &from, float base, float gain, cs_texels *texels,
+/* Applies base and gain, and converts what are no colours. */
+void convert_texels(const cs_texel_use &use, ImageBuf &rgba)
+{
+    if (use.base != 0.0f || use.gain != 1.0f) {
+        const float gains[4] = {use.gain, use.gain, use.gain, 1.0f};
+        const float bases[4] = {use.base, use.base, use.base, 0.0f};
+        rgba = OIIO::ImageBufAlgo::mad(rgba, OIIO::cspan<float>(gains, 4),
+                                       OIIO::cspan<float>(bases, 4));
+    }
+    if (use.kind == CS_TEXELS_COLOUR || use.kind == CS_TEXELS_DATA) return;
+    std::vector<float> texels(4 * rgba.spec().image_pixels());
+    if (!rgba.get_pixels(rgba.roi(), TypeDesc::FLOAT, texels.data())) return;
+    if (!cs_texels_convert(use.kind, texels.data(), static_cast<size_t>(rgba.spec().width),
+                           static_cast<size_t>(rgba.spec().height)))
+        throw std::bad_alloc();
+    rgba.set_pixels(rgba.roi(), TypeDesc::FLOAT, texels.data());
+}
+
+clshear_status read_texels(const Source &from, const cs_texel_use &use, cs_texels *texels,
                            cs_error *error)
 {
     ImageBuf rgba;
-    clshear_status status = read_rgba(from, rgba, error);
+    clshear_status status = read_rgba(from, use.kind == CS_TEXELS_COLOUR, rgba, error);
     if (status != CLSHEAR_OK) return status;
-    if (base != 0.0f || gain != 1.0f) rgba = OIIO::ImageBufAlgo::mad(rgba, gain, base);
+    convert_texels(use, rgba);
     const size_t width = static_cast<size_t>(rgba.spec().width);
     const size_t height = static_cast<size_t>(rgba.spec().height);
     auto *halves = static_cast<uint16_t *>(std::malloc(width * height * 4 * sizeof(uint16_t)));
@@ -180,7 +199,7 @@ clshear_status read_luminance(const char *path, int most, float **luminance, int
                               int *height, cs_error *error)
 {
     ImageBuf rgba;
-    clshear_status status = read_rgba({path, path, nullptr, 0}, rgba, error);
+    clshear_status status = read_rgba({path, path, nullptr, 0}, true, rgba, error);
     if (status != CLSHEAR_OK) return status;
     const int full_width = rgba.spec().width, full_height = rgba.spec().height;
     const int longer = full_width > full_height ? full_width : full_height;
@@ -205,7 +224,7 @@ clshear_status read_colours(const char *path, float **colours, size_t *width, si
                             cs_error *error)
 {
     ImageBuf rgba;
-    clshear_status status = read_rgba({path, path, nullptr, 0}, rgba, error);
+    clshear_status status = read_rgba({path, path, nullptr, 0}, true, rgba, error);
     if (status != CLSHEAR_OK) return status;
     *width = static_cast<size_t>(rgba.spec().width);
     *height = static_cast<size_t>(rgba.spec().height);
@@ -433,11 +452,12 @@ clshear_status write_picture(const char *path, const cs_picture *picture, cs_err
 } // namespace
 
 extern "C" clshear_status cs_image_read_texels(const char *path, const char *label,
-                                               const void *memory, size_t size, float base,
-                                               float gain, cs_texels *texels, cs_error *error)
+                                               const void *memory, size_t size,
+                                               const cs_texel_use *use, cs_texels *texels,
+                                               cs_error *error)
 {
     return guarded(label, error, [&] {
-        return read_texels({path, label, memory, size}, base, gain, texels, error);
+        return read_texels({path, label, memory, size}, *use, texels, error);
     });
 }
 

@@ -6,12 +6,14 @@
 #include <stdint.h>
 
 #include "base/status.h"
+#include "image/texel_kinds.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* Texels in the device's layout: 4 IEEE halves each, linear Rec.709, rows from the top. */
+/* Texels in the device's layout: 4 IEEE halves each, linear Rec.709 and alpha, rows from the top.
+ */
 typedef struct cs_texels {
     uint32_t width;
     uint32_t height;
@@ -19,10 +21,10 @@ typedef struct cs_texels {
 } cs_texels;
 
 /* Reads an image file, or where `memory` is not NULL the `size` bytes of one; `label` is what
- * messages call it. Texels are base + gain * those of the file, whatever its alpha. Images of
- * integers are taken as sRGB unless they say otherwise. */
+ * messages call it. Colours are not multiplied by alpha, which is 1 where the file has none. Images
+ * of integers are taken as sRGB unless they say otherwise, or are no colours. */
 clshear_status cs_image_read_texels(const char *path, const char *label, const void *memory,
-                                    size_t size, float base, float gain, cs_texels *texels,
+                                    size_t size, const cs_texel_use *use, cs_texels *texels,
                                     cs_error *error);
 
 /* Reads the linear luminance of an image, with negative values clamped to 0, reduced to at most

@@ -87,6 +87,13 @@ static float usable_coordinate(double value)
     return fabs(value) < 1e6 ? (float)value : 0.0f; /* NaN too */
 }
 
+/* Three numbers of a file; zeros, unless all are finite. */
+static void copy_finite(const float *from, float *to)
+{
+    if (isfinite(from[0]) && isfinite(from[1]) && isfinite(from[2]))
+        memcpy(to, from, 3 * sizeof *to);
+}
+
 static int fill_vertex(const emission *work, const vertex_key *key)
 {
     const cs_model *model = work->model;
@@ -100,12 +107,11 @@ static int fill_vertex(const emission *work, const vertex_key *key)
     for (int axis = 0; axis < 3; axis++)
         position[axis] = (float)(from[axis] - scene->origin[axis]);
     if (key->normal != CS_NO_INDEX)
-        memcpy(vertex->normal, ((const float(*)[3])model->normals.items)[key->normal],
-               sizeof vertex->normal);
+        copy_finite(((const float(*)[3])model->normals.items)[key->normal], vertex->normal);
     if (key->texture != CS_NO_INDEX) {
         const cs_material_description *material =
             (const cs_material_description *)model->materials.items + key->material;
-        const cs_map *map = &material->base_map;
+        const cs_map *map = cs_material_placing(material);
         const float *st = ((const float(*)[2])model->textures.items)[key->texture];
         const double s = (double)st[0], t = (double)st[1];
         vertex->texture[0] =
@@ -113,8 +119,7 @@ static int fill_vertex(const emission *work, const vertex_key *key)
         vertex->texture[1] = usable_coordinate(map->up[0] * s + map->up[1] * t + map->up[2]);
     }
     if (colour != NULL)
-        memcpy(colour, ((const float(*)[3])model->colours.items)[key->position],
-               3 * sizeof *colour);
+        copy_finite(((const float(*)[3])model->colours.items)[key->position], colour);
     return 1;
 }
 
@@ -172,7 +177,7 @@ static clshear_status add_triangles(cs_model *model, cs_scene *scene, cs_error *
     int good = plain != NULL;
     cs_index_map_init(&work.vertices, sizeof(vertex_key));
     for (size_t i = 0; i < model->triangles.count && good; i++) {
-        const int textured = materials[triangles[i].material].texture != CS_NO_TEXTURE;
+        const int textured = cs_material_is_textured(&materials[triangles[i].material]);
         for (int k = 0; k < 3 && textured; k++)
             if (triangles[i].corner[k].texture == CS_NO_INDEX) {
                 plain[triangles[i].material]++;

@@ -87,7 +87,9 @@ static clshear_status read_map(gltf_reader *reader, const json_t *parent, const 
     const long long index = gltf_index(info, "index"), set = gltf_index(info, "texCoord");
     const json_t *texture = gltf_at(reader, "textures", index);
     if (texture == NULL) return CLSHEAR_BAD_FILE;
+    const cs_texel_use use = map->use;
     cs_map_init(map);
+    map->use = use;
     map->set = set > 0 && set < 64 ? (int)set : 0;
     set_transform(info, map);
     const long long number = gltf_index(texture, "sampler");
@@ -100,8 +102,7 @@ static clshear_status read_map(gltf_reader *reader, const json_t *parent, const 
     const long long source = source_of(texture);
     if (source >= 0) return add_image(reader, source, &map->image);
     map->missing = 1;
-    cs_warn(reader->model->log,
-            "%s: texture %lld has no image that can be read (extension %s); it is mid-grey",
+    cs_warn(reader->model->log, "%s: texture %lld has no image that can be read (extension %s)",
             reader->model->path, index,
             gltf_extension(texture, "KHR_texture_basisu") != NULL ? "KHR_texture_basisu"
                                                                   : "not known");
@@ -110,10 +111,11 @@ static clshear_status read_map(gltf_reader *reader, const json_t *parent, const 
 
 /* ----- Materials ----- */
 
-/* Of a map that the device does not use it is enough to know that it is there. */
-static void note_map(const json_t *parent, const char *key, cs_map *map)
+/* Notes a map that the device has no place for. */
+static void ask_map(const json_t *parent, const char *key, const char *word,
+                    cs_material_description *material)
 {
-    if (json_is_object(json_object_get(parent, key))) map->missing = 1;
+    if (json_is_object(json_object_get(parent, key))) cs_material_ask(material, word);
 }
 
 static void read_alpha(const json_t *json, cs_material_description *material)
@@ -122,35 +124,123 @@ static void read_alpha(const json_t *json, cs_material_description *material)
     if (strcmp(mode, "MASK") == 0) material->alpha_mode = CS_ALPHA_MASK;
     if (strcmp(mode, "BLEND") == 0) material->alpha_mode = CS_ALPHA_BLEND;
     material->alpha_cutoff = (float)gltf_number(json, "alphaCutoff", 0.5);
-    material->double_sided = json_is_true(json_object_get(json, "doubleSided"));
 }
 
-/* Extensions of a material that the description has members for, and names of the others. */
-static void read_extensions(const json_t *json, cs_material_description *material)
+/* The dielectric's reflection, by KHR_materials_ior and KHR_materials_specular: f0 is that of the
+ * index times the colour, and both that and f90 are multiplied by the factor. */
+static void read_reflection(const json_t *json, cs_material_description *material)
 {
-    const json_t *ext = gltf_extension(json, "KHR_materials_emissive_strength");
-    material->emissive_strength = (float)gltf_number(ext, "emissiveStrength", 1.0);
-    ext = gltf_extension(json, "KHR_materials_ior");
-    material->ior = (float)gltf_number(ext, "ior", 1.5);
-    ext = gltf_extension(json, "KHR_materials_transmission");
+    const json_t *ext = gltf_extension(json, "KHR_materials_specular");
+    const double ior = gltf_number(gltf_extension(json, "KHR_materials_ior"), "ior", 1.5);
+    const double edge = (ior - 1.0) / (ior + 1.0);
+    double colour[3] = {1, 1, 1};
+    gltf_numbers(ext, "specularColorFactor", colour, 3);
+    const double grey = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
+    const double factor = gltf_number(ext, "specularFactor", 1.0);
+    material->reflectance = (float)(fmin(edge * edge * grey, 1.0) * factor);
+    material->grazing = (float)factor;
+    if (colour[0] != colour[1] || colour[1] != colour[2])
+        cs_material_ask(material, "a coloured reflection (taken as grey)");
+    ask_map(ext, "specularTexture", "a map of the reflection", material);
+    ask_map(ext, "specularColorTexture", "a map of the reflection", material);
+}
+
+/* Layers above and transparency below. */
+static void read_layers(const json_t *json, cs_material_description *material)
+{
+    const json_t *ext = gltf_extension(json, "KHR_materials_transmission");
     material->transmission = (float)gltf_number(ext, "transmissionFactor", 0.0);
-    note_map(ext, "transmissionTexture", &material->transmission_map);
+    ask_map(ext, "transmissionTexture", "a map of transmission", material);
+    ext = gltf_extension(json, "KHR_materials_volume");
+    material->thickness = (float)gltf_number(ext, "thicknessFactor", 0.0);
     ext = gltf_extension(json, "KHR_materials_clearcoat");
     material->clearcoat = (float)gltf_number(ext, "clearcoatFactor", 0.0);
     material->clearcoat_roughness = (float)gltf_number(ext, "clearcoatRoughnessFactor", 0.0);
+    ask_map(ext, "clearcoatTexture", "a map of the clear coat", material);
+    ask_map(ext, "clearcoatRoughnessTexture", "a map of the clear coat", material);
+    ask_map(ext, "clearcoatNormalTexture", "a normal map of the clear coat", material);
     ext = gltf_extension(json, "KHR_materials_sheen");
     gltf_floats(ext, "sheenColorFactor", material->sheen_colour, 3);
     material->sheen_roughness = (float)gltf_number(ext, "sheenRoughnessFactor", 0.0);
+    ask_map(ext, "sheenColorTexture", "a map of sheen", material);
+    ask_map(ext, "sheenRoughnessTexture", "a map of sheen", material);
+}
+
+/* The extensions that are read; asks for the others by name. */
+static void read_others(const json_t *json, cs_material_description *material)
+{
+    static const char *const known[] = {"KHR_materials_emissive_strength",
+                                        "KHR_materials_ior",
+                                        "KHR_materials_specular",
+                                        "KHR_materials_transmission",
+                                        "KHR_materials_volume",
+                                        "KHR_materials_clearcoat",
+                                        "KHR_materials_sheen",
+                                        "KHR_materials_unlit",
+                                        "KHR_materials_pbrSpecularGlossiness"};
+    const char *name;
+    json_t *value;
+    json_object_foreach(json_object_get(json, "extensions"), name, value)
+    {
+        size_t i = 0;
+        while (i < sizeof known / sizeof *known && strcmp(known[i], name) != 0)
+            i++;
+        if (i == sizeof known / sizeof *known && strlen(name) < 60) cs_material_ask(material, name);
+    }
+}
+
+static clshear_status read_emission(gltf_reader *reader, const json_t *json,
+                                    cs_material_description *material)
+{
+    const json_t *ext = gltf_extension(json, "KHR_materials_emissive_strength");
+    gltf_floats(json, "emissiveFactor", material->emissive, 3);
+    material->emissive_strength = (float)gltf_number(ext, "emissiveStrength", 1.0);
     material->unlit = gltf_extension(json, "KHR_materials_unlit") != NULL;
-    static const struct {
-        const char *name, *word;
-    } others[] = {{"KHR_materials_volume", "a volume"},
-                  {"KHR_materials_iridescence", "iridescence"},
-                  {"KHR_materials_anisotropy", "anisotropy"},
-                  {"KHR_materials_dispersion", "dispersion"},
-                  {"KHR_materials_diffuse_transmission", "diffuse transmission"}};
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (gltf_extension(json, others[i].name) != NULL) cs_material_ask(material, others[i].word);
+    return read_map(reader, json, "emissiveTexture", &material->emissive_map);
+}
+
+static clshear_status read_normals(gltf_reader *reader, const json_t *json,
+                                   cs_material_description *material)
+{
+    const json_t *info = json_object_get(json, "normalTexture");
+    material->normal_scale = (float)gltf_number(info, "scale", 1.0);
+    return read_map(reader, json, "normalTexture", &material->normal_map);
+}
+
+/* KHR_materials_pbrSpecularGlossiness. Its specular colour may be a metal's. */
+static clshear_status read_glossiness(gltf_reader *reader, const json_t *ext,
+                                      cs_material_description *material)
+{
+    float colour[3] = {1, 1, 1};
+    gltf_floats(ext, "diffuseFactor", material->base_colour, 4);
+    gltf_floats(ext, "specularFactor", colour, 3);
+    material->roughness = (float)(1.0 - gltf_number(ext, "glossinessFactor", 1.0));
+    if (json_is_object(json_object_get(ext, "specularGlossinessTexture"))) {
+        cs_material_ask(material, "a map of specular colour and gloss");
+        material->roughness = 1.0f;
+        colour[0] = colour[1] = colour[2] = 0.04f;
+    }
+    clshear_status status = read_map(reader, ext, "diffuseTexture", &material->base_map);
+    cs_material_reflect(material, colour);
+    return status;
+}
+
+/* Where nothing is said of metal, gloss or layers, the surface is Lambert's, which the default, a
+ * metal of roughness 1, nearly looks like. */
+static int asks_for_more(const json_t *json)
+{
+    static const char *const keys[] = {"metallicFactor", "roughnessFactor",
+                                       "metallicRoughnessTexture"};
+    static const char *const extensions[] = {"KHR_materials_ior", "KHR_materials_specular",
+                                             "KHR_materials_transmission",
+                                             "KHR_materials_clearcoat", "KHR_materials_sheen"};
+    const json_t *pbr = json_object_get(json, "pbrMetallicRoughness");
+    int more = 0;
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        more |= json_object_get(pbr, keys[i]) != NULL;
+    for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++)
+        more |= gltf_extension(json, extensions[i]) != NULL;
+    return more;
 }
 
 static clshear_status read_surface(gltf_reader *reader, const json_t *json,
@@ -158,21 +248,21 @@ static clshear_status read_surface(gltf_reader *reader, const json_t *json,
 {
     const json_t *pbr = json_object_get(json, "pbrMetallicRoughness");
     const json_t *old = gltf_extension(json, "KHR_materials_pbrSpecularGlossiness");
+    clshear_status status = CLSHEAR_OK;
     for (int c = 0; c < 3; c++)
         material->base_colour[c] = 1.0f;
-    if (old != NULL) {
-        gltf_floats(old, "diffuseFactor", material->base_colour, 4);
-        cs_material_ask(material, "specular-glossiness");
-        return read_map(reader, old, "diffuseTexture", &material->base_map);
-    }
+    if (old != NULL) return read_glossiness(reader, old, material);
     gltf_floats(pbr, "baseColorFactor", material->base_colour, 4);
+    CS_TRY(read_map(reader, pbr, "baseColorTexture", &material->base_map));
+    if (!asks_for_more(json)) return status;
     material->metallic = (float)gltf_number(pbr, "metallicFactor", 1.0);
     material->roughness = (float)gltf_number(pbr, "roughnessFactor", 1.0);
-    material->asks_gloss = json_object_get(pbr, "metallicFactor") != NULL ||
-                           json_object_get(pbr, "roughnessFactor") != NULL;
-    note_map(pbr, "metallicRoughnessTexture", &material->metallic_map);
-    note_map(pbr, "metallicRoughnessTexture", &material->roughness_map);
-    return read_map(reader, pbr, "baseColorTexture", &material->base_map);
+    CS_TRY(read_map(reader, pbr, "metallicRoughnessTexture", &material->metallic_map));
+    material->roughness_map = material->metallic_map;
+    read_reflection(json, material);
+    read_layers(json, material);
+done:
+    return status;
 }
 
 static clshear_status read_material(gltf_reader *reader, long long index)
@@ -184,13 +274,12 @@ static clshear_status read_material(gltf_reader *reader, long long index)
     if (material == NULL) return cs_model_full(reader->model, reader->error);
     snprintf(name, sizeof name, "material %lld", index);
     cs_material_init(material, gltf_text(json, "name", name));
-    gltf_floats(json, "emissiveFactor", material->emissive, 3);
-    note_map(json, "emissiveTexture", &material->emissive_map);
-    note_map(json, "normalTexture", &material->normal_map);
-    note_map(json, "occlusionTexture", &material->occlusion_map);
     read_alpha(json, material);
-    read_extensions(json, material);
-    return read_surface(reader, json, material);
+    read_others(json, material);
+    clshear_status status = read_emission(reader, json, material);
+    if (status == CLSHEAR_OK) status = read_normals(reader, json, material);
+    if (status == CLSHEAR_OK) status = read_surface(reader, json, material);
+    return status;
 }
 
 clshear_status gltf_materials(gltf_reader *reader)

@@ -237,10 +237,12 @@ static clshear_status add_primitive(gltf_primitive *primitive, const json_t *jso
     if (normal >= 0) CS_TRY(add_normals(primitive, normal));
     const cs_material_description *material =
         (const cs_material_description *)reader->model->materials.items + primitive->material;
-    snprintf(set, sizeof set, "TEXCOORD_%d", material->base_map.set);
-    const long long texture = gltf_index(attributes, set);
-    if (texture >= 0 && material->base_map.image != CS_NO_IMAGE)
-        CS_TRY(add_textures(primitive, texture));
+    const cs_map *placing = cs_material_placing(material);
+    if (placing != NULL) {
+        snprintf(set, sizeof set, "TEXCOORD_%d", placing->set);
+        const long long texture = gltf_index(attributes, set);
+        if (texture >= 0) CS_TRY(add_textures(primitive, texture));
+    }
     const long long colour = gltf_index(attributes, "COLOR_0");
     if (colour >= 0) CS_TRY(add_colours(primitive, colour));
     CS_TRY(add_indexed(primitive, json, (int)mode));

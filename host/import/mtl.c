@@ -8,12 +8,14 @@
 
 #include "base/number.h"
 #include "import/find_file.h"
+#include "import/mtl_surface.h"
 #include "import/text.h"
 
 typedef struct mtl_reader {
     const char *path;
     cs_model *model;
     cs_array *materials;
+    mtl_values values; /* of the last material */
     cs_error *error;
     size_t line;
     size_t complaints;
@@ -47,21 +49,26 @@ static int read_numbers(char **at, double *numbers, int most)
 typedef struct value_line {
     const char *key;
     size_t offset; /* of the member, floats */
+    int is_raw;    /* a member of mtl_values, otherwise of the description */
     int count;
 } value_line;
 
-#define MEMBER(name) offsetof(cs_material_description, name)
+#define MEMBER(name) offsetof(cs_material_description, name), 0
+#define RAW(name) offsetof(mtl_values, name), 1
 
 static const value_line value_lines[] = {
     {"Kd", MEMBER(base_colour), 3},
     {"Ke", MEMBER(emissive), 3},
-    {"Ks", MEMBER(specular), 3},
-    {"Ns", MEMBER(shininess), 1},
-    {"Ni", MEMBER(ior), 1},
-    {"Pr", MEMBER(roughness), 1},
-    {"Pm", MEMBER(metallic), 1},
+    {"Ks", RAW(highlight), 3},
+    {"Ns", RAW(exponent), 1},
+    {"Ni", RAW(ior), 1},
+    {"Tr", RAW(transparency), 1},
+    {"Tf", RAW(filter), 3},
+    {"Pr", RAW(roughness), 1},
+    {"Pm", RAW(metallic), 1},
     {"Pc", MEMBER(clearcoat), 1},
     {"Pcr", MEMBER(clearcoat_roughness), 1},
+    {"Ps", MEMBER(sheen_colour), 3},
 };
 
 /* `Kd r` alone is grey. */
@@ -69,7 +76,8 @@ static void read_value(mtl_reader *reader, const value_line *entry,
                        cs_material_description *material, char *at)
 {
     double numbers[3];
-    float *member = (float *)(void *)((char *)material + entry->offset);
+    char *base = entry->is_raw ? (char *)&reader->values : (char *)material;
+    float *member = (float *)(void *)(base + entry->offset);
     const int count = read_numbers(&at, numbers, entry->count);
     if (count == 0) {
         char text[80];
@@ -81,35 +89,21 @@ static void read_value(mtl_reader *reader, const value_line *entry,
     for (int i = 0; i < entry->count; i++)
         member[i] = (float)numbers[i < count ? i : 0];
     if (count == 2) member[2] = member[1];
-    if (strcmp(entry->key, "Pr") == 0 || strcmp(entry->key, "Pm") == 0) material->asks_gloss = 1;
 }
 
-/* d, Tr, Tf, illum, sheen: what has no member of its own, or another sense. */
+/* `d -halo FACTOR`, whose halo is left out, illum, and what there is no place for. */
 static void read_other(mtl_reader *reader, const char *key, cs_material_description *material,
                        char *at)
 {
-    double numbers[3];
-    char *word = at;
-    if (strcasecmp(key, "d") == 0 && strncmp(at + strspn(at, " \t"), "-halo", 5) == 0)
-        word = at + strspn(at, " \t") + 5;
-    const int count = read_numbers(&word, numbers, 3);
-    if (count == 0) return;
-    if (strcasecmp(key, "d") == 0 || strcmp(key, "Tr") == 0) {
-        const double opacity = strcasecmp(key, "d") == 0 ? numbers[0] : 1.0 - numbers[0];
-        material->base_colour[3] = (float)opacity;
-        if (opacity < 1.0) material->alpha_mode = CS_ALPHA_BLEND;
-    } else if (strcmp(key, "illum") == 0) {
-        const int model = (int)numbers[0];
-        if (model == 3 || model == 5 || model == 8) cs_material_ask(material, "mirror reflection");
-        if (model == 4 || model == 6 || model == 7 || model == 9)
-            cs_material_ask(material, "glass");
-    } else if (strcmp(key, "Ps") == 0) {
-        for (int i = 0; i < 3; i++)
-            material->sheen_colour[i] = (float)numbers[i < count ? i : 0];
-    } else if (strcmp(key, "aniso") == 0 && numbers[0] != 0.0) {
-        cs_material_ask(material, "anisotropy");
-    }
-    (void)reader;
+    double number;
+    char *word = at + strspn(at, " \t");
+    const int is_opacity = strcasecmp(key, "d") == 0;
+    if (is_opacity && strncmp(word, "-halo", 5) == 0) word += 5;
+    if (read_numbers(&word, &number, 1) == 0) return;
+    if (is_opacity) reader->values.opacity = (float)number;
+    if (strcmp(key, "illum") == 0 && number >= 0.0 && number < 100.0)
+        reader->values.model = (int)number;
+    if (strcmp(key, "aniso") == 0 && number != 0.0) cs_material_ask(material, "anisotropy");
 }
 
 /* ----- Maps ----- */
@@ -117,17 +111,33 @@ static void read_other(mtl_reader *reader, const char *key, cs_material_descript
 typedef struct map_line {
     const char *key;
     size_t offset;
+    cs_texel_kind kind;
 } map_line;
 
+#define MAP(name) offsetof(cs_material_description, name)
+
 static const map_line map_lines[] = {
-    {"map_Kd", MEMBER(base_map)},       {"map_Ke", MEMBER(emissive_map)},
-    {"map_Ks", MEMBER(specular_map)},   {"map_Ns", MEMBER(specular_map)},
-    {"map_d", MEMBER(alpha_map)},       {"map_Tr", MEMBER(alpha_map)},
-    {"map_Pr", MEMBER(roughness_map)},  {"map_Pm", MEMBER(metallic_map)},
-    {"map_bump", MEMBER(bump_map)},     {"bump", MEMBER(bump_map)},
-    {"norm", MEMBER(normal_map)},       {"map_Kn", MEMBER(normal_map)},
-    {"disp", MEMBER(displacement_map)}, {"map_disp", MEMBER(displacement_map)},
+    {"map_Kd", MAP(base_map), CS_TEXELS_COLOUR},
+    {"map_Ke", MAP(emissive_map), CS_TEXELS_COLOUR},
+    {"map_Ns", MAP(roughness_map), CS_TEXELS_GLOSS},
+    {"map_d", MAP(alpha_map), CS_TEXELS_OPACITY},
+    {"map_Pr", MAP(roughness_map), CS_TEXELS_DATA},
+    {"map_Pm", MAP(metallic_map), CS_TEXELS_DATA},
+    {"map_bump", MAP(normal_map), CS_TEXELS_BUMPS},
+    {"bump", MAP(normal_map), CS_TEXELS_BUMPS},
+    {"norm", MAP(normal_map), CS_TEXELS_DATA},
+    {"map_Kn", MAP(normal_map), CS_TEXELS_DATA},
 };
+
+/* Maps that there is no place for. */
+static const struct {
+    const char *key;
+    const char *word;
+} other_maps[] = {{"map_Ks", "a map of highlights"},     {"disp", "displacement"},
+                  {"map_disp", "displacement"},          {"refl", "a reflection map"},
+                  {"map_refl", "a reflection map"},      {"map_Tr", "a map of transparency"},
+                  {"map_Ps", "a map of sheen"},          {"map_Pc", "a map of the clear coat"},
+                  {"map_Pcr", "a map of the clear coat"}};
 
 /* Options of a map with their numbers at most; 0: a word. */
 static const struct {
@@ -138,7 +148,7 @@ static const struct {
                {"-imfchan", 0}, {"-cc", 0},     {"-type", 0}};
 
 /* Takes one option into `map`; 0 where `*at` begins with none. */
-static int take_option(char **at, cs_map *map, double *scale, double *shift)
+static int take_option(char **at, cs_map *map, double *scale, double *shift, double *bump)
 {
     char *begin = *at + strspn(*at, " \t");
     const size_t length = strcspn(begin, " \t");
@@ -154,9 +164,10 @@ static int take_option(char **at, cs_map *map, double *scale, double *shift)
         if (strcmp(options[i].name, "-clamp") == 0 && strncmp(word, "on", word_length) == 0)
             map->wrap[0] = map->wrap[1] = CS_WRAP_CLAMP;
         if (strcmp(options[i].name, "-mm") == 0) {
-            if (count > 0) map->base = (float)numbers[0];
-            if (count > 1) map->gain = (float)numbers[1];
+            if (count > 0) map->use.base = (float)numbers[0];
+            if (count > 1) map->use.gain = (float)numbers[1];
         }
+        if (strcmp(options[i].name, "-bm") == 0 && count > 0) *bump = numbers[0];
         for (int k = 0; k < count && k < 2; k++) {
             if (strcmp(options[i].name, "-s") == 0) scale[k] = numbers[k];
             if (strcmp(options[i].name, "-o") == 0) shift[k] = numbers[k];
@@ -166,14 +177,18 @@ static int take_option(char **at, cs_map *map, double *scale, double *shift)
     return 0;
 }
 
-static clshear_status read_map(mtl_reader *reader, cs_map *map, char *at)
+static clshear_status read_map(mtl_reader *reader, cs_material_description *material,
+                               const map_line *entry, char *at)
 {
+    cs_map *map = (cs_map *)(void *)((char *)material + entry->offset);
     const char *folders[] = {reader->folders[0], reader->folders[1]};
-    double scale[2] = {1, 1}, shift[2] = {0, 0};
+    double scale[2] = {1, 1}, shift[2] = {0, 0}, bump = 1.0;
     char found[CS_FILE_PATH];
     cs_map_init(map);
-    while (take_option(&at, map, scale, shift)) {
+    map->use.kind = entry->kind;
+    while (take_option(&at, map, scale, shift, &bump)) {
     }
+    if (map == &material->normal_map) material->normal_scale = (float)bump;
     const char *name = cs_rest_of_line(at);
     if (*name == '\0') return CLSHEAR_OK;
     map->across[0] = scale[0];
@@ -196,12 +211,10 @@ static clshear_status read_line(mtl_reader *reader, cs_material_description *mat
             return CLSHEAR_OK;
         }
     for (size_t i = 0; i < sizeof map_lines / sizeof *map_lines; i++)
-        if (strcasecmp(key, map_lines[i].key) == 0) {
-            cs_map *map = (cs_map *)(void *)((char *)material + map_lines[i].offset);
-            return read_map(reader, map, at);
-        }
-    if (strcasecmp(key, "refl") == 0 || strcasecmp(key, "map_refl") == 0)
-        cs_material_ask(material, "a reflection map");
+        if (strcasecmp(key, map_lines[i].key) == 0)
+            return read_map(reader, material, &map_lines[i], at);
+    for (size_t i = 0; i < sizeof other_maps / sizeof *other_maps; i++)
+        if (strcasecmp(key, other_maps[i].key) == 0) cs_material_ask(material, other_maps[i].word);
     read_other(reader, key, material, at);
     return CLSHEAR_OK;
 }
@@ -217,6 +230,8 @@ static clshear_status read_lines(mtl_reader *reader, cs_bytes *bytes)
         const char *key = cs_next_word(&at);
         if (key == NULL || key[0] == '#') continue;
         if (strcasecmp(key, "newmtl") == 0) {
+            if (material != NULL) mtl_make_surface(&reader->values, material);
+            mtl_values_init(&reader->values);
             material = cs_model_extend(reader->materials, 1);
             if (material == NULL) return cs_model_full(reader->model, reader->error);
             cs_material_init(material, cs_rest_of_line(at));
@@ -224,6 +239,7 @@ static clshear_status read_lines(mtl_reader *reader, cs_bytes *bytes)
             status = read_line(reader, material, key, at);
         }
     }
+    if (material != NULL) mtl_make_surface(&reader->values, material);
     return status;
 }
 
@@ -232,7 +248,7 @@ clshear_status cs_mtl_read(const char *path, cs_model *model, cs_array *material
     cs_bytes bytes = {0};
     mtl_reader *reader = calloc(1, sizeof *reader);
     if (reader == NULL) return cs_model_full(model, error);
-    *reader = (mtl_reader){path, model, materials, error, 0, 0, {"", ""}};
+    *reader = (mtl_reader){.path = path, .model = model, .materials = materials, .error = error};
     cs_folder_of(path, reader->folders[0], sizeof reader->folders[0]);
     cs_folder_of(model->path, reader->folders[1], sizeof reader->folders[1]);
     clshear_status status = cs_bytes_read(path, &bytes, error);

@@ -37,7 +37,7 @@ void cs_scene_arrays(cs_scene *scene, cs_array *arrays[CS_SCENE_ARRAYS]);
 int cs_send_record(int pipe, uint32_t tag, uint32_t item_size, const void *bytes, size_t size);
 int cs_send_scene(int pipe, cs_scene *scene);
 
-/* Whether everything in a scene that was received names what is there. */
+/* Whether everything in a scene that was received names what is there, and is in its range. */
 int cs_scene_is_sound(cs_scene *scene);
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "commands/commands.h"
 #include "report/failure.h"
+#include "report/progress.h"
 
 static int run(int argc, char **argv)
 {
@@ -16,6 +17,7 @@ static int run(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
+    progress_note_signals();
     const int code = run(argc, argv);
     if (code != EXIT_DONE || (fflush(stdout) == 0 && !ferror(stdout))) return code;
     return complain(EXIT_FAILED, "standard output: cannot be written: %s", strerror(errno));

@@ -5,11 +5,6 @@
 #include "kernels/features.h"
 #include "scene/environment.h"
 
-enum {
-    LIGHT_NUMBERS = 6, /* of a point light in the settings: position, colour */
-    SUN_NUMBERS = 7    /* of a sun: direction, colour, diameter */
-};
-
 static clshear_status add(cs_array *lights, const cs_light *light, cs_error *error)
 {
     cs_light *added = cs_array_extend(lights, 1);
@@ -25,29 +20,66 @@ static clshear_status add_made(const clshear_light *light, cs_array *lights, cs_
     return status == CLSHEAR_OK ? add(lights, &made, error) : status;
 }
 
-/* The point lights and suns of the settings, which are in coordinates of the file. */
+/* Reads `count` numbers of a vector; returns what follows. */
+static const double *take(const double *numbers, int count, float *vector)
+{
+    for (int i = 0; i < count; i++)
+        vector[i] = (float)numbers[i];
+    return numbers + count;
+}
+
+/* Each fills in a light, but for its position, from one value of its setting, in the order of the
+ * flag; returns the place of the colour. */
+static const double *read_point(const double *numbers, clshear_light *light)
+{
+    light->kind = CLSHEAR_LIGHT_POINT;
+    return numbers + 3;
+}
+
+static const double *read_sun(const double *numbers, clshear_light *light)
+{
+    light->kind = CLSHEAR_LIGHT_DIRECTIONAL;
+    light->diameter_deg = (float)numbers[6];
+    return take(numbers, 3, light->direction);
+}
+
+static const double *read_sphere(const double *numbers, clshear_light *light)
+{
+    light->kind = CLSHEAR_LIGHT_SPHERE;
+    return take(numbers + 3, 1, &light->radius);
+}
+
+static const double *read_quad(const double *numbers, clshear_light *light)
+{
+    light->kind = CLSHEAR_LIGHT_QUAD;
+    return take(take(numbers + 3, 3, light->edge1), 3, light->edge2);
+}
+
+static const struct {
+    size_t setting;
+    const double *(*read)(const double *numbers, clshear_light *light);
+} readers[] = {
+#define READER(identifier, suffix) {CS_INDEX_##identifier, read_##suffix},
+    CS_LIGHT_SETTING_LIST(READER)
+#undef READER
+};
+
+/* The lights of the settings, which are in coordinates of the file. */
 static clshear_status add_settings(const clshear_settings *settings, const double *origin,
                                    cs_array *lights, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    const cs_setting_value *points = &settings->values[CS_INDEX_LIGHT];
-    const cs_setting_value *suns = &settings->values[CS_INDEX_SUN];
-    for (size_t i = 0; points->is_set && i < points->count; i += LIGHT_NUMBERS) {
-        clshear_light light = {.struct_size = sizeof light, .kind = CLSHEAR_LIGHT_POINT};
-        for (size_t c = 0; c < 3; c++) {
-            light.position[c] = (float)(points->numbers[i + c] - origin[c]);
-            light.colour[c] = (float)points->numbers[i + 3 + c];
+    for (size_t r = 0; r < sizeof readers / sizeof *readers; r++) {
+        const cs_setting_value *value = &settings->values[readers[r].setting];
+        const size_t each = (size_t)cs_setting_table[readers[r].setting].values;
+        for (size_t i = 0; value->is_set && i < value->count; i += each) {
+            const double *numbers = value->numbers + i;
+            clshear_light light = {.struct_size = sizeof light};
+            take(readers[r].read(numbers, &light), 3, light.colour);
+            for (int c = 0; c < 3; c++)
+                light.position[c] = (float)(numbers[c] - origin[c]);
+            CS_TRY(add_made(&light, lights, error));
         }
-        CS_TRY(add_made(&light, lights, error));
-    }
-    for (size_t i = 0; suns->is_set && i < suns->count; i += SUN_NUMBERS) {
-        clshear_light light = {.struct_size = sizeof light, .kind = CLSHEAR_LIGHT_DIRECTIONAL};
-        for (size_t c = 0; c < 3; c++) {
-            light.direction[c] = (float)suns->numbers[i + c];
-            light.colour[c] = (float)suns->numbers[i + 3 + c];
-        }
-        light.diameter_deg = (float)suns->numbers[i + 6];
-        CS_TRY(add_made(&light, lights, error));
     }
 done:
     return status;

@@ -5,6 +5,13 @@
 #include "render/objects.h"
 #include "settings/settings.h"
 
+/* The settings that are lists of lights: X(identifier, suffix of the function that reads it). */
+#define CS_LIGHT_SETTING_LIST(X) \
+    X(LIGHT, point)              \
+    X(SUN, sun)                  \
+    X(SPHERE, sphere)            \
+    X(QUAD, quad)
+
 typedef struct cs_lighting {
     cs_buffer *lights;      /* cs_light */
     cs_buffer *environment; /* an image and its tables; NULL: none */

@@ -70,20 +70,31 @@ static clshear_status run_kernel(const cs_pass *pass, const cs_batch *batch,
                        arguments, error);
 }
 
+static clshear_status tell(const clshear_settings *settings, const clshear_progress *progress,
+                           cs_error *error)
+{
+    if (settings == NULL || settings->progress == NULL) return CLSHEAR_OK;
+    if (settings->progress(settings->progress_user, progress) != 0)
+        return cs_fail(error, CS_CANCELLED, "stopped by the progress callback");
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_pass_ask(const clshear_settings *settings, cs_error *error)
+{
+    const clshear_progress nothing = {0};
+    return tell(settings, &nothing, error);
+}
+
 /* Tells the caller how far it is, and asks whether to go on. */
 static clshear_status report(const cs_pass *pass, double now_s, cs_error *error)
 {
-    const clshear_settings *settings = pass->settings;
-    if (settings == NULL || settings->progress == NULL) return CLSHEAR_OK;
     const double mean_rate = pass->done / (now_s - pass->start_s);
     const clshear_progress progress = {
         .fraction = pass->total > 0.0 ? pass->done / pass->total : 0.0,
         .samples_per_s = mean_rate,
         .remaining_s = pass->total > 0.0 ? (pass->total - pass->done) / mean_rate : 0.0,
     };
-    if (settings->progress(settings->progress_user, &progress) != 0)
-        return cs_fail(error, CS_CANCELLED, "stopped by the progress callback");
-    return CLSHEAR_OK;
+    return tell(pass->settings, &progress, error);
 }
 
 static clshear_status timed_launch(cs_pass *pass, const cs_batch *batch, const cs_launch *launch,

@@ -46,6 +46,10 @@ void cs_batch_free(cs_batch *batch);
 clshear_status cs_pass_replicate(cs_pass *pass, const cs_batch *batches, size_t batch_count,
                                  cs_u32 replicate, cs_error *error);
 
+/* Tells the progress callback of `settings` that work without a measure goes on, and fails with
+ * CS_CANCELLED where it asks to stop. */
+clshear_status cs_pass_ask(const clshear_settings *settings, cs_error *error);
+
 /* Drivers finish compiling a kernel when it is first launched. Launches it without pixels, so that
  * those whose time is taken do not wait for that. */
 clshear_status cs_pass_warm_up(cs_device *device, cs_u32 features, cs_error *error);

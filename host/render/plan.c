@@ -11,13 +11,17 @@
 /* Fewer samples than this leave a pilot nothing to find out with. */
 static const cs_u32 least_spp_for_pilot = 64;
 
+/* Rays of the prepass between two questions to the caller: a fraction of a second. */
+static const size_t rays_at_once = 1 << 22;
+
 static clshear_status reserve(cs_job *job, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_device *device = job->scene->context->device;
-    job->depth = malloc(job->pixel_count * sizeof *job->depth);
-    job->shear_px = malloc(job->pixel_count * sizeof *job->shear_px);
-    job->rule = malloc(job->pixel_count);
+    /* Zero, so that a render that is stopped before they are known can be resolved. */
+    job->depth = calloc(job->pixel_count, sizeof *job->depth);
+    job->shear_px = calloc(job->pixel_count, sizeof *job->shear_px);
+    job->rule = calloc(job->pixel_count, 1);
     CS_REQUIRE(job->depth != NULL && job->shear_px != NULL && job->rule != NULL,
                CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", job->pixel_count);
     CS_TRY(cs_pixels_create(job->scene->context, job->pixel_count,
@@ -28,6 +32,28 @@ static clshear_status reserve(cs_job *job, cs_error *error)
     CS_TRY(cs_resume_prepare(job, error));
 done:
     return status;
+}
+
+/* The depths of all pixels, some rows at a time: between them the caller may stop the render. */
+static clshear_status find_depths(cs_job *job, cs_error *error)
+{
+    const int lens_rays = (int)cs_integer(&job->settings, LENS_RAYS);
+    const size_t width = (size_t)(job->window[1] - job->window[0]);
+    const size_t rows = rays_at_once / (width * (size_t)(lens_rays + 1)) + 1;
+    int band[4] = {job->window[0], job->window[1], job->window[2], job->window[2]};
+    cs_depth *depth = job->depth;
+    while (band[3] < job->window[3]) {
+        const size_t left = (size_t)(job->window[3] - band[3]);
+        band[2] = band[3];
+        band[3] += (int)(left < rows ? left : rows);
+        clshear_status status =
+            cs_accel_depth(job->scene->accel, &job->camera, job->optics.table.items, band,
+                           lens_rays, depth, error);
+        if (status == CLSHEAR_OK) status = cs_pass_ask(&job->settings, error);
+        if (status != CLSHEAR_OK) return status;
+        depth += width * (size_t)(band[3] - band[2]);
+    }
+    return CLSHEAR_OK;
 }
 
 /* Rules and shears of all pixels; those of the picture that is extended, if there is one. */
@@ -106,8 +132,7 @@ clshear_status cs_job_plan(cs_job *job, cs_error *error)
         CS_TRY(cs_pass_warm_up(job->scene->context->device, job->features, error));
     const double start_s = cs_now_s();
     CS_TRY(reserve(job, error));
-    CS_TRY(cs_accel_depth(job->scene->accel, &job->camera, job->optics.table.items, job->window,
-                          (int)cs_integer(&job->settings, LENS_RAYS), job->depth, error));
+    CS_TRY(find_depths(job, error));
     job->prepass_s = cs_now_s() - start_s;
     CS_TRY(choose_shears(job, error));
     if (cs_integer(&job->settings, GAIN) != 0) {

@@ -38,17 +38,29 @@ static void add_array(cs_u32 *fingerprint, const cs_array *array)
     add_words(fingerprint, array->items, array->count * array->item_size);
 }
 
+/* The lights of the settings; those that are not set change nothing. */
+static void add_lights(cs_u32 *fingerprint, const clshear_settings *settings)
+{
+    static const size_t indices[] = {
+#define INDEX(identifier, suffix) CS_INDEX_##identifier,
+        CS_LIGHT_SETTING_LIST(INDEX)
+#undef INDEX
+    };
+    for (size_t i = 0; i < sizeof indices / sizeof *indices; i++) {
+        const cs_setting_value *value = &settings->values[indices[i]];
+        if (value->is_set)
+            add_words(fingerprint, value->numbers, value->count * sizeof *value->numbers);
+    }
+}
+
 /* What fixes the samples and the picture, but for their number: "name=value;...". */
 static void recipe_of(const cs_job *job, char *text, size_t size)
 {
     const cs_scene *scene = &job->scene->scene;
-    const cs_setting_value *lights = &job->settings.values[CS_INDEX_LIGHT];
-    const cs_setting_value *suns = &job->settings.values[CS_INDEX_SUN];
     cs_u32 lens = 0, light = 0, world = 0;
     add_array(&lens, &job->optics.table);
     add_array(&light, &scene->lights);
-    add_words(&light, lights->numbers, lights->count * sizeof *lights->numbers);
-    if (suns->is_set) add_words(&light, suns->numbers, suns->count * sizeof *suns->numbers);
+    add_lights(&light, &job->settings);
     add_array(&world, &scene->positions);
     add_array(&world, &scene->vertices);
     add_array(&world, &scene->indices);

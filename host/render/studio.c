@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/vec.h"
+#include "render/lighting.h"
 
 /* A white surface that faces the sun shows 1: 0.4 by the environment, 0.6 by the sun. */
 static const char *const environment = "0.4,0.4,0.4";
@@ -10,11 +11,15 @@ static const double key_radiance = 0.6;
 static const double key_diameter_deg = 10.0;
 static const double pi = 3.14159265358979;
 
+/* Textured emission is a screen or a label rather than what lights a scene. */
 static int has_light(const clshear_scene *scene, const clshear_settings *settings)
 {
     return scene->scene.lights.count > 0 || scene->device_scene.emitters > 0 ||
-           scene->device_scene.needs.textured_emission || cs_is_set(settings, LIGHT) ||
-           cs_is_set(settings, SUN) || cs_is_set(settings, ENVIRONMENT);
+           scene->device_scene.needs.textured_emission ||
+           cs_is_set(settings, ENVIRONMENT)
+#define OR_SET(identifier, suffix) || cs_is_set(settings, identifier)
+               CS_LIGHT_SETTING_LIST(OR_SET);
+#undef OR_SET
 }
 
 static void normalise(double *vector)

@@ -11,7 +11,9 @@
 #include "scene/scene.h"
 
 enum {
-    MOST_CELLS = 1024 /* across; down half as many */
+    MOST_CELLS = 1024, /* across; down half as many */
+    SKY_WIDTH = 4,     /* texels of a gradient, whose rows are even */
+    SKY_HEIGHT = 256
 };
 
 static const float most_radiance = 1e15f;
@@ -134,10 +136,33 @@ static int read_colour(const char *text, float *colour)
     return sscanf(text, "%f,%f,%f%c", &colour[0], &colour[1], &colour[2], &end) == 3;
 }
 
+/* A sky: `colours` has its zenith and its horizon, which the ground continues. In between, radiance
+ * is linear in the sine of the elevation, so that a surface that faces up is lit in closed form. */
+static clshear_status make_gradient(const float *colours, const cs_environment_view *view,
+                                    cs_environment *environment, cs_error *error)
+{
+    float texels[3 * SKY_WIDTH * SKY_HEIGHT];
+    for (int y = 0; y < SKY_HEIGHT; y++) {
+        const double sine = cos(3.14159265358979 * ((double)y + 0.5) / (double)SKY_HEIGHT);
+        const float up = (float)(sine > 0.0 ? sine : 0.0);
+        for (int i = 0; i < 3 * SKY_WIDTH; i++)
+            texels[3 * SKY_WIDTH * y + i] = up * colours[i % 3] + (1.0f - up) * colours[3 + i % 3];
+    }
+    return cs_environment_make(texels, SKY_WIDTH, SKY_HEIGHT, view, environment, error);
+}
+
+/* Whether the text is a gradient: this word and six numbers. */
+static int read_gradient(const char *text, float *c)
+{
+    char end;
+    return sscanf(text, "gradient:%f,%f,%f,%f,%f,%f%c", &c[0], &c[1], &c[2], &c[3], &c[4], &c[5],
+                  &end) == 6;
+}
+
 clshear_status cs_environment_read(const char *text, const cs_environment_view *view,
                                    cs_environment *environment, cs_error *error)
 {
-    float colour[3], *texels = NULL;
+    float colour[3], sky[6], *texels = NULL;
     size_t width = 0, height = 0;
     if (read_colour(text, colour)) {
         if (!cs_is_colour(colour))
@@ -147,10 +172,17 @@ clshear_status cs_environment_read(const char *text, const cs_environment_view *
         describe(view, colour, &environment->light);
         return CLSHEAR_OK;
     }
+    if (read_gradient(text, sky)) {
+        if (!cs_is_colour(sky) || !cs_is_colour(sky + 3))
+            return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                           "environment %.120s: must be six numbers, 0 to 1e15", text);
+        return make_gradient(sky, view, environment, error);
+    }
     if (access(text, R_OK) != 0)
         return cs_fail(error, CLSHEAR_BAD_FILE,
-                       "environment %.200s: neither R,G,B nor a file that can be read: %s", text,
-                       strerror(errno));
+                       "environment %.200s: neither R,G,B nor gradient: and two of them nor a file "
+                       "that can be read: %s",
+                       text, strerror(errno));
     clshear_status status = cs_image_read_colours(text, &texels, &width, &height, error);
     if (status == CLSHEAR_OK)
         status = cs_environment_make(texels, width, height, view, environment, error);

@@ -1,4 +1,4 @@
-/* Lights of a scene: added ones, and the table of emissive triangles. */
+/* Lights that are added to a scene or given by settings. */
 #include <math.h>
 #include <string.h>
 
@@ -15,13 +15,42 @@ int cs_is_colour(const float *colour)
 
 static const float degree = 0.0174532925f;
 
+static int is_directed(const clshear_light *light)
+{
+    return light->kind == CLSHEAR_LIGHT_DIRECTIONAL || light->kind == CLSHEAR_LIGHT_SPOT;
+}
+
+static double area_of(const clshear_light *light)
+{
+    double e1[3], e2[3], normal[3];
+    for (int i = 0; i < 3; i++) {
+        e1[i] = (double)light->edge1[i];
+        e2[i] = (double)light->edge2[i];
+    }
+    cs_vec_cross_double(e1, e2, normal);
+    return sqrt(cs_vec_dot_double(normal, normal));
+}
+
+/* The same for what only shapes have. */
+static clshear_status check_shape(const clshear_light *light, cs_error *error)
+{
+    const double area = area_of(light);
+    if (light->kind == CLSHEAR_LIGHT_SPHERE && !(light->radius > 1e-15f && light->radius < 1e15f))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: radius %g: must be above 0, up to 1e15",
+                       (double)light->radius);
+    if (light->kind == CLSHEAR_LIGHT_QUAD && !(area > 1e-30 && area < 1e30))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "light: the two edges of a quad span an area of %g: must be above 0", area);
+    return CLSHEAR_OK;
+}
+
 /* Whether what the kind reads can be used. */
 static clshear_status check_light(const clshear_light *light, cs_error *error)
 {
     const int has_place = light->kind != CLSHEAR_LIGHT_DIRECTIONAL;
-    const int has_direction = light->kind != CLSHEAR_LIGHT_POINT;
+    const int has_direction = is_directed(light);
     const float *place = light->position, *direction = light->direction;
-    if (light->kind < CLSHEAR_LIGHT_POINT || light->kind > CLSHEAR_LIGHT_SPOT)
+    if (light->kind < CLSHEAR_LIGHT_POINT || light->kind > CLSHEAR_LIGHT_QUAD)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: kind %d is not known",
                        (int)light->kind);
     for (int i = 0; i < 3; i++)
@@ -42,7 +71,7 @@ static clshear_status check_light(const clshear_light *light, cs_error *error)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "light: cone %g to %g: must be 0 <= inner < outer <= 90 degrees",
                        (double)light->inner_deg, (double)light->outer_deg);
-    return CLSHEAR_OK;
+    return check_shape(light, error);
 }
 
 /* Scale and offset as KHR_lights_punctual defines them. */
@@ -67,11 +96,21 @@ static void make_sun(const clshear_light *light, cs_light *made)
         made->colour[c] = (float)((double)made->colour[c] / (3.14159265358979 * sine * sine));
 }
 
+static void make_quad(const clshear_light *light, cs_light *made)
+{
+    made->kind = CS_LIGHT_QUAD;
+    made->parameters[3] = (float)area_of(light);
+    for (int i = 0; i < 3; i++) {
+        made->axis[i] = light->edge1[i];
+        made->parameters[i] = light->edge2[i];
+    }
+}
+
 clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_error *error)
 {
     clshear_status status = check_light(light, error);
     if (status != CLSHEAR_OK) return status;
-    const int has_direction = light->kind != CLSHEAR_LIGHT_POINT;
+    const int has_direction = is_directed(light);
     const float length = sqrtf(cs_vec_dot(light->direction, light->direction));
     memset(made, 0, sizeof *made);
     made->kind = has_direction ? CS_LIGHT_DIRECTIONAL : CS_LIGHT_POINT;
@@ -81,6 +120,11 @@ clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_erro
         made->colour[i] = light->colour[i];
     }
     if (light->kind == CLSHEAR_LIGHT_SPOT) make_spot(light, made);
+    if (light->kind == CLSHEAR_LIGHT_QUAD) make_quad(light, made);
+    if (light->kind == CLSHEAR_LIGHT_SPHERE) {
+        made->kind = CS_LIGHT_SPHERE;
+        made->parameters[0] = light->radius;
+    }
     /* Smaller ones are as sharp, and their radiance leaves no room for a colour in a float. */
     if (light->kind == CLSHEAR_LIGHT_DIRECTIONAL && light->diameter_deg > 1e-3f)
         make_sun(light, made);
@@ -95,58 +139,5 @@ clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, c
     cs_light *added = cs_array_extend(&scene->lights, 1);
     if (added == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     *added = made;
-    return CLSHEAR_OK;
-}
-
-static float luminance(const float *colour)
-{
-    return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
-}
-
-/* Fills in one emitter; returns its power up to a constant. */
-static double describe_emitter(const cs_scene *scene, size_t triangle, cs_emitter *emitter)
-{
-    const uint32_t *corner = ((const uint32_t(*)[3])scene->indices.items)[triangle];
-    const float(*positions)[3] = scene->positions.items;
-    const uint32_t material = ((const uint32_t *)scene->triangle_materials.items)[triangle];
-    const cs_material *look = (const cs_material *)scene->materials.items + material;
-    memcpy(emitter->corner, positions[corner[0]], sizeof emitter->corner);
-    memcpy(emitter->radiance, look->emission, sizeof emitter->radiance);
-    cs_vec_subtract(positions[corner[1]], positions[corner[0]], emitter->edge1);
-    cs_vec_subtract(positions[corner[2]], positions[corner[0]], emitter->edge2);
-    double e1[3], e2[3], normal[3];
-    for (int i = 0; i < 3; i++) {
-        e1[i] = (double)emitter->edge1[i];
-        e2[i] = (double)emitter->edge2[i];
-    }
-    cs_vec_cross_double(e1, e2, normal);
-    emitter->area = (float)(0.5 * sqrt(cs_vec_dot_double(normal, normal)));
-    return (double)emitter->area * (double)luminance(look->emission);
-}
-
-clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, double *total,
-                                 cs_error *error)
-{
-    const uint32_t *materials = scene->triangle_materials.items;
-    const cs_material *looks = scene->materials.items;
-    double below = 0.0;
-    *total = 0.0;
-    for (size_t i = 0; i < scene->indices.count; i++) {
-        const cs_material *look = &looks[materials[i]];
-        /* What a texture varies is found by rays alone. */
-        if (!(luminance(look->emission) > 0.0f) || look->emission_texture > 0) continue;
-        cs_emitter *emitter = cs_array_extend(emitters, 1);
-        if (emitter == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-        double power = describe_emitter(scene, i, emitter);
-        emitter->probability = (float)power;
-        *total += power;
-    }
-    cs_emitter *table = emitters->items;
-    for (size_t i = 0; i < emitters->count; i++) {
-        below += (double)table[i].probability;
-        table[i].cumulative = i + 1 < emitters->count ? (float)(below / *total) : 1.0f;
-        /* As the search in the rounded table finds it, so that the estimate stays unbiased. */
-        table[i].probability = table[i].cumulative - (i > 0 ? table[i - 1].cumulative : 0.0f);
-    }
     return CLSHEAR_OK;
 }

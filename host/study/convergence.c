@@ -18,7 +18,8 @@ clshear_status cs_convergence_reserve(const cs_study *study, clshear_convergence
     result->sizes = sizes;
     result->counts = calloc(sizes + 1, sizeof *result->counts);
     result->errors = calloc(sizes + 1, sizeof *result->errors);
-    if (result->counts == NULL || result->errors == NULL)
+    result->local = calloc(sizes, sizeof *result->local);
+    if (result->counts == NULL || result->errors == NULL || result->local == NULL)
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     return CLSHEAR_OK;
 }
@@ -27,7 +28,31 @@ void cs_convergence_free(clshear_convergence *result)
 {
     free(result->counts);
     free(result->errors);
+    free(result->local);
     *result = (clshear_convergence){0};
+}
+
+/* The fit over `sizes` sizes from number `first` on. */
+static clshear_status fit_sizes(const double *values, size_t count, int are_parts,
+                                const double *reference, size_t first, size_t sizes,
+                                clshear_convergence *result, clshear_fit *fit)
+{
+    const uint32_t *counts = result->counts + first;
+    double *errors = result->errors + first;
+    values += first * count;
+    return are_parts ? cs_fit_slope_of_parts(counts, sizes, values, count, errors, fit)
+                     : cs_fit_slope(counts, sizes, values, count, reference, errors, fit);
+}
+
+clshear_status cs_convergence_fit(const double *values, size_t count, int are_parts,
+                                  const double *reference, clshear_convergence *result)
+{
+    clshear_status status = CLSHEAR_OK;
+    CS_TRY(fit_sizes(values, count, are_parts, reference, 0, result->sizes, result, &result->fit));
+    for (size_t k = 0; k + 1 < result->sizes; k++)
+        CS_TRY(fit_sizes(values, count, are_parts, reference, k, 2, result, &result->local[k]));
+done:
+    return status;
 }
 
 static clshear_status set(clshear_settings *settings, clshear_setting setting, double value,
@@ -61,8 +86,7 @@ static clshear_status finish(const cs_study *study, const double *means, const d
     result->mean = 0.0;
     for (uint32_t r = 0; r < study->replicates; r++)
         result->mean += last[r] / study->replicates;
-    return cs_fit_slope(result->counts, study->sizes, means, study->replicates, reference,
-                        result->errors, &result->fit);
+    return cs_convergence_fit(means, study->replicates, 0, reference, result);
 }
 
 clshear_status cs_converge_integrand(const clshear_integrand *integrand, const char *sampler,

@@ -13,6 +13,7 @@ struct clshear_convergence {
     double *errors;   /* error of a pattern, one entry per size */
     double mean;      /* mean over all patterns of the largest size */
     clshear_fit fit;
+    clshear_fit *local; /* between a size and the next, sizes - 1 entries */
 };
 
 /* The sample counts of a study, and the number of patterns at each. */
@@ -27,6 +28,12 @@ typedef struct cs_study {
 clshear_status cs_convergence_reserve(const cs_study *study, clshear_convergence *result,
                                       cs_error *error);
 void cs_convergence_free(clshear_convergence *result);
+
+/* Computes errors and slopes. `values` has `count` values for each size: means of replicates, whose
+ * error is the variance or the mean squared difference from *reference; or, with `are_parts`, parts
+ * of the error, whose mean it is. */
+clshear_status cs_convergence_fit(const double *values, size_t count, int are_parts,
+                                  const double *reference, clshear_convergence *result);
 
 /* Implement the public functions of these names. */
 clshear_status cs_converge_integrand(const clshear_integrand *integrand, const char *sampler,

@@ -2,7 +2,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "analysis/fit.h"
 #include "render/render.h"
 #include "study/convergence.h"
 
@@ -107,8 +106,7 @@ clshear_status cs_converge_image(clshear_scene *scene, const clshear_settings *s
     for (size_t k = 0; k < study->sizes; k++)
         CS_TRY(render_size(scene, settings, study, study->counts[k], &t, reference,
                            &result->counts[k], &result->mean, parts + k * t.tiles, error));
-    CS_TRY(cs_fit_slope_of_parts(result->counts, study->sizes, parts, t.tiles, result->errors,
-                                 &result->fit));
+    CS_TRY(cs_convergence_fit(parts, t.tiles, 1, NULL, result));
 done:
     free(parts);
     return status;

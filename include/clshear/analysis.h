@@ -338,6 +338,12 @@ CLSHEAR_API double clshear_convergence_mean(const clshear_convergence *result);
 /* Copies the fitted slope. The caller sets `fit->struct_size`. */
 CLSHEAR_API void clshear_convergence_fit(const clshear_convergence *result, clshear_fit *fit);
 
+/* Copies the slope between size number `index` and the next. A curve in logarithms that is no line
+ * shows by slopes that differ beyond their intervals, which the interval of the fitted slope does
+ * not contain. `index` + 1 is below clshear_convergence_sizes. */
+CLSHEAR_API void clshear_convergence_local_fit(const clshear_convergence *result, size_t index,
+                                               clshear_fit *fit);
+
 #ifdef __cplusplus
 }
 #endif

@@ -140,8 +140,8 @@ CLSHEAR_API int clshear_setting_choice(clshear_setting setting, size_t index, co
                                        const char **meaning);
 
 typedef struct clshear_progress {
-    double fraction;      /* finished part, 0 to 1; 0 while a pilot cannot estimate it */
-    double samples_per_s; /* mean rate since the start */
+    double fraction;      /* finished part, 0 to 1; 0 before the samples that count */
+    double samples_per_s; /* mean rate since the start; 0 while depths are found */
     double remaining_s;   /* estimate; 0 while it is unknown */
 } clshear_progress;
 
@@ -231,20 +231,25 @@ typedef struct clshear_mesh {
 typedef enum clshear_light_kind {
     CLSHEAR_LIGHT_POINT = 0,
     CLSHEAR_LIGHT_DIRECTIONAL = 1,
-    CLSHEAR_LIGHT_SPOT = 2
+    CLSHEAR_LIGHT_SPOT = 2,
+    CLSHEAR_LIGHT_SPHERE = 3, /* seen by the camera, and hides what is behind it */
+    CLSHEAR_LIGHT_QUAD = 4    /* a parallelogram; the same */
 } clshear_light_kind;
 
 typedef struct clshear_light {
     size_t struct_size;
     clshear_light_kind kind;
-    float position[3];  /* position of a point or spot light */
+    float position[3]; /* position of a point or spot light, centre of a sphere, corner of a quad */
     float direction[3]; /* direction towards a directional light, or in which a spot light shines;
                          * any length above 0 */
     float colour[3];    /* radiant intensity of a point light, and of a spot light on its axis;
-                         * irradiance of a directional light */
+                         * irradiance of a directional light; radiance of a sphere or quad */
     float diameter_deg; /* angle that a directional light takes in the sky; 0: sharp shadows */
     float inner_deg;    /* angle from a spot light's axis up to which it is full */
     float outer_deg;    /* angle from which on it is dark: above the inner one, at most 90 */
+    float radius;       /* of a sphere, above 0 */
+    float edge1[3];     /* edges of a quad from its corner. It shines on the side from which the */
+    float edge2[3];     /* turn from edge1 to edge2 is against the clock; the other is black */
 } clshear_light;
 
 typedef struct clshear_scene_info {
@@ -254,7 +259,7 @@ typedef struct clshear_scene_info {
     size_t nodes;        /* nodes of the hierarchy */
     size_t references;   /* triangles in its leaves; spatial splits repeat some */
     size_t device_bytes; /* geometry on the device: nodes, triangles, faces, vertices */
-    size_t lights;       /* point, directional and spot lights */
+    size_t lights;       /* added lights and those of the file */
     size_t emitters;     /* emissive triangles */
     int file_camera;     /* 1 if the file has a camera */
     double load_s;       /* time spent reading the file */

@@ -135,8 +135,12 @@
       "add a point light; repeatable") \
     X(SUN, 65, "sun", "", NUMBER, 7, 64, "", -1e15, 1e15, none, PRIVATE, "X,Y,Z,R,G,B,DEG", \
       "add a sun: towards it, irradiance, size; repeatable") \
+    X(SPHERE, 61, "sphere", "", NUMBER, 7, 64, "", -1e15, 1e15, none, PRIVATE, \
+      "X,Y,Z,RADIUS,R,G,B", "add a ball of light, of this radiance; repeatable") \
+    X(QUAD, 68, "quad", "", NUMBER, 12, 64, "", -1e15, 1e15, none, PRIVATE, \
+      "C,C,C,U,U,U,V,V,V,R,G,B", "add a panel: corner, two edges; shines along U x V") \
     X(ENVIRONMENT, 62, "environment", "", TEXT, 1, 1, "", 0, 0, none, RECIPE, "FILE", \
-      "lat-long image around the scene, or R,G,B") \
+      "lat-long image, R,G,B or gradient:ZENITH,HORIZON") \
     X(ENVIRONMENT_ROTATION, 63, "environment-rotation", "", NUMBER, 1, 1, "0", -1e6, 1e6, none, \
       RECIPE, "DEG", "turn it about +Y, from above against the clock") \
     X(ENVIRONMENT_STRENGTH, 64, "environment-strength", "", NUMBER, 1, 1, "1", 0, 1e12, none, \

@@ -13,7 +13,8 @@ flags="-g -O1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=
     -DCLSHEAR_BUILDING -DCLSHEAR_HELPER_FROM_LIBRARY=\"x\" -DCLSHEAR_HELPER_INSTALLED=\"x\"
     -I$root/include -I$root/cl -I$root/host -I$build/generated"
 for file in "$root"/host/import/*.c "$root"/host/scene/light.c "$root"/host/scene/material.c \
-    "$root"/host/scene/scene.c "$root"/host/scene/texture.c "$root"/host/base/array.c \
+    "$root"/host/scene/scene.c "$root"/host/scene/standard.c "$root"/host/scene/texture.c \
+    "$root"/host/image/texel_kinds.c "$root"/host/base/array.c \
     "$root"/host/base/status.c "$root"/host/base/output_file.c "$root"/tests/fuzz/no_images.c; do
     # shellcheck disable=SC2086
     clang-14 $flags -c "$file" -o "$(basename "$file").o"

@@ -2,48 +2,23 @@
 #ifndef CS_LIGHT_ENVIRONMENT_H
 #define CS_LIGHT_ENVIRONMENT_H
 
-#include "clshear/device/disk.h"
+#include "kernels/light/cone.h"
 #include "kernels/light/lat_long.h"
-#include "kernels/light/sample.h"
 
-/* A uniform point of the unit disk from one of the unit square. */
-static inline void cs_unit_disk(cs_pair pair, cs_vfloat *x, cs_vfloat *y)
-{
-    *x = pair.x - 0.5f;
-    *y = pair.y - 0.5f;
-    cs_disk_from_square(x, y);
-    *x /= CS_DISK_RADIUS;
-    *y /= CS_DISK_RADIUS;
-}
-
-/* Density, per steradian, of a sun's directions. */
-static inline cs_f32 cs_sun_density(CS_GLOBAL const cs_light *light)
-{
-    return 1.0f / (2.0f * CS_PI * light->parameters[0]);
-}
-
-/* colour: radiance of the disk. parameters: one less the cosine of the angular radius. Uniform over
- * the cone: 1 - cosine grows with the square of the disk's radius (Shirley & Wang 1992). */
+/* colour: radiance of the disk. parameters: one less the cosine of the angular radius. */
 static inline cs_light_sample cs_sample_light_sun(const cs_scene_buffers *scene,
                                                   CS_GLOBAL const cs_light *light,
                                                   const cs_surface *surface, cs_pair pair)
 {
     cs_light_sample sample;
-    cs_vfloat tangent[3], axis[3];
+    cs_vfloat axis[3], fall = (cs_vfloat)(light->parameters[0]);
     (void)scene;
-    cs_unit_disk(pair, &tangent[0], &tangent[1]);
-    cs_vfloat square = tangent[0] * tangent[0] + tangent[1] * tangent[1];
-    cs_vfloat fall = square * light->parameters[0];
-    cs_vfloat outward = sqrt(light->parameters[0] * (2.0f - fall));
-    tangent[0] *= outward;
-    tangent[1] *= outward;
-    tangent[2] = 1.0f - fall;
     for (int i = 0; i < 3; i++) {
         axis[i] = (cs_vfloat)(light->axis[i]);
         sample.colour[i] = (cs_vfloat)(light->colour[i]);
     }
-    cs_from_local(axis, tangent, sample.towards);
-    sample.density = (cs_vfloat)(cs_sun_density(light));
+    cs_draw_cone(axis, fall, pair, sample.towards);
+    sample.density = cs_cone_density(fall);
     sample.weight = cs_dot(surface->normal, sample.towards) / sample.density;
     sample.reach = INFINITY;
     return sample;

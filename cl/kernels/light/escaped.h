@@ -4,6 +4,7 @@
 #define CS_LIGHT_ESCAPED_H
 
 #include "kernels/light/light.h"
+#include "kernels/light/shapes.h"
 
 /* Density, per steradian, with which the light of emissive triangles draws the point that a ray
  * hit: cs_scene_emitters makes it proportional to luminance. */
@@ -21,7 +22,7 @@ static inline cs_vfloat cs_emitter_density(const cs_scene_buffers *scene, cs_u32
            cs_max(cosine, (cs_vfloat)(1e-20f));
 }
 
-/* Light that comes from beyond all surfaces. */
+/* Light that comes from no surface of the scene. */
 typedef struct cs_escaped {
     cs_vfloat colour[3];
     cs_vfloat density; /* with which the light's samples would have drawn the direction */
@@ -36,7 +37,26 @@ static inline cs_escaped cs_escape_to_sun(CS_GLOBAL const cs_light *light, const
     cs_vint inside = cs_dot(apart, apart) < (cs_vfloat)(2.0f * light->parameters[0]);
     for (int i = 0; i < 3; i++)
         found.colour[i] = inside ? (cs_vfloat)(light->colour[i]) : (cs_vfloat)(0.0f);
-    found.density = (cs_vfloat)(cs_sun_density(light));
+    found.density = cs_cone_density((cs_vfloat)(light->parameters[0]));
+    return found;
+}
+
+/* Of rays that met the light. */
+static inline cs_escaped cs_escape_to_shape(CS_GLOBAL const cs_light *light, const cs_ray *ray)
+{
+    cs_escaped found;
+    cs_vfloat facing = (cs_vfloat)(1.0f);
+    if (light->kind == CS_LIGHT_SPHERE) {
+        found.density = cs_sphere_density(light, ray->origin);
+    } else {
+        cs_vfloat towards[3], distance = cs_shape_distance(light, ray);
+        for (int i = 0; i < 3; i++)
+            towards[i] = ray->direction[i] * distance;
+        facing = cs_quad_facing(light, towards);
+        found.density = cs_quad_density(light, towards, facing);
+    }
+    for (int i = 0; i < 3; i++)
+        found.colour[i] = facing > 0.0f ? (cs_vfloat)(light->colour[i]) : (cs_vfloat)(0.0f);
     return found;
 }
 

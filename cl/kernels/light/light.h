@@ -5,6 +5,8 @@
 #include "kernels/features.h"
 #include "kernels/light/delta.h"
 #include "kernels/light/environment.h"
+#include "kernels/light/quad.h"
+#include "kernels/light/sphere.h"
 #include "kernels/light/triangles.h"
 
 #define CS_SAMPLE_DELTA(suffix) cs_sample_light_##suffix(light, surface)

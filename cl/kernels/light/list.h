@@ -11,9 +11,11 @@
     X(POINT, "point", point, DELTA)                   \
     X(DIRECTIONAL, "directional", directional, DELTA) \
     X(TRIANGLES, "emissive triangles", triangles, AREA)
-#define CS_LIGHT_LIST_MORE(X)    \
-    X(SPOT, "spot", spot, DELTA) \
-    X(SUN, "sun", sun, AREA)     \
+#define CS_LIGHT_LIST_MORE(X)         \
+    X(SPOT, "spot", spot, DELTA)      \
+    X(SUN, "sun", sun, AREA)          \
+    X(SPHERE, "sphere", sphere, AREA) \
+    X(QUAD, "quad", quad, AREA)       \
     X(ENVIRONMENT, "environment", environment, AREA)
 #define CS_LIGHT_LIST(X) \
     CS_LIGHT_LIST_FEW(X) \

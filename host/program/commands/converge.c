@@ -26,6 +26,7 @@ typedef struct converge_job {
     text_list out;
     text_list plot;
     int keep;
+    int local_slopes;
     double reference_value; /* of a number */
     clshear_integrand measured;
 } converge_job;
@@ -55,6 +56,8 @@ static const program_flag flags[] = {
                "- .csv .json"),
     TEXT_FLAG("plot", "FILE", "draw errors over N, .png or .svg, by gnuplot", "", AT(plot),
               ".png .svg"),
+    SWITCH_FLAG("local-slopes", "slopes between neighbouring N, each with its interval",
+                AT(local_slopes)),
     SWITCH_FLAG("keep", "leave the plot's data and script beside it", AT(keep)),
 };
 
@@ -269,6 +272,7 @@ static int run(void *user)
     error_study *study = calloc(1, sizeof *study);
     if (study == NULL) return complain(EXIT_FAILED, "out of memory");
     study->replicates = plan_of(job).replicates;
+    study->has_local_slopes = job->local_slopes;
     study->has_reference = job->reference.count > 0;
     code = job->integrand.count > 0 ? study_integrand(job, study) : study_scene(job, study);
     if (code == EXIT_DONE) code = write_study(job, study);

@@ -10,6 +10,7 @@
 #include "commands/scene_view.h"
 #include "report/failure.h"
 #include "report/output.h"
+#include "report/picture.h"
 #include "report/progress.h"
 #include "report/statistics.h"
 
@@ -21,6 +22,7 @@ typedef struct render_job {
     int version;
     int list_devices;
     int list_samplers;
+    int has_lens; /* whether the flags gave one */
 } render_job;
 
 #define AT(member) offsetof(render_job, member)
@@ -87,7 +89,6 @@ static clshear_status make_film(const render_job *job, clshear_scene *scene, cls
     if (status != CLSHEAR_OK) return status;
     progress_line progress = progress_start(job->options.quiet);
     clshear_settings_set_progress(job->options.settings, progress_report, &progress);
-    catch_interrupts();
     status = base != NULL ? clshear_render_extend(scene, job->options.settings, base, film)
                           : clshear_render(scene, job->options.settings, film);
     progress_end(&progress);
@@ -102,6 +103,8 @@ static int render(const render_job *job, const scene_view *view)
     if (make_film(job, view->scene, &film) != CLSHEAR_OK) return complain_of_library();
     clshear_film_describe(film, &info);
     int code = film_files_write(&job->files, &job->options, film);
+    if (code == EXIT_DONE && info.complete && !job->options.quiet)
+        remark_on_picture(film, job->has_lens);
     if (code == EXIT_DONE && job->stats) report_statistics(view->context, view->scene, film);
     clshear_film_free(film);
     return code == EXIT_DONE && !info.complete ? EXIT_SIGNAL + interrupting_signal() : code;
@@ -127,6 +130,16 @@ static int check_formats(const render_job *job)
     return EXIT_DONE;
 }
 
+/* A lens that opens, and that was not chosen by the program. */
+static int given_a_lens(const clshear_settings *settings)
+{
+    double radius = 0.0;
+    if (clshear_settings_is_set(settings, CLSHEAR_F_STOP)) return 1;
+    return clshear_settings_is_set(settings, CLSHEAR_LENS_RADIUS) &&
+           clshear_settings_get_number(settings, CLSHEAR_LENS_RADIUS, &radius) == CLSHEAR_OK &&
+           radius > 0.0;
+}
+
 static int run(void *user)
 {
     render_job *job = user;
@@ -143,6 +156,7 @@ static int run(void *user)
     if (name == NULL) return complain(EXIT_FAILED, "out of memory");
     if (job->files.out.count == 0) job->files.out.items[job->files.out.count++] = name;
     if (job->files.gain.count > 0) clshear_settings_set_integer(options->settings, CLSHEAR_GAIN, 1);
+    job->has_lens = given_a_lens(options->settings);
     int code = check_places("out", job->files.out.items, job->files.out.count);
     if (code == EXIT_DONE) code = check_formats(job);
     if (code == EXIT_DONE)

@@ -6,13 +6,20 @@
 #include <unistd.h>
 
 static volatile sig_atomic_t interrupted;
+static int hangup_ignored;
 
 static void note_interrupt(int signal_number)
 {
     interrupted = signal_number;
 }
 
-void catch_interrupts(void)
+void progress_note_signals(void)
+{
+    struct sigaction given;
+    hangup_ignored = sigaction(SIGHUP, NULL, &given) == 0 && given.sa_handler == SIG_IGN;
+}
+
+static void catch_interrupts(void)
 {
     struct sigaction action;
     memset(&action, 0, sizeof action);
@@ -21,6 +28,7 @@ void catch_interrupts(void)
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    if (hangup_ignored) action.sa_handler = SIG_IGN;
     sigaction(SIGHUP, &action, NULL);
 }
 
@@ -38,6 +46,11 @@ progress_line progress_start(int quiet)
 int progress_report(void *user, const clshear_progress *progress)
 {
     progress_line *state = user;
+    if (progress->fraction > 0.0 && !state->catches) {
+        catch_interrupts();
+        state->catches = 1;
+    }
+    if (progress->samples_per_s <= 0.0) return interrupting_signal(); /* still finding depths */
     int percent = (int)(100.0 * progress->fraction); /* floored: 100 % is done, not nearly done */
     int step = state->on_terminal ? 1 : 10;
     long left_s = (long)(progress->remaining_s + 0.5);

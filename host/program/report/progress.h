@@ -8,18 +8,21 @@ typedef struct progress_line {
     int quiet;
     int on_terminal;
     int last_percent;
+    int catches; /* whether signals are caught */
 } progress_line;
 
-/* From here on, Ctrl-C, SIGTERM and SIGHUP ask the render to stop; the second time each ends the
- * process. */
-void catch_interrupts(void);
+/* Notes that hangups are to be ignored, as nohup asks. Call it first: compilers of OpenCL drivers
+ * install handlers of their own. */
+void progress_note_signals(void);
 
-/* The signal that asked for it; 0: none. */
+/* The signal that asked the render to stop; 0: none. */
 int interrupting_signal(void);
 
 progress_line progress_start(int quiet);
 
-/* A callback for clshear_settings_set_progress; `user` is a progress_line. */
+/* A callback for clshear_settings_set_progress; `user` is a progress_line. From the first samples
+ * that count on, Ctrl-C, SIGTERM and SIGHUP ask the render to stop, the second time each ends the
+ * process. Before, there is nothing to keep, and they end it at once. */
 int progress_report(void *user, const clshear_progress *progress);
 
 /* Ends the line on a terminal. */

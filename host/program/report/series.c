@@ -27,19 +27,42 @@ static const char *name_of_error(const error_study *study)
     return study->has_reference ? "mse" : "variance";
 }
 
+static clshear_fit local_fit_of(const error_series *series, size_t index)
+{
+    clshear_fit fit = {.struct_size = sizeof fit};
+    clshear_convergence_local_fit(series->result, index, &fit);
+    return fit;
+}
+
+/* The slope to the next number of samples; nothing after the last. */
+static void write_local_slope(FILE *stream, const error_study *study, const error_series *series,
+                              size_t index)
+{
+    if (index + 1 == sizes_of(study)) {
+        fprintf(stream, ",,,");
+        return;
+    }
+    const clshear_fit fit = local_fit_of(series, index);
+    fprintf(stream, ",%.4f,%.4f,%.4f", fit.slope, fit.slope_low, fit.slope_high);
+}
+
 void study_write_csv(FILE *stream, const void *user)
 {
     const error_study *study = user;
-    fprintf(stream, "target,sampler,shear,n,replicates,%s,slope,slope_low,slope_high,mean\n",
-            name_of_error(study));
+    fprintf(stream, "target,sampler,shear,n,replicates,%s,slope,slope_low,slope_high,mean%s\n",
+            name_of_error(study),
+            study->has_local_slopes ? ",local_slope,local_slope_low,local_slope_high" : "");
     for (size_t s = 0; s < study->count; s++) {
         const error_series *series = &study->series[s];
         const clshear_fit fit = fit_of(series);
-        for (size_t k = 0; k < sizes_of(study); k++)
-            fprintf(stream, "%s,%s,%s,%u,%u,%.6g,%.4f,%.4f,%.4f,%.6g\n", series->target,
+        for (size_t k = 0; k < sizes_of(study); k++) {
+            fprintf(stream, "%s,%s,%s,%u,%u,%.6g,%.4f,%.4f,%.4f,%.6g", series->target,
                     series->sampler, series->shear, clshear_convergence_count(series->result, k),
                     study->replicates, clshear_convergence_error(series->result, k), fit.slope,
                     fit.slope_low, fit.slope_high, clshear_convergence_mean(series->result));
+            if (study->has_local_slopes) write_local_slope(stream, study, series, k);
+            fprintf(stream, "\n");
+        }
     }
 }
 
@@ -50,6 +73,23 @@ static void write_number(FILE *stream, const char *name, double value)
         fprintf(stream, "\"%s\": %.6g", name, value);
     else
         fprintf(stream, "\"%s\": null", name);
+}
+
+/* An array of objects, one for each step between two numbers of samples. */
+static void write_local_slopes(FILE *stream, const error_study *study, const error_series *series)
+{
+    fprintf(stream, ",\n     \"local_slopes\": [");
+    for (size_t k = 0; k + 1 < sizes_of(study); k++) {
+        const clshear_fit fit = local_fit_of(series, k);
+        fprintf(stream, "%s{", k > 0 ? ", " : "");
+        write_number(stream, "slope", fit.slope);
+        fprintf(stream, ", ");
+        write_number(stream, "slope_low", fit.slope_low);
+        fprintf(stream, ", ");
+        write_number(stream, "slope_high", fit.slope_high);
+        fprintf(stream, "}");
+    }
+    fprintf(stream, "]");
 }
 
 static void write_series(FILE *stream, const error_study *study, const error_series *series)
@@ -70,7 +110,9 @@ static void write_series(FILE *stream, const error_study *study, const error_ser
     fprintf(stream, "], \"%s\": [", name_of_error(study));
     for (size_t k = 0; k < sizes_of(study); k++)
         fprintf(stream, "%s%.6g", k > 0 ? ", " : "", clshear_convergence_error(series->result, k));
-    fprintf(stream, "]}");
+    fprintf(stream, "]");
+    if (study->has_local_slopes) write_local_slopes(stream, study, series);
+    fprintf(stream, "}");
 }
 
 void study_write_json(FILE *stream, const void *user)

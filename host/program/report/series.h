@@ -24,7 +24,8 @@ typedef struct error_study {
     error_series series[MOST_SERIES];
     size_t count;
     uint32_t replicates;
-    int has_reference; /* errors are mean squared differences from it, else variances */
+    int has_reference;    /* errors are mean squared differences from it, else variances */
+    int has_local_slopes; /* tables have the slopes between neighbouring numbers of samples */
 } error_study;
 
 void study_free(error_study *study);

@@ -8,6 +8,7 @@
 
 #include "../hash.h"
 #include "../packet.h"
+#include "strata.h"
 
 #include "../fp_contract_off.h"
 
@@ -17,9 +18,7 @@ typedef struct cs_grid {
     cs_u32 columns;          /* 1 to N */
     cs_u32 rows;             /* full rows */
     cs_u32 extra;            /* points in the partial row: count - columns * rows */
-    cs_u32 jitter_shift;     /* bits that cs_in_stratum drops of 16 */
-    cs_f32 jitter_scale;     /* 1 / (number of places in a stratum) */
-    cs_f32 inverse_count;    /* 1 / count */
+    cs_strata strata;        /* of a coordinate, one for each point */
     cs_f32 inverse_columns;  /* 1 / columns */
     cs_domain count_domain;  /* for permutations of the points */
     cs_domain column_domain; /* for permutations of the columns */
@@ -47,19 +46,11 @@ static inline cs_grid cs_grid_on(cs_u32 count, cs_u32 columns)
     grid.columns = columns;
     grid.rows = count / grid.columns;
     grid.extra = count % grid.columns;
-    grid.inverse_count = 1.0f / (cs_f32)count;
+    grid.strata = cs_strata_of(count);
     grid.inverse_columns = 1.0f / (cs_f32)grid.columns;
     grid.count_domain = cs_domain_of(count);
     grid.column_domain = cs_domain_of(grid.columns);
     grid.row_domain = cs_domain_of(grid.extra > 0u ? grid.rows + 1u : grid.rows);
-    /* Jitter has so few bits that stratum + jitter is exact in a float, and the quotient by N stays
-     * clear of the next stratum by two ulps: 21 bits for both together. */
-    cs_u32 bits = 0u;
-    while ((1u << bits) < count)
-        bits++;
-    cs_u32 jitter_bits = bits > 5u ? 21u - bits : 16u;
-    grid.jitter_shift = 16u - jitter_bits;
-    grid.jitter_scale = 1.0f / (cs_f32)(1u << jitter_bits);
     return grid;
 }
 
@@ -150,13 +141,6 @@ typedef struct cs_pair {
     cs_vfloat x;
     cs_vfloat y;
 } cs_pair;
-
-/* A place in [0, 1) in stratum number `stratum` of the grid's N, chosen by 16 random bits. */
-static inline cs_vfloat cs_in_stratum(const cs_grid *grid, cs_vuint stratum, cs_vuint bits16)
-{
-    cs_vfloat jitter = (cs_to_vfloat(bits16 >> grid->jitter_shift) + 0.5f) * grid->jitter_scale;
-    return (cs_to_vfloat(stratum) + jitter) * grid->inverse_count;
-}
 
 #include "../fp_contract_restore.h"
 

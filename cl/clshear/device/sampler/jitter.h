@@ -26,15 +26,11 @@ static inline void cs_draw_random(const cs_pattern *pattern, cs_sample_table tab
         cs_put_slot(cs_extra_random(pattern, table, key, index, slot), slot, tuple);
 }
 
-/* A place in [0, 1) in stratum number `stratum` of `strata`, at most 2048. Of the 32 random `bits`
- * the upper 13 count, or 10 where there are many strata: so few that rounding stays clear of the
- * stratum's ends. */
-static inline cs_vfloat cs_jittered(cs_vuint stratum, cs_u32 strata, cs_vuint bits)
+/* A random place in stratum number `stratum` of `count`. */
+static inline cs_vfloat cs_jittered(cs_vuint stratum, cs_u32 count, cs_vuint bits)
 {
-    cs_u32 shift = strata > 256u ? 22u : 19u;
-    cs_vfloat jitter =
-        (cs_to_vfloat(bits >> shift) + 0.5f) * (1.0f / (cs_f32)(1u << (32u - shift)));
-    return (cs_to_vfloat(stratum) + jitter) * (1.0f / (cs_f32)strata);
+    cs_strata strata = cs_strata_of(count);
+    return cs_in_stratum(&strata, stratum, bits);
 }
 
 /* The jittered point of slot `slot` in cell `cell` of the grid, which is number `place`. */
@@ -44,7 +40,7 @@ static inline cs_pair cs_jittered_point(const cs_grid *grid, cs_cell cell, cs_u3
     cs_vuint bits = cs_key_lanes(cs_key(key, CS_KEY_PAIR + slot), place);
     cs_pair point;
     point.x = cs_jittered(cell.column, grid->columns, bits);
-    point.y = cs_jittered(cell.row, grid->rows, bits << 16);
+    point.y = cs_jittered(cell.row, grid->rows, cs_hash_lanes(bits));
     return point;
 }
 
@@ -93,7 +89,7 @@ static inline cs_vfloat cs_nrooks_axis(const cs_grid *grid, cs_u32 key, cs_vuint
     if (number > 0u)
         stratum =
             cs_permute(index, (cs_vuint)(grid->count), grid->count_domain, (cs_vuint)(axis_key));
-    return cs_in_stratum(grid, stratum, cs_key_lanes(~axis_key, stratum) >> 16);
+    return cs_in_stratum(&grid->strata, stratum, cs_key_lanes(~axis_key, stratum));
 }
 
 /* Coordinates of slot `slot` with one point in each of N strata. */

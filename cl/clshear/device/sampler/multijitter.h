@@ -42,8 +42,8 @@ static inline cs_pair cs_multijitter(const cs_grid *grid, cs_cell cell, cs_u32 k
         cell.row * grid->columns + cs_permute(column_rank, row_size, grid->column_domain, row_key);
     cs_vuint jitter = cs_key_lanes(~key, x_stratum);
     cs_pair point;
-    point.x = cs_in_stratum(grid, x_stratum, jitter >> 16);
-    point.y = cs_in_stratum(grid, y_stratum, jitter & 0xffffu);
+    point.x = cs_in_stratum(&grid->strata, x_stratum, jitter);
+    point.y = cs_in_stratum(&grid->strata, y_stratum, cs_hash_lanes(jitter));
     return point;
 }
 
@@ -143,7 +143,7 @@ static inline cs_vfloat cs_ranked(const cs_grid *grid, cs_vuint level, cs_vuint 
 {
     rank = cs_permute(rank, (cs_vuint)(grid->rows), grid->row_domain, cs_key_lanes(key, level));
     cs_vuint stratum = level * grid->rows + rank;
-    return cs_in_stratum(grid, stratum, cs_key_lanes(~key, stratum) >> 16);
+    return cs_in_stratum(&grid->strata, stratum, cs_key_lanes(~key, stratum));
 }
 
 /* Orthogonal array of strength 3, N = q^3 runs (a, b, c) with the levels of a + b x + c x^2 at four

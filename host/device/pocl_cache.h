@@ -1,0 +1,17 @@
+/* PoCL's cache of compiled kernels, whose faults PoCL does not survive or cannot name. */
+#ifndef CS_DEVICE_POCL_CACHE_H
+#define CS_DEVICE_POCL_CACHE_H
+
+#include <stddef.h>
+
+#include "device/opencl.h"
+
+/* Fails, naming the folder to delete, if a kernel of this library in the cache is cut short or is
+ * none: PoCL would end the process. Other drivers, and a cache that cannot be read, are fine. */
+clshear_status cs_pocl_cache_check(cl_device_id device, cs_error *error);
+
+/* Writes what to do about the cache where a kernel could not be made, as the rest of a sentence;
+ * nothing for other drivers. */
+void cs_pocl_cache_advice(cl_device_id device, char *text, size_t size);
+
+#endif

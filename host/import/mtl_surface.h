@@ -1,0 +1,26 @@
+/* From the numbers of MTL to a surface. */
+#ifndef CS_IMPORT_MTL_SURFACE_H
+#define CS_IMPORT_MTL_SURFACE_H
+
+#include "scene/material.h"
+
+/* What the lines of a material say that has another sense in glTF's vocabulary. Negative: the file
+ * does not say. */
+typedef struct mtl_values {
+    float highlight[3]; /* Ks: colour of highlights and mirrors */
+    float exponent;     /* Ns: of the highlight */
+    float ior;          /* Ni */
+    float opacity;      /* d */
+    float transparency; /* Tr: 1 - opacity */
+    float filter[3];    /* Tf: colour of what passes through */
+    float roughness;    /* Pr */
+    float metallic;     /* Pm */
+    int model;          /* illum */
+} mtl_values;
+
+void mtl_values_init(mtl_values *values);
+
+/* Completes a material whose lines are all read. */
+void mtl_make_surface(const mtl_values *values, cs_material_description *material);
+
+#endif

@@ -1,0 +1,54 @@
+#include "report/picture.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* What the remarks are made from. */
+typedef struct survey {
+    size_t pixels;
+    size_t lit;     /* pixels above 0 */
+    size_t clipped; /* pixels whose three channels are above 1 */
+    size_t met;     /* pixels that see the scene */
+    float blur_px;  /* the widest circle of confusion */
+} survey;
+
+static survey look_at(const clshear_film *film, size_t pixels)
+{
+    const float *red = clshear_film_channel(film, "R"), *green = clshear_film_channel(film, "G");
+    const float *blue = clshear_film_channel(film, "B"), *depth = clshear_film_channel(film, "Z");
+    const float *blur = clshear_film_channel(film, "CoC");
+    survey found = {.pixels = pixels};
+    if (red == NULL || green == NULL || blue == NULL || depth == NULL || blur == NULL)
+        return (survey){0};
+    for (size_t i = 0; i < pixels; i++) {
+        found.lit += red[i] > 0.0f || green[i] > 0.0f || blue[i] > 0.0f;
+        found.clipped += red[i] > 1.0f && green[i] > 1.0f && blue[i] > 1.0f;
+        found.met += isfinite(depth[i]);
+        if (isfinite(depth[i])) found.blur_px = fmaxf(found.blur_px, blur[i]);
+    }
+    return found;
+}
+
+void remark_on_picture(const clshear_film *film, int has_lens)
+{
+    clshear_film_info info = {.struct_size = sizeof info};
+    clshear_film_describe(film, &info);
+    const survey found = look_at(film, (size_t)info.width * (size_t)info.height);
+    if (found.pixels == 0) return;
+    if (found.lit == 0 && found.met == 0)
+        fprintf(stderr, "clshear: the picture is black: the camera does not see the scene; "
+                        "--eye and --target aim it, without them the scene is framed\n");
+    else if (found.lit == 0)
+        fprintf(stderr, "clshear: the picture is black: no light reaches what it shows; "
+                        "--environment 1,1,1 adds light from all around\n");
+    if (2 * found.clipped > found.pixels)
+        fprintf(stderr,
+                "clshear: %.0f %% of the picture is brighter than 1, white in all but .exr; weaken "
+                "the light (an environment by --environment-strength)\n",
+                100.0 * (double)found.clipped / (double)found.pixels);
+    if (has_lens && found.met > 0 && found.blur_px < 1.0f)
+        fprintf(stderr,
+                "clshear: everything is in focus, blurred by %.2g px at most; a larger "
+                "--lens-radius blurs more (with --fstop: check --unit)\n",
+                (double)found.blur_px);
+}

@@ -1,0 +1,11 @@
+/* Remarks on a finished picture that cannot be what was meant. */
+#ifndef CS_PROGRAM_PICTURE_H
+#define CS_PROGRAM_PICTURE_H
+
+#include "clshear/clshear.h"
+
+/* Prints a line on standard error if the picture is black, if most of it is white when clipped, and
+ * if it is sharp everywhere although a lens was given (`has_lens`). */
+void remark_on_picture(const clshear_film *film, int has_lens);
+
+#endif

@@ -1,0 +1,377 @@
+/* What files say of materials, from the lines of a file to the numbers on the device. */
+#include "material_files.h"
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "import/import.h"
+#include "import/transfer.h"
+#include "kernels/bsdf/list.h"
+
+static char warnings[4096];
+
+static void collect(void *user, const char *line)
+{
+    const size_t used = strlen(warnings);
+    (void)user;
+    snprintf(warnings + used, sizeof warnings - used, "%s\n", line);
+}
+
+static void expect_warning(const char *words)
+{
+    if (strstr(warnings, words) == NULL)
+        fail_msg("\"%s\" does not contain \"%s\"", warnings, words);
+}
+
+static cs_scene load(const char *path)
+{
+    const cs_log log = {.warn = collect};
+    const cs_import_options options = {.smooth_degrees = -1.0};
+    cs_scene scene;
+    cs_error error;
+    warnings[0] = '\0';
+    cs_scene_init(&scene);
+    if (cs_import_here(path, &options, NULL, &scene, &log, &error) != CLSHEAR_OK)
+        fail_msg("%s", error.message);
+    assert_true(cs_scene_is_sound(&scene));
+    return scene;
+}
+
+static cs_scene load_mtl(const char *lines)
+{
+    return load(material_mtl(lines));
+}
+
+static cs_scene load_gltf(const char *material)
+{
+    return load(material_gltf(material));
+}
+
+static const cs_material *first_of(const cs_scene *scene)
+{
+    return (const cs_material *)scene->materials.items +
+           *(const uint32_t *)scene->triangle_materials.items;
+}
+
+/* A float of a device material. */
+typedef struct expectation {
+    const char *text; /* of the material */
+    size_t offset;
+    double value;
+} expectation;
+
+#define PARAMETER(name) (offsetof(cs_material, parameters) + sizeof(float) * CS_PARAMETER_##name)
+
+static void expect_all(const expectation *all, size_t count, cs_scene (*load_text)(const char *))
+{
+    for (size_t i = 0; i < count; i++) {
+        cs_scene scene = load_text(all[i].text);
+        float found;
+        memcpy(&found, (const char *)first_of(&scene) + all[i].offset, sizeof found);
+        if (!(fabs((double)found - all[i].value) < 1e-5))
+            fail_msg("%s: %g is not %g", all[i].text, (double)found, all[i].value);
+        assert_int_equal(first_of(&scene)->bsdf, CS_BSDF_STANDARD);
+        assert_string_equal(warnings, "");
+        cs_scene_free(&scene);
+    }
+}
+
+#define PBR(text) "{'pbrMetallicRoughness':{" text "}}"
+#define EXTENSION(name, text)                                                                    \
+    "{'pbrMetallicRoughness':{'metallicFactor':0},'extensions':{'KHR_materials_" name "':{" text \
+    "}}}"
+
+static void numbers_of_gltf(void **state)
+{
+    static const expectation all[] = {
+        {PBR("'roughnessFactor':0.3"), PARAMETER(ROUGHNESS), 0.3},
+        {PBR("'roughnessFactor':0.3"), PARAMETER(METALLIC), 1.0},
+        {PBR("'metallicFactor':0.2"), PARAMETER(METALLIC), 0.2},
+        {PBR("'metallicFactor':0.2"), PARAMETER(ROUGHNESS), 1.0},
+        {PBR("'metallicFactor':0"), PARAMETER(F0), 0.04},
+        {PBR("'metallicFactor':0"), PARAMETER(F90), 1.0},
+        {PBR("'metallicFactor':0,'roughnessFactor':7"), PARAMETER(ROUGHNESS), 1.0},
+        {PBR("'metallicFactor':0,'baseColorFactor':[0.5,0.25,0.125,1]"),
+         offsetof(cs_material, diffuse) + 4, 0.25},
+        {EXTENSION("ior", "'ior':2"), PARAMETER(F0), 1.0 / 9.0},
+        {EXTENSION("specular", "'specularFactor':0.5"), PARAMETER(F0), 0.02},
+        {EXTENSION("specular", "'specularFactor':0.5"), PARAMETER(F90), 0.5},
+        {EXTENSION("specular", "'specularColorFactor':[2,2,2]"), PARAMETER(F0), 0.08},
+        {EXTENSION("transmission", "'transmissionFactor':0.7"), PARAMETER(TRANSMISSION), 0.7},
+        {EXTENSION("clearcoat", "'clearcoatFactor':0.6"), PARAMETER(COAT), 0.6},
+        {EXTENSION("clearcoat", "'clearcoatRoughnessFactor':0.6"), PARAMETER(COAT_ROUGHNESS), 0.6},
+        {EXTENSION("sheen", "'sheenColorFactor':[0.1,0.2,0.3]"), PARAMETER(SHEEN) + 8, 0.3},
+        {EXTENSION("sheen", "'sheenRoughnessFactor':0.4"), PARAMETER(SHEEN_ROUGHNESS), 0.4},
+        {EXTENSION("emissive_strength", "'emissiveStrength':3"), offsetof(cs_material, alpha), 1.0},
+        {EXTENSION("pbrSpecularGlossiness", "'glossinessFactor':0.7"), PARAMETER(ROUGHNESS), 0.3},
+        {EXTENSION("pbrSpecularGlossiness", "'specularFactor':[0.2,0.2,0.2]"), PARAMETER(F0), 0.2},
+        {EXTENSION("pbrSpecularGlossiness", "'diffuseFactor':[0,0,0,1]"), PARAMETER(METALLIC), 1.0},
+    };
+    (void)state;
+    expect_all(all, sizeof all / sizeof *all, load_gltf);
+}
+
+/* Roughness by Ns: (2 / (Ns + 2))^(1/4). */
+static void numbers_of_mtl(void **state)
+{
+    static const expectation all[] = {
+        {"Ks 0.5 0.5 0.5\nNs 30", PARAMETER(ROUGHNESS), 0.5},
+        {"Ks 0.5 0.5 0.5\nNs 30\nillum 2\nNi 1\nd 1", PARAMETER(F0), 0.04},
+        {"Ks 0.5 0.5 0.5\nNs 30", PARAMETER(F90), 1.0},
+        {"Ks 0.25 0.25 0.25\nNs 30", PARAMETER(F90), 0.5},
+        {"Ks 9 9 9\nNs 30", PARAMETER(F0), 0.08},
+        {"Ks 0 1 0\nNs 30", PARAMETER(F0), 0.08 * 0.7152},
+        {"Ks 0.6 0.6 0.6\nillum 3", PARAMETER(F0), 0.6},
+        {"Ks 0.6 0.6 0.6\nillum 3", PARAMETER(ROUGHNESS), 0.0},
+        {"Ks 0.6 0.6 0.6\nNs 30\nillum 3", PARAMETER(ROUGHNESS), 0.5},
+        {"Kd 0 0 0\nKs 0.6 0.5 0.2\nillum 3", PARAMETER(METALLIC), 1.0},
+        {"Kd 0 0 0\nKs 0.6 0.5 0.2\nillum 3", offsetof(cs_material, diffuse) + 8, 0.2},
+        {"Ks 0.6 0.6 0.6\nNi 2\nillum 5", PARAMETER(F0), 1.0 / 9.0},
+        {"d 0.3\nillum 4", PARAMETER(TRANSMISSION), 0.7},
+        {"d 0.3\nillum 4\nNi 1", PARAMETER(F0), 0.04},
+        {"Kd 0.5 0.5 0.5\nd 0\nTf 0.9 0.8 0.7\nillum 6", offsetof(cs_material, diffuse) + 4, 0.8},
+        {"Ni 2\nillum 7", PARAMETER(TRANSMISSION), 1.0},
+        {"Ni 2\nillum 7", PARAMETER(F0), 1.0 / 9.0},
+        {"Pr 0.3", PARAMETER(ROUGHNESS), 0.3},
+        {"Pr 0.3", PARAMETER(F0), 0.04},
+        {"Pm 0.8", PARAMETER(METALLIC), 0.8},
+        {"Pc 0.6", PARAMETER(COAT), 0.6},
+        {"Pc 1\nPcr 0.2", PARAMETER(COAT_ROUGHNESS), 0.2},
+        {"Ps 0.5", PARAMETER(SHEEN) + 8, 0.5},
+    };
+    (void)state;
+    expect_all(all, sizeof all / sizeof *all, load_mtl);
+}
+
+/* Files that ask for Lambert's surface have it, and the kernels that know no other. */
+static void lambert_stays_lambert(void **state)
+{
+    static const char *const mtl[] = {
+        "Kd 0.5 0.4 0.3",
+        "Kd 0.5 0.4 0.3\nKs 0 0 0\nNs 96\nNi 1.45\nd 1\nillum 2",
+        "Kd 0.5 0.4 0.3\nKs 1 1 1\nNs 0\nillum 2",
+        "Kd 0.5 0.4 0.3\nKs 1 1 1\nNs 50\nillum 1",
+        "Kd 0.5 0.4 0.3\nTf 1 1 1\nNi 1\nillum 4",
+        "Kd 0.5 0.4 0.3\nTr 0",
+        "Kd 0.5 0.4 0.3\nd 1\nTr 1",
+        "Kd 0.5 0.4 0.3\nKe 1 1 1",
+    };
+    static const char *const gltf[] = {
+        "{}",
+        "{'doubleSided':true}",
+        PBR("'baseColorFactor':[0.5,0.4,0.3,1]"),
+        "{'alphaMode':'BLEND'}",
+        "{'alphaMode':'MASK','alphaCutoff':0.7}",
+        "{'emissiveFactor':[1,1,1]}",
+    };
+    const size_t count = sizeof mtl / sizeof *mtl;
+    (void)state;
+    for (size_t i = 0; i < count + sizeof gltf / sizeof *gltf; i++) {
+        cs_scene scene = i < count ? load_mtl(mtl[i]) : load_gltf(gltf[i - count]);
+        assert_int_equal(first_of(&scene)->bsdf, CS_BSDF_LAMBERT);
+        assert_int_equal(cs_scene_material_needs(&scene).features, 0);
+        assert_string_equal(warnings, "");
+        cs_scene_free(&scene);
+    }
+}
+
+static void flags_of_materials(void **state)
+{
+    static const struct {
+        int is_mtl;
+        const char *text;
+        cs_u32 flags;
+        float alpha;
+    } all[] = {
+        {1, "d 0.25", CS_MATERIAL_BLEND, 0.25f},
+        {1, "Tr 0.25", CS_MATERIAL_BLEND, 0.75f},
+        {1, "d 0.25\nTr 0.1", CS_MATERIAL_BLEND, 0.25f},
+        {1, "d -halo 0.25", CS_MATERIAL_BLEND, 0.25f},
+        {0, "{'alphaMode':'BLEND','pbrMetallicRoughness':{'baseColorFactor':[1,1,1,0.5]}}",
+         CS_MATERIAL_BLEND, 0.5f},
+        {0, "{'alphaMode':'MASK','pbrMetallicRoughness':{'baseColorFactor':[1,1,1,0.25]}}",
+         CS_MATERIAL_MASK, 0.25f},
+        {0, "{'pbrMetallicRoughness':{'baseColorFactor':[1,1,1,0.25]}}", 0, 0.25f},
+        {0, "{'extensions':{'KHR_materials_unlit':{}}}", CS_MATERIAL_UNLIT, 1.0f},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        cs_scene scene = all[i].is_mtl ? load_mtl(all[i].text) : load_gltf(all[i].text);
+        assert_int_equal(first_of(&scene)->flags, all[i].flags);
+        assert_true(first_of(&scene)->alpha == all[i].alpha);
+        cs_scene_free(&scene);
+    }
+    cs_scene scene = load_mtl("Tr 1");
+    expect_warning("\"m\" has the opacity 0 and cannot be seen");
+    cs_scene_free(&scene);
+}
+
+/* The value of a half that is 0 or between 2^-14 and 2. */
+static double value_of(uint16_t half)
+{
+    return half == 0 ? 0.0 : ldexp(1.0 + (half & 1023) / 1024.0, (half >> 10) - 15);
+}
+
+/* The upper left texel of a texture that counts from 1; halves keep 11 bits. */
+static void expect_texel(const cs_scene *scene, cs_u32 number, double red, double green,
+                         double blue, double alpha)
+{
+    const double wanted[4] = {red, green, blue, alpha};
+    assert_in_range(number, 1, scene->textures.count);
+    const cs_texture *texture = (const cs_texture *)scene->textures.items + number - 1;
+    const uint16_t(*texels)[4] = scene->texels.items;
+    for (int c = 0; c < 4; c++)
+        assert_near(value_of(texels[texture->first][c]), wanted[c], 6e-4);
+}
+
+static cs_u32 base_of(const cs_scene *scene)
+{
+    return (cs_u32)(first_of(scene)->texture + 1);
+}
+
+/* Colours are on the sRGB curve ((128 / 255) is 0.2158 there), numbers are not, alpha never. */
+static void maps_of_gltf(void **state)
+{
+    (void)state;
+    material_even_picture("grey.tga", 128, 255, 0, 51);
+    material_even_picture("tone.tga", 128, 128, 255, 255);
+    cs_scene scene =
+        load_gltf("{'alphaMode':'BLEND','emissiveFactor':[2,2,2],'emissiveTexture':{'index':1},"
+                  "'normalTexture':{'index':1,'scale':0.5},'occlusionTexture':{'index':0},"
+                  "'pbrMetallicRoughness':{'baseColorTexture':{'index':0},"
+                  "'metallicRoughnessTexture':{'index':1}}}");
+    const cs_material *m = first_of(&scene);
+    assert_string_equal(warnings, "");
+    assert_int_equal(m->flags, CS_MATERIAL_BLEND);
+    expect_texel(&scene, base_of(&scene), 0.2158, 1, 0, 0.2);
+    expect_texel(&scene, m->emission_texture, 0.2158, 0.2158, 1, 1);
+    expect_texel(&scene, m->normal_texture, 0.502, 0.502, 1, 1);
+    expect_texel(&scene, m->facets_texture, 0.502, 0.502, 1, 1);
+    assert_int_equal(m->normal_texture, m->facets_texture); /* read once */
+    assert_true(m->normal_scale == 0.5f && m->emission[0] == 2.0f);
+    assert_int_equal(*(const uint8_t *)scene.triangle_flags.items, CS_FACE_TEXTURED);
+    cs_scene_free(&scene);
+    scene = load_gltf("{'alphaMode':'MASK','pbrMetallicRoughness':{'baseColorTexture':{'index':1},"
+                      "'baseColorFactor':[1,1,1,0.8]}}");
+    assert_int_equal(first_of(&scene)->flags, 0); /* alpha is 1 in the image */
+    cs_scene_free(&scene);
+    scene = load_gltf("{'normalTexture':{'index':1,'extensions':{'KHR_texture_transform':"
+                      "{'offset':[0.5,0]}}},'pbrMetallicRoughness':{'baseColorTexture':"
+                      "{'index':0}}}");
+    expect_warning("texture coordinates that differ between its maps");
+    cs_scene_free(&scene);
+}
+
+static void maps_of_mtl(void **state)
+{
+    static const unsigned char ramp[16] = {0,   0,   0,   255, 255, 255, 255, 255,
+                                           255, 255, 255, 255, 0,   0,   0,   255};
+    (void)state;
+    material_even_picture("grey.tga", 128, 128, 128, 255);
+    material_even_picture("tone.tga", 255, 255, 255, 51);
+    material_even_picture("bent.tga", 100, 140, 240, 255);
+    material_picture("ramp.tga", ramp);
+    cs_scene scene = load_mtl("map_Kd grey.tga\nmap_d tone.tga");
+    expect_texel(&scene, base_of(&scene), 0.2158, 0.2158, 0.2158, 0.2); /* has alpha */
+    assert_int_equal(first_of(&scene)->flags, CS_MATERIAL_BLEND);
+    cs_scene_free(&scene);
+    scene = load_mtl("map_d grey.tga");
+    expect_texel(&scene, base_of(&scene), 1, 1, 1, 0.502); /* has none */
+    cs_scene_free(&scene);
+    scene = load_mtl("map_Pr grey.tga\nmap_Pm tone.tga");
+    expect_texel(&scene, first_of(&scene)->facets_texture, 1, 0.502, 1, 1);
+    assert_true(first_of(&scene)->parameters[CS_PARAMETER_METALLIC] == 1.0f);
+    cs_scene_free(&scene);
+    scene = load_mtl("Ks 1 1 1\nNs 60\nmap_Ns grey.tga");
+    expect_texel(&scene, first_of(&scene)->facets_texture, 1, pow(2.0 / (60 * 0.50196 + 2), 0.25),
+                 1, 1);
+    assert_true(first_of(&scene)->parameters[CS_PARAMETER_ROUGHNESS] == 1.0f);
+    cs_scene_free(&scene);
+    scene = load_mtl("map_Ke grey.tga");
+    expect_texel(&scene, first_of(&scene)->emission_texture, 0.2158, 0.2158, 0.2158, 1);
+    assert_true(first_of(&scene)->emission[0] == 1.0f);
+    cs_scene_free(&scene);
+    scene = load_mtl("norm grey.tga");
+    expect_texel(&scene, first_of(&scene)->normal_texture, 0.502, 0.502, 0.502, 1);
+    cs_scene_free(&scene);
+    scene = load_mtl("map_Bump -bm 0.3 ramp.tga"); /* as high on both sides of each texel */
+    expect_texel(&scene, first_of(&scene)->normal_texture, 0.5, 0.5, 1, 1);
+    assert_true(first_of(&scene)->normal_scale == 0.3f);
+    cs_scene_free(&scene);
+    scene = load_mtl("bump bent.tga"); /* looks like normals */
+    expect_texel(&scene, first_of(&scene)->normal_texture, 0.392, 0.549, 0.941, 1);
+    cs_scene_free(&scene);
+}
+
+/* Heights that rise by 0.2 a texel to the right and by 0.4 upwards: the normal is -0.2, -0.4, 1. */
+static void heights_become_normals(void **state)
+{
+    float texels[5 * 5 * 4];
+    const double scale = 0.5 / sqrt(1.0 + 0.2 * 0.2 + 0.4 * 0.4);
+    (void)state;
+    for (int y = 0; y < 5; y++)
+        for (int x = 0; x < 5; x++)
+            for (int c = 0; c < 4; c++)
+                texels[4 * (5 * y + x) + c] = 0.2f * (float)x - 0.4f * (float)y;
+    assert_true(cs_texels_convert(CS_TEXELS_BUMPS, texels, 5, 5));
+    const float *middle = texels + 4 * (5 * 2 + 2);
+    assert_near(middle[0], 0.5 - 0.2 * scale, 1e-6);
+    assert_near(middle[1], 0.5 - 0.4 * scale, 1e-6);
+    assert_near(middle[2], 0.5 + scale, 1e-6);
+}
+
+/* What a helper may send only by mistake. Each case changes one word of a sound scene. */
+static void unsound_materials_are_found(void **state)
+{
+    static const struct {
+        size_t offset;
+        float number;
+        cs_u32 word; /* where number is 0 */
+    } cases[] = {
+        {offsetof(cs_material, texture), 0, 2},
+        {offsetof(cs_material, texture), 0, 0x80000000u},
+        {offsetof(cs_material, facets_texture), 0, 9},
+        {offsetof(cs_material, normal_texture), 0, 9},
+        {offsetof(cs_material, emission_texture), 0, 0xffffffffu},
+        {offsetof(cs_material, bsdf), 0, CS_BSDF_ALL},
+        {offsetof(cs_material, flags), 0, 0x100},
+        {offsetof(cs_material, alpha), 1.5f, 0},
+        {offsetof(cs_material, cutoff), NAN, 0},
+        {offsetof(cs_material, normal_scale), INFINITY, 0},
+        {offsetof(cs_material, diffuse), -1.0f, 0},
+        {offsetof(cs_material, emission), NAN, 0},
+        {PARAMETER(ROUGHNESS), NAN, 0},
+        {PARAMETER(SHEEN_ROUGHNESS), 2.0f, 0},
+    };
+    (void)state;
+    material_even_picture("grey.tga", 128, 128, 128, 255);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        cs_scene scene = load_mtl("map_Kd grey.tga\nPr 0.5\nnorm grey.tga");
+        char *material = scene.materials.items;
+        if (cases[i].number != 0.0f)
+            memcpy(material + cases[i].offset, &cases[i].number, sizeof(float));
+        else
+            memcpy(material + cases[i].offset, &cases[i].word, sizeof(cs_u32));
+        if (cs_scene_is_sound(&scene)) fail_msg("case %zu passes", i);
+        cs_scene_free(&scene);
+    }
+    cs_scene scene = load_mtl("map_Kd grey.tga");
+    ((cs_vertex *)scene.vertices.items)->texture[1] = NAN;
+    assert_false(cs_scene_is_sound(&scene));
+    ((cs_vertex *)scene.vertices.items)->texture[1] = 0.0f;
+    ((cs_texture *)scene.textures.items)->wrap = 3;
+    assert_false(cs_scene_is_sound(&scene));
+    cs_scene_free(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numbers_of_gltf),        cmocka_unit_test(numbers_of_mtl),
+        cmocka_unit_test(lambert_stays_lambert),  cmocka_unit_test(flags_of_materials),
+        cmocka_unit_test(maps_of_gltf),           cmocka_unit_test(maps_of_mtl),
+        cmocka_unit_test(heights_become_normals), cmocka_unit_test(unsound_materials_are_found),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
