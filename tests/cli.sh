@@ -61,6 +61,8 @@ refuse 2 "--packet 3: must be" -- "$cornell" --packet 3
 refuse 2 "--quiet takes no value" -- "$cornell" --quiet=yes
 refuse 2 "more than one scene" -- "$cornell" "$cornell"
 refuse 2 "--aperture heart: must be disk, square, polygon or an image file" -- "$cornell" --aperture heart
+expect 0 "--fstop is not used: --lens-radius comes after it" -- "$cornell" --fstop 2 --lens-radius 3 --width 8 --height 8 --spp 1 --out pair.exr
+expect 0 "--focus-pixel is not used: --focal-distance" -- "$cornell" --focus-pixel 3,3 --focal-distance 1000 --width 8 --height 8 --spp 1 --out pair.exr
 refuse 2 "--blades 2: must be" -- "$cornell" --blades 2
 refuse 2 "--anamorphic 0: must be" -- "$cornell" --anamorphic 0
 refuse 2 "--filter lanczos: must be box" -- "$cornell" --filter lanczos

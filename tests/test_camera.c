@@ -3,7 +3,9 @@
 
 #include <math.h>
 
+#include "base/vec.h"
 #include "render/camera_choice.h"
+#include "scene/camera.h"
 #include "settings/view.h"
 
 static cs_view view_of(const clshear_settings *settings)
@@ -89,6 +91,95 @@ static void f_numbers_become_radii(void **state)
     }
 }
 
+/* From every side, the picture shows all corners of the scene's bounding box that the scene
+ * touches, and its farthest ones reach the margin. The floor of test_floor is its own corners. */
+static void framing_fits_every_vertex(void **state)
+{
+    test_fixture *made = *state;
+    static const int sizes[][2] = {{400, 400}, {640, 200}, {200, 500}};
+    static const char *const orbits[] = {"0,0.5", "35,20", "-120,60", "180,-30", "90,90"};
+    clshear_scene *floor = test_floor(made->context, 3.0f, 0.5f);
+    for (int k = 0; k < 15; k++) {
+        const int width = sizes[k % 3][0], height = sizes[k % 3][1];
+        clshear_settings *settings = test_settings(NULL, width, height, 16);
+        cs_error error;
+        cs_camera frame;
+        float reach = 0.0f;
+        test_set(settings, CLSHEAR_ORBIT, "%s", orbits[k / 3]);
+        assert_int_equal(cs_camera_pose(floor, settings, &error), CLSHEAR_OK);
+        const cs_view view = view_of(settings);
+        assert_int_equal(cs_camera_frame(&view, width, height, &frame, &error), CLSHEAR_OK);
+        for (int corner = 0; corner < 4; corner++) {
+            const float point[3] = {corner & 1 ? 3.0f : -3.0f, 0.0f, corner & 2 ? 3.0f : -3.0f};
+            float offset[3];
+            cs_vec_subtract(point, view.eye, offset);
+            const float depth = cs_vec_dot(offset, frame.forward);
+            assert_above(depth, 0.0f);
+            const float scale = frame.focal_distance / (depth * frame.pixel_width);
+            const float x = fabsf(cs_vec_dot(offset, frame.right) * scale) / (0.5f * (float)width);
+            const float y = fabsf(cs_vec_dot(offset, frame.down) * scale) / (0.5f * (float)height);
+            reach = fmaxf(reach, fmaxf(x, y));
+        }
+        assert_near(reach, 1.0f / 1.08f, 1e-3f);
+        clshear_settings_free(settings);
+    }
+    clshear_scene_free(floor);
+}
+
+/* An orbit stands on the side that its angles name, whatever is up. */
+static void orbits_name_the_side(void **state)
+{
+    test_fixture *made = *state;
+    clshear_scene *floor = test_floor(made->context, 3.0f, 0.5f);
+    static const struct {
+        const char *orbit, *z_up;
+        float towards[3];
+    } sides[] = {{"0,0", "0", {0, 0, 1}},  {"90,0", "0", {1, 0, 0}}, {"0,90", "0", {0, 1, 0}},
+                 {"0,0", "1", {0, -1, 0}}, {"90,0", "1", {1, 0, 0}}, {"0,90", "1", {0, 0, 1}}};
+    for (size_t k = 0; k < sizeof sides / sizeof *sides; k++) {
+        clshear_settings *settings = test_settings(NULL, 100, 100, 16);
+        cs_error error;
+        float towards[3];
+        test_set(settings, CLSHEAR_ORBIT, "%s", sides[k].orbit);
+        test_set(settings, CLSHEAR_Z_UP, "%s", sides[k].z_up);
+        assert_int_equal(cs_camera_pose(floor, settings, &error), CLSHEAR_OK);
+        const cs_view view = view_of(settings);
+        cs_vec_subtract(view.eye, view.target, towards);
+        const float length = sqrtf(cs_vec_dot(towards, towards));
+        assert_near(cs_vec_dot(towards, sides[k].towards) / length, 1.0f, 1e-5f);
+        clshear_settings_free(settings);
+    }
+    clshear_scene_free(floor);
+}
+
+/* The blur of points at infinity, A / w, is what was asked for; the focus is the point's depth. */
+static void blur_and_focus_point_do_what_they_say(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = test_settings(NULL, 300, 200, 16);
+    cs_error error;
+    cs_camera frame;
+    test_set(settings, CLSHEAR_EYE, "274.8,273,800");
+    test_set(settings, CLSHEAR_TARGET, "274.8,273,0");
+    test_set(settings, CLSHEAR_FOCUS_POINT, "10,500,-200");
+    test_set(settings, CLSHEAR_F_STOP, "2");
+    test_set(settings, CLSHEAR_BLUR, "12");
+    assert_false(clshear_settings_is_set(settings, CLSHEAR_F_STOP));
+    test_ok(clshear_camera_complete(made->scene, settings));
+    const cs_view view = view_of(settings);
+    assert_near(view.focal_distance, 1000.0f, 1e-2f);
+    assert_int_equal(cs_camera_frame(&view, 300, 200, &frame, &error), CLSHEAR_OK);
+    assert_near(2.0f * view.lens_radius / frame.pixel_width, 12.0f, 1e-3f);
+    clshear_settings_free(settings);
+    settings = test_settings(NULL, 300, 200, 16);
+    test_set(settings, CLSHEAR_EYE, "274.8,273,800");
+    test_set(settings, CLSHEAR_TARGET, "274.8,273,0");
+    test_set(settings, CLSHEAR_FOCUS_POINT, "0,0,900");
+    test_refused(clshear_camera_complete(made->scene, settings), CLSHEAR_BAD_ARGUMENT,
+                 "lies behind the camera");
+    clshear_settings_free(settings);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -96,6 +187,9 @@ int main(void)
         cmocka_unit_test(focus_is_the_depth_of_a_pixel),
         cmocka_unit_test(focus_pixels_become_distances),
         cmocka_unit_test(f_numbers_become_radii),
+        cmocka_unit_test(framing_fits_every_vertex),
+        cmocka_unit_test(orbits_name_the_side),
+        cmocka_unit_test(blur_and_focus_point_do_what_they_say),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);
 }

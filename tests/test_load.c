@@ -188,6 +188,7 @@ static void far_scenes_look_alike(void **state)
     expect_colour(scene, 500000.125, 4649777.5, 100, 0.5f, 0.5f, 0.5f);
     expect_colour(scene, 499999.875, 4649777.5, 100, 0, 0, 0); /* beside it */
     ok(clshear_settings_create(&settings));
+    ok(clshear_settings_set_text(settings, CLSHEAR_ORBIT, "0,0"));
     ok(clshear_camera_complete(scene, settings));
     ok(clshear_settings_get_numbers(settings, CLSHEAR_EYE, eye, 3, &count));
     assert_true(eye[0] == 500001.0 && eye[1] == 4649777.0 && eye[2] > 102.0 && eye[2] < 104.0);

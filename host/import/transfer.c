@@ -50,6 +50,7 @@ int cs_send_scene(int pipe, cs_scene *scene)
     memcpy(frame.origin, scene->origin, sizeof frame.origin);
     memcpy(frame.bounds, scene->bounds, sizeof frame.bounds);
     frame.degenerate = scene->degenerate;
+    frame.z_up = (uint64_t)scene->z_up;
     if (!cs_send_record(pipe, CS_RECORD_FRAME, 0, &frame, sizeof frame)) return 0;
     cs_scene_arrays(scene, arrays);
     for (int i = 0; i < CS_SCENE_ARRAYS; i++)

@@ -23,6 +23,7 @@ typedef struct cs_scene_frame {
     double origin[3];
     float bounds[2][3];
     uint64_t degenerate;
+    uint64_t z_up; /* 0 or 1 */
 } cs_scene_frame;
 
 enum {

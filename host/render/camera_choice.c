@@ -6,6 +6,7 @@
 
 #include "base/vec.h"
 #include "scene/camera.h"
+#include "scene/framing.h"
 #include "settings/view.h"
 
 static const float blur_at_infinity = 0.03f; /* of the shorter image axis, for a lens not chosen */
@@ -37,7 +38,7 @@ static clshear_status choose_camera(const clshear_scene *scene, const clshear_se
                                     int *number, cs_error *error)
 {
     const cs_array *cameras = &scene->scene.cameras;
-    *number = cameras->count > 0 ? 0 : -1;
+    *number = cameras->count > 0 && !cs_is_set(settings, ORBIT) ? 0 : -1;
     if (!cs_is_set(settings, CAMERA)) return CLSHEAR_OK;
     const char *name = cs_text(settings, CAMERA);
     *number = cs_camera_find(&scene->scene, name);
@@ -52,6 +53,20 @@ static clshear_status choose_camera(const clshear_scene *scene, const clshear_se
                    cameras->count, names);
 }
 
+/* The camera that frames the scene. The settings may turn it, and say what is up. */
+static cs_view frame_scene(const cs_scene *scene, const clshear_settings *settings)
+{
+    const int z_up = cs_is_set(settings, Z_UP) ? cs_integer(settings, Z_UP) != 0 : scene->z_up;
+    cs_framing framing = cs_framing_default(scene, z_up);
+    if (cs_is_set(settings, FOV)) framing.fov_deg = (float)cs_number(settings, FOV);
+    if (cs_is_set(settings, ORBIT)) {
+        framing.azimuth_deg = (float)cs_numbers(settings, ORBIT)[0];
+        framing.elevation_deg = (float)cs_numbers(settings, ORBIT)[1];
+    }
+    return cs_framing_view(scene, &framing, (int)cs_integer(settings, WIDTH),
+                           (int)cs_integer(settings, HEIGHT));
+}
+
 clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *settings,
                               cs_error *error)
 {
@@ -60,8 +75,10 @@ clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *sett
     clshear_status status = CLSHEAR_OK;
     int number = -1;
     CS_TRY(choose_camera(scene, settings, &number, error));
-    const cs_view view = cs_camera_of_scene(&scene->scene, number, (int)cs_integer(settings, WIDTH),
-                                            (int)cs_integer(settings, HEIGHT));
+    const cs_view view =
+        number < 0 ? frame_scene(&scene->scene, settings)
+                   : cs_camera_of_scene(&scene->scene, number, (int)cs_integer(settings, WIDTH),
+                                        (int)cs_integer(settings, HEIGHT));
     if (!cs_is_set(settings, EYE))
         CS_TRY(set_vector(settings, CLSHEAR_EYE, view.eye, origin, error));
     if (!cs_is_set(settings, TARGET))
@@ -105,15 +122,42 @@ clshear_status cs_camera_focus(const clshear_scene *scene, clshear_settings *set
     return set_one(settings, CLSHEAR_FOCAL_DISTANCE, depth, error);
 }
 
+/* Depth of a point, relative to the scene's origin; 0 or less: behind the camera. */
+static float depth_of(const cs_view *view, const float *point)
+{
+    float towards[3], offset[3];
+    cs_vec_subtract(view->target, view->eye, towards);
+    cs_vec_subtract(point, view->eye, offset);
+    return cs_vec_dot(towards, offset) / sqrtf(cs_vec_dot(towards, towards));
+}
+
 /* Depth of the bounding box's centre; 1 if it lies behind the camera. */
 static float depth_of_centre(const cs_scene *scene, const cs_view *view)
 {
-    float towards[3], centre[3];
-    cs_vec_subtract(view->target, view->eye, towards);
+    float centre[3];
     for (int i = 0; i < 3; i++)
-        centre[i] = 0.5f * (scene->bounds[0][i] + scene->bounds[1][i]) - view->eye[i];
-    const float along = cs_vec_dot(towards, centre);
-    return along > 0.0f ? along / sqrtf(cs_vec_dot(towards, towards)) : 1.0f;
+        centre[i] = 0.5f * (scene->bounds[0][i] + scene->bounds[1][i]);
+    const float depth = depth_of(view, centre);
+    return depth > 0.0f ? depth : 1.0f;
+}
+
+static clshear_status focus_on_point(const clshear_scene *scene, clshear_settings *settings,
+                                     cs_error *error)
+{
+    const double *given = cs_numbers(settings, FOCUS_POINT);
+    const double at[3] = {given[0], given[1], given[2]};
+    float point[3];
+    cs_view view;
+    cs_view_of(settings, scene->scene.origin, &view);
+    for (int i = 0; i < 3; i++)
+        point[i] = (float)(at[i] - scene->scene.origin[i]);
+    const float depth = depth_of(&view, point);
+    if (!(depth > 1e-12f))
+        return cs_fail(
+            error, CLSHEAR_BAD_ARGUMENT,
+            "focus-point %g,%g,%g: lies behind the camera; choose a point in the picture", at[0],
+            at[1], at[2]);
+    return set_one(settings, CLSHEAR_FOCAL_DISTANCE, depth, error);
 }
 
 static clshear_status choose_focus(const clshear_scene *scene, clshear_settings *settings,
@@ -126,6 +170,7 @@ static clshear_status choose_focus(const clshear_scene *scene, clshear_settings 
         const double *pixel = cs_numbers(settings, FOCUS_PIXEL);
         return cs_camera_focus(scene, settings, (int)pixel[0], (int)pixel[1], error);
     }
+    if (cs_is_set(settings, FOCUS_POINT)) return focus_on_point(scene, settings, error);
     clshear_status status = depth_at(scene, settings, (int)cs_integer(settings, WIDTH) / 2,
                                      (int)cs_integer(settings, HEIGHT) / 2, &depth, error);
     if (status != CLSHEAR_OK) return status;
@@ -146,6 +191,12 @@ static clshear_status choose_lens(const clshear_scene *scene, clshear_settings *
         const float focal_length_m = half_sensor_m / tangent_of_half_fov(&view);
         radius = focal_length_m / (2.0f * (float)cs_number(settings, F_STOP)) /
                  (float)cs_number(settings, UNIT);
+    }
+    if (cs_is_set(settings, BLUR)) { /* at infinity the blur is lens width / pixel width */
+        const double width = cs_number(settings, WIDTH), height = cs_number(settings, HEIGHT);
+        const double shorter_px = width < height ? width : height;
+        radius = (float)(cs_number(settings, BLUR) / shorter_px) * view.focal_distance *
+                 tangent_of_half_fov(&view);
     }
     return set_one(settings, CLSHEAR_LENS_RADIUS, radius, error);
 }

@@ -6,8 +6,8 @@
 
 #include "base/vec.h"
 #include "optics/optics.h"
+#include "scene/framing.h"
 
-static const float default_fov_deg = 40.0f;
 static const float degrees = CS_PI / 180.0f;
 
 /* The angle along the shorter axis: for upright pictures the horizontal one. */
@@ -30,33 +30,15 @@ int cs_camera_find(const cs_scene *scene, const char *name)
 
 cs_view cs_camera_of_scene(const cs_scene *scene, int number, int width, int height)
 {
-    cs_view camera = {0};
-    if (number >= 0) camera = ((const cs_scene_camera *)scene->cameras.items)[number].view;
-    const float aspect = (float)width / (float)height;
+    if (number < 0) {
+        const cs_framing framing = cs_framing_default(scene, scene->z_up);
+        return cs_framing_view(scene, &framing, width, height);
+    }
+    cs_view camera = ((const cs_scene_camera *)scene->cameras.items)[number].view;
     camera.lens_radius = -1.0f;
     camera.focal_distance = 0.0f;
     camera.aperture = CLSHEAR_APERTURE_DISK;
-    if (number >= 0) {
-        camera.fov_deg = shorter_fov_deg(camera.fov_deg, aspect);
-        return camera;
-    }
-    float half[3];
-    for (int axis = 0; axis < 3; axis++) {
-        float low = scene->bounds[0][axis], high = scene->bounds[1][axis];
-        half[axis] = 0.5f * (high - low);
-        camera.target[axis] = 0.5f * (low + high);
-        camera.eye[axis] = camera.target[axis];
-        camera.up[axis] = axis == 1 ? 1.0f : 0.0f;
-    }
-    /* The front face of the box fills the picture but for a margin. */
-    float tangent = tanf(0.5f * default_fov_deg * degrees);
-    float wide = aspect > 1.0f ? aspect : 1.0f, tall = aspect < 1.0f ? 1.0f / aspect : 1.0f;
-    float reach = fmaxf(half[0] / wide, half[1] / tall) / tangent * 1.05f;
-    camera.fov_deg = default_fov_deg;
-    camera.eye[2] += half[2] + fmaxf(reach, 1e-3f * half[2]);
-    /* A floor seen from its own height is a line. */
-    if (half[1] < 0.1f * fmaxf(half[0], half[2]))
-        camera.eye[1] += 0.6f * (camera.eye[2] - camera.target[2]);
+    camera.fov_deg = shorter_fov_deg(camera.fov_deg, (float)width / (float)height);
     return camera;
 }
 

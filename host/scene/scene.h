@@ -33,6 +33,7 @@ typedef struct cs_scene {
     cs_array cameras;            /* cs_scene_camera, of the file */
     size_t degenerate;           /* triangles left out */
     float bounds[2][3];          /* low and high corner */
+    int z_up;         /* convention of the format: +Z is up and -Y in front; else +Y and +Z */
     double origin[3]; /* in coordinates of the file; all others here are relative to it */
 } cs_scene;
 

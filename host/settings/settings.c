@@ -82,31 +82,40 @@ void cs_settings_unset(clshear_settings *settings, size_t index)
     value->is_set = 0;
 }
 
-/* Unsets the alternatives of a setting that was just set, because the last one set counts.
- * Setting the blades chooses the polygon. */
+/* Pairs of settings that exclude each other: the one that is set last counts. */
+static const int alternatives[][2] = {
+    {CS_INDEX_LENS_RADIUS, CS_INDEX_F_STOP},
+    {CS_INDEX_LENS_RADIUS, CS_INDEX_BLUR},
+    {CS_INDEX_F_STOP, CS_INDEX_BLUR},
+    {CS_INDEX_FOCAL_DISTANCE, CS_INDEX_FOCUS_PIXEL},
+    {CS_INDEX_FOCAL_DISTANCE, CS_INDEX_FOCUS_POINT},
+    {CS_INDEX_FOCUS_PIXEL, CS_INDEX_FOCUS_POINT},
+    {CS_INDEX_EYE, CS_INDEX_ORBIT},
+    {CS_INDEX_TARGET, CS_INDEX_ORBIT},
+    {CS_INDEX_CAMERA, CS_INDEX_ORBIT},
+};
+
+/* Unsets the alternatives of a setting that was just set. Setting the blades chooses the
+ * polygon. */
 static void unset_alternatives(clshear_settings *settings, size_t index)
 {
     const double polygon = CLSHEAR_APERTURE_POLYGON;
-    switch (index) {
-    case CS_INDEX_LENS_RADIUS:
-        settings->values[CS_INDEX_F_STOP].is_set = 0;
-        break;
-    case CS_INDEX_F_STOP:
-        settings->values[CS_INDEX_LENS_RADIUS].is_set = 0;
-        break;
-    case CS_INDEX_FOCAL_DISTANCE:
-        settings->values[CS_INDEX_FOCUS_PIXEL].is_set = 0;
-        break;
-    case CS_INDEX_FOCUS_PIXEL:
-        settings->values[CS_INDEX_FOCAL_DISTANCE].is_set = 0;
-        break;
-    case CS_INDEX_BLADES:
-        cs_number(settings, APERTURE) = polygon;
-        cs_is_set(settings, APERTURE) = 1;
-        break;
-    default:
-        break;
-    }
+    for (size_t i = 0; i < sizeof alternatives / sizeof *alternatives; i++)
+        for (int k = 0; k < 2; k++)
+            if ((size_t)alternatives[i][k] == index)
+                settings->values[alternatives[i][1 - k]].is_set = 0;
+    if (index != CS_INDEX_BLADES) return;
+    cs_number(settings, APERTURE) = polygon;
+    cs_is_set(settings, APERTURE) = 1;
+}
+
+void cs_settings_keep_text(clshear_settings *settings, size_t index, char *text)
+{
+    cs_setting_value *value = &settings->values[index];
+    free(value->text);
+    value->text = text;
+    value->is_set = 1;
+    unset_alternatives(settings, index);
 }
 
 clshear_status cs_settings_override(clshear_settings *settings, const clshear_settings *over,

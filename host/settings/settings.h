@@ -45,6 +45,9 @@ clshear_status cs_settings_set(clshear_settings *settings, clshear_setting setti
 /* Sets a setting from text. A setting with a list of values gets one more. */
 clshear_status cs_settings_set_text(clshear_settings *settings, size_t index, const char *text,
                                     cs_error *error);
+/* Sets a TEXT; takes over the memory of `text`. */
+void cs_settings_keep_text(clshear_settings *settings, size_t index, char *text);
+
 void cs_settings_unset(clshear_settings *settings, size_t index);
 
 /* Stores a copy of the image, after a check. */

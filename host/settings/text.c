@@ -136,7 +136,6 @@ clshear_status cs_settings_set_text(clshear_settings *settings, size_t index, co
                                     cs_error *error)
 {
     const cs_setting *entry = &cs_setting_table[index];
-    cs_setting_value *value = &settings->values[index];
     if (entry->kind == CLSHEAR_CHOICE) {
         double number;
         if (cs_setting_parse(entry, text, &number))
@@ -148,9 +147,7 @@ clshear_status cs_settings_set_text(clshear_settings *settings, size_t index, co
     if (entry->kind != CLSHEAR_TEXT) return set_numbers(settings, index, text, error);
     char *copy = strdup(text);
     if (copy == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for settings");
-    free(value->text);
-    value->text = copy;
-    value->is_set = 1;
+    cs_settings_keep_text(settings, index, copy);
     return CLSHEAR_OK;
 }
 

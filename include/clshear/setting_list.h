@@ -111,6 +111,10 @@
       "focus on the depth at this pixel") \
     X(CAMERA, 46, "camera", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "NAME|N", \
       "the file's camera of that name or number from 0") \
+    X(ORBIT, 47, "orbit", "", NUMBER, 2, 1, "", -360, 360, none, PRIVATE, "AZIMUTH,ELEVATION", \
+      "frame the scene from there, degrees; 0,0: its front") \
+    X(FOCUS_POINT, 48, "focus-point", "", NUMBER, 3, 1, "", -1e12, 1e12, none, PRIVATE, "X,Y,Z", \
+      "focus on the depth of this point") \
     /* Lens */ \
     X(LENS_RADIUS, 50, "lens-radius", "aperture-radius", NUMBER, 1, 1, "", 0, 1e12, none, RECIPE, \
       "R", "lens radius in scene units; 0: pinhole") \
@@ -126,6 +130,8 @@
       "turn the polygon; at 0 a corner is on the right") \
     X(ANAMORPHIC, 56, "anamorphic", "", NUMBER, 1, 1, "1", 0.01, 100, none, RECIPE, "RATIO", \
       "aperture narrower by this ratio") \
+    X(BLUR, 57, "blur", "", NUMBER, 1, 1, "", 0, 1e6, none, PRIVATE, "PX", \
+      "lens radius by the blur of points at infinity") \
     /* Light */ \
     X(LIGHT, 60, "light", "", NUMBER, 6, 64, "", -1e15, 1e15, none, PRIVATE, "X,Y,Z,R,G,B", \
       "add a point light; repeatable") \
@@ -148,6 +154,8 @@
     /* Scene file */ \
     X(SMOOTH, 70, "smooth", "", NUMBER, 1, 1, "", 0, 180, none, PRIVATE, "DEG", \
       "smooth faces without normals that meet at less") \
+    X(Z_UP, 71, "z-up", "", SWITCH, 1, 1, "", 0, 1, none, PRIVATE, "", \
+      "+Z is up and -Y in front, as in STL; 0: +Y and +Z") \
     /* Device */ \
     X(DEVICE, 80, "device", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "NAME", \
       "OpenCL device: number or part of its name") \

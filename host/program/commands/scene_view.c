@@ -14,6 +14,7 @@ static void warn(void *user, const char *line)
 typedef struct given_settings {
     int has_eye;
     int has_focus;
+    int has_focus_pixel;
     int has_lens;
     int has_environment;
 } given_settings;
@@ -23,23 +24,33 @@ static given_settings given_by(const clshear_settings *settings)
     return (given_settings){
         .has_eye = clshear_settings_is_set(settings, CLSHEAR_EYE),
         .has_focus = clshear_settings_is_set(settings, CLSHEAR_FOCAL_DISTANCE) ||
-                     clshear_settings_is_set(settings, CLSHEAR_FOCUS_PIXEL),
+                     clshear_settings_is_set(settings, CLSHEAR_FOCUS_PIXEL) ||
+                     clshear_settings_is_set(settings, CLSHEAR_FOCUS_POINT),
+        .has_focus_pixel = clshear_settings_is_set(settings, CLSHEAR_FOCUS_PIXEL),
         .has_lens = clshear_settings_is_set(settings, CLSHEAR_LENS_RADIUS) ||
-                    clshear_settings_is_set(settings, CLSHEAR_F_STOP),
+                    clshear_settings_is_set(settings, CLSHEAR_F_STOP) ||
+                    clshear_settings_is_set(settings, CLSHEAR_BLUR),
         .has_environment = clshear_settings_is_set(settings, CLSHEAR_ENVIRONMENT)};
 }
 
-/* The studio that the library made, as flags. */
-static void tell_light(const clshear_settings *settings)
+/* A setting under the name of its flag. */
+typedef struct named_setting {
+    clshear_setting setting;
+    const char *flag;
+} named_setting;
+
+static const named_setting camera_parts[] = {
+    {CLSHEAR_EYE, "eye"}, {CLSHEAR_TARGET, "target"}, {CLSHEAR_UP, "up"}, {CLSHEAR_FOV, "fov"}};
+static const named_setting light_parts[] = {
+    {CLSHEAR_ENVIRONMENT, "environment"}, {CLSHEAR_SUN, "sun"}, {CLSHEAR_LIGHT, "light"}};
+
+/* What the library chose, as flags that can be copied. */
+static void tell_flags(const clshear_settings *settings, const char *words,
+                       const named_setting *parts, size_t count)
 {
-    static const struct {
-        clshear_setting setting;
-        const char *flag;
-    } parts[] = {
-        {CLSHEAR_ENVIRONMENT, "environment"}, {CLSHEAR_SUN, "sun"}, {CLSHEAR_LIGHT, "light"}};
     char text[256];
-    fprintf(stderr, "clshear: no light given, a neutral studio:");
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+    fprintf(stderr, "clshear: %s", words);
+    for (size_t i = 0; i < count; i++)
         if (clshear_settings_is_set(settings, parts[i].setting) &&
             clshear_settings_get_text(settings, parts[i].setting, text, sizeof text) == CLSHEAR_OK)
             fprintf(stderr, " --%s %s", parts[i].flag, text);
@@ -52,22 +63,24 @@ static void tell_choices(const program_options *options, const clshear_scene *sc
 {
     const clshear_settings *settings = options->settings;
     clshear_scene_info info = {.struct_size = sizeof info};
-    double radius = 0.0, distance = 0.0, eye[3] = {0.0};
-    size_t count = 0;
+    double radius = 0.0, distance = 0.0;
     clshear_scene_describe(scene, &info);
     clshear_settings_get_number(settings, CLSHEAR_LENS_RADIUS, &radius);
     clshear_settings_get_number(settings, CLSHEAR_FOCAL_DISTANCE, &distance);
-    clshear_settings_get_numbers(settings, CLSHEAR_EYE, eye, 3, &count);
     if (!given->has_focus && radius > 0.0)
         fprintf(stderr, "clshear: focused on the middle of the picture, --focal-distance %.9g\n",
                 distance);
     if (!given->has_lens)
         fprintf(stderr, "clshear: no lens given, a moderate blur: --lens-radius %.9g\n", radius);
+    if (given->has_focus_pixel)
+        fprintf(stderr, "clshear: the surface at that pixel is in focus: --focal-distance %.9g\n",
+                distance);
     if (!info.file_camera && !given->has_eye)
-        fprintf(stderr, "clshear: no camera given, the scene is framed: --eye %.9g,%.9g,%.9g\n",
-                eye[0], eye[1], eye[2]);
+        tell_flags(settings, "no camera given, the scene is framed:", camera_parts,
+                   sizeof camera_parts / sizeof *camera_parts);
     if (!given->has_environment && clshear_settings_is_set(settings, CLSHEAR_ENVIRONMENT))
-        tell_light(settings);
+        tell_flags(settings, "no light given, a neutral studio:", light_parts,
+                   sizeof light_parts / sizeof *light_parts);
 }
 
 int scene_view_open(program_options *options, scene_view *view)

@@ -16,7 +16,8 @@ static const program_flag common_rows[] = {
     SWITCH_FLAG("help h", "print this and stop", offsetof(program_options, help)),
 };
 enum {
-    COMMON_ROWS = sizeof common_rows / sizeof *common_rows
+    COMMON_ROWS = sizeof common_rows / sizeof *common_rows,
+    MOST_SETTINGS = 128
 };
 
 typedef struct parser {
@@ -97,6 +98,30 @@ static int complain_unknown(const char *place, const char *name, const char *nea
     return complain(EXIT_USAGE, "%sunknown flag --%s; did you mean --%s?", place, name, nearest);
 }
 
+/* Tells which settings were set `before` and are not now, since the flag `name` came. */
+static void tell_unused(const parser *p, const char *place, const char *name, const int *before)
+{
+    clshear_setting_info info = {.struct_size = sizeof info};
+    for (size_t i = 0; clshear_setting_describe(i, &info) && i < MOST_SETTINGS; i++)
+        if (before[i] && !clshear_settings_is_set(p->settings, info.setting) && !p->options->quiet)
+            fprintf(stderr, "clshear: %s--%s is not used: --%s comes after it\n", place, info.name,
+                    name);
+}
+
+/* Sets a setting; alternatives that were set before it are told. */
+static clshear_status set_setting(const parser *p, const char *place, const named_flag *flag,
+                                  const char *name, const char *value)
+{
+    clshear_setting_info info = {.struct_size = sizeof info};
+    int before[MOST_SETTINGS] = {0};
+    for (size_t i = 0; clshear_setting_describe(i, &info) && i < MOST_SETTINGS; i++)
+        before[i] = clshear_settings_is_set(p->settings, info.setting);
+    const clshear_status status =
+        clshear_settings_set_text(p->settings, flag->setting.setting, value != NULL ? value : "1");
+    if (status == CLSHEAR_OK) tell_unused(p, place, name, before);
+    return status;
+}
+
 /* Applies a flag. `place` starts the messages: "" or "FILE:LINE: ". */
 static int apply(const parser *p, const char *place, const named_flag *flag, const char *name,
                  const char *value)
@@ -108,8 +133,7 @@ static int apply(const parser *p, const char *place, const named_flag *flag, con
     if (row != NULL && *argument == '\0' && value != NULL)
         return complain(EXIT_USAGE, "%s--%s takes no value, not \"%s\"", place, name, value);
     if (row == NULL) {
-        const clshear_status status = clshear_settings_set_text(p->settings, flag->setting.setting,
-                                                                value != NULL ? value : "1");
+        const clshear_status status = set_setting(p, place, flag, name, value);
         return status == CLSHEAR_OK ? EXIT_DONE : complain_status(status, "--");
     }
     if (flag_store(p->options, row, value)) return EXIT_DONE;

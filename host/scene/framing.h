@@ -1,0 +1,24 @@
+/* The camera of a scene that has none: it shows all of it. */
+#ifndef CS_SCENE_FRAMING_H
+#define CS_SCENE_FRAMING_H
+
+#include "scene/scene.h"
+
+/* From where the scene is seen. Angles in degrees: azimuth 0 and elevation 0 are straight from the
+ * front, 90 and 0 from the scene's +X side, elevation 90 from above. */
+typedef struct cs_framing {
+    int z_up; /* 1: +Z is up and -Y in front; 0: +Y is up and +Z in front */
+    float azimuth_deg;
+    float elevation_deg;
+    float fov_deg; /* along the shorter image axis */
+} cs_framing;
+
+/* Three-quarter view from the front, slightly above; straight from the front for a room without a
+ * front wall. */
+cs_framing cs_framing_default(const cs_scene *scene, int z_up);
+
+/* The nearest camera in that direction whose picture, of this size, shows every triangle inside a
+ * margin. Eye and target are relative to the scene's origin. The lens is not chosen. */
+cs_view cs_framing_view(const cs_scene *scene, const cs_framing *framing, int width, int height);
+
+#endif
