@@ -40,8 +40,9 @@ static inline cs_vfloat cs_power_weight(cs_vfloat own, cs_vfloat other)
     return 1.0f / (1.0f + ratio * ratio);
 }
 
-/* Adds `colour` times `weight` at the end of the paths; lanes with weight 0 add nothing. */
-static inline void cs_path_add(cs_path *path, cs_vfloat weight, const cs_vfloat *colour)
+/* Adds `colour` times `weight` at the end of the paths; lanes with weight 0 add nothing. met:
+ * surfaces that this light met. */
+static inline void cs_path_add(cs_path *path, cs_u32 met, cs_vfloat weight, const cs_vfloat *colour)
 {
     cs_vfloat added[3], scale = (cs_vfloat)(1.0f);
     for (int c = 0; c < 3; c++)
@@ -51,7 +52,8 @@ static inline void cs_path_add(cs_path *path, cs_vfloat weight, const cs_vfloat 
         scale = most > path->clamp ? path->clamp / most : scale;
     }
     for (int c = 0; c < 3; c++)
-        path->radiance.channel[c] += weight > 0.0f ? added[c] * scale : (cs_vfloat)(0.0f);
+        cs_radiance_add(&path->radiance, met, c,
+                        weight > 0.0f ? added[c] * scale : (cs_vfloat)(0.0f));
 }
 
 /* Adds what surfaces emit towards the path. */
@@ -65,7 +67,7 @@ static inline void cs_path_add_emission(const cs_scene_buffers *scene, cs_u32 li
     if (path->depth > 0u)
         weight = cs_power_weight(path->density,
                                  cs_emitter_density(scene, lights, surface, &path->ray, distance));
-    cs_path_add(path, shines ? weight : (cs_vfloat)(0.0f), surface->emission);
+    cs_path_add(path, path->depth, shines ? weight : (cs_vfloat)(0.0f), surface->emission);
 }
 
 #if CS_HAS(LIGHTS)
@@ -91,7 +93,7 @@ static inline void cs_path_add_escaped(const cs_scene_buffers *scene, const cs_h
             continue;
         cs_vfloat weight = (cs_vfloat)(1.0f);
         if (path->depth > 0u) weight = cs_power_weight(path->density, found.density);
-        cs_path_add(path, escaped ? weight : (cs_vfloat)(0.0f), found.colour);
+        cs_path_add(path, path->depth, escaped ? weight : (cs_vfloat)(0.0f), found.colour);
     }
 }
 #endif
@@ -262,7 +264,7 @@ static inline void cs_path_add_light(const cs_scene_buffers *scene, const cs_sur
     cs_vfloat colour[3];
     for (int c = 0; c < 3; c++)
         colour[c] = light->colour[c] * bsdf.colour[c];
-    cs_path_add(path, weight, colour);
+    cs_path_add(path, path->depth + 1u, weight, colour);
     path->radiance.shadow_rays += facing ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
 }
 
@@ -343,11 +345,9 @@ static inline cs_path cs_path_begin(const cs_launch *launch, const cs_ray *ray, 
     path.see_through = launch->see_through;
     path.lights = launch->lights;
     path.shadows = 0u;
-    path.radiance.shadow_rays = (cs_vfloat)(0.0f);
-    for (int c = 0; c < 3; c++) {
+    path.radiance = cs_radiance_begin();
+    for (int c = 0; c < 3; c++)
         path.throughput[c] = (cs_vfloat)(1.0f);
-        path.radiance.channel[c] = (cs_vfloat)(0.0f);
-    }
     return path;
 }
 
@@ -366,6 +366,7 @@ static inline int cs_path_advance(const cs_scene_buffers *scene, const cs_launch
 #if CS_HAS(MATERIALS)
     cs_path_absorb(&surface, hit.distance, path);
 #endif
+    if (path->depth == 0u) cs_note_surface(&surface, &path->radiance);
     cs_path_add_emission(scene, launch->lights, &surface, hit.distance, path);
     /* The last ray only finds what the lights' samples of the last surface might. */
     if (path->depth > launch->bounces) return 0;

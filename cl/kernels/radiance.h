@@ -5,13 +5,9 @@
 #define CS_RADIANCE_H
 
 #include "kernels/bsdf/bsdf.h"
+#include "kernels/found.h"
 #include "kernels/hits.h"
 #include "kernels/light/escaped.h"
-
-typedef struct cs_radiance {
-    cs_vfloat channel[3];
-    cs_vfloat shadow_rays; /* traced, a lane */
-} cs_radiance;
 
 /* Adds what a light reflects from the surface towards `out`. The shadow ray begins at `origin`, off
  * the surface, and ends where `light->towards` does: what the light gives does not shift. lights:
@@ -41,7 +37,7 @@ static inline void cs_add_light(const cs_scene_buffers *scene, cs_u32 lights,
     cs_bsdf_value bsdf = cs_bsdf_eval(surface, out, light->towards);
     cs_vfloat weight = blocked.distance > 0.0f ? light->weight * bsdf.scale : (cs_vfloat)(0.0f);
     for (int c = 0; c < 3; c++)
-        radiance->channel[c] += weight * light->colour[c] * bsdf.colour[c];
+        cs_radiance_add(radiance, 1u, c, weight * light->colour[c] * bsdf.colour[c]);
     radiance->shadow_rays += facing ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
 }
 
@@ -65,7 +61,7 @@ static inline void cs_add_escaped(const cs_scene_buffers *scene, cs_u32 lights, 
             continue;
         }
         for (int c = 0; c < 3; c++)
-            radiance->channel[c] += sees ? found.colour[c] : (cs_vfloat)(0.0f);
+            cs_radiance_add(radiance, 0u, c, sees ? found.colour[c] : (cs_vfloat)(0.0f));
     }
 }
 #endif
@@ -78,10 +74,7 @@ static inline cs_radiance cs_radiance_along(const cs_scene_buffers *scene, cs_u3
     cs_hit hit;
     hit.distance = active ? (cs_vfloat)(INFINITY) : (cs_vfloat)(-1.0f);
     cs_traverse(scene->nodes, scene->triangles, ray, 0, &hit);
-    cs_radiance radiance;
-    radiance.shadow_rays = (cs_vfloat)(0.0f);
-    for (int c = 0; c < 3; c++)
-        radiance.channel[c] = (cs_vfloat)(0.0f);
+    cs_radiance radiance = cs_radiance_begin();
 #if CS_HAS(LIGHTS)
     cs_meet_shapes(scene, lights, ray, 0, &hit);
     cs_add_escaped(scene, lights, ray, &hit, active, &radiance);
@@ -92,8 +85,9 @@ static inline cs_radiance cs_radiance_along(const cs_scene_buffers *scene, cs_u3
     cs_surface surface = cs_describe_hits(scene, ray, &hit);
     cs_vfloat origin[3], out[3];
     cs_leave_surface(&surface, hit.distance, origin);
+    cs_note_surface(&surface, &radiance);
     for (int i = 0; i < 3; i++) {
-        radiance.channel[i] = surface.emission[i];
+        cs_radiance_add(&radiance, 0u, i, surface.emission[i]);
         out[i] = -ray->direction[i];
     }
     for (cs_u32 i = 0u; i < lights; i++) {

@@ -1,5 +1,6 @@
 /* The way of a sample: tuple -> shear -> ray -> hit -> radiance -> mean and variance. */
 #include "accumulator.h"
+#include "aov_sums.h"
 #include "clshear/device/lens.h"
 #include "kernels/draw.h"
 #include "kernels/path.h"
@@ -20,6 +21,7 @@ static inline void cs_trace_packet(const cs_launch *launch, const cs_scene_buffe
     *radiance =
         cs_radiance_along(scene, launch->lights, &ray, drawn->light[packet], drawn->active[packet]);
 #endif
+    cs_note_depth(&launch->camera, radiance);
 }
 
 /* Samples at places `start` to `end` of the order of a few pixels, gathered and merged into them.
@@ -27,10 +29,15 @@ static inline void cs_trace_packet(const cs_launch *launch, const cs_scene_buffe
 static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *scene,
                              cs_sample_table sample_table, cs_optics_table lens_table,
                              const cs_place *places, int count, cs_u32 start, cs_u32 end,
-                             CS_GLOBAL cs_pixel *pixels)
+                             CS_GLOBAL cs_pixel *pixels, CS_GLOBAL cs_exact_sum *aovs)
 {
     cs_drawn drawn;
     cs_accumulator accumulator;
+#if CS_HAS(AOVS)
+    cs_aov_sums sums;
+#else
+    (void)aovs;
+#endif
     int first = 1;
     for (; start < end; start += (cs_u32)(CS_TOGETHER * CS_PACKET)) {
         int more = count == 1 && start + (cs_u32)(CS_TOGETHER * CS_PACKET) < end;
@@ -41,9 +48,15 @@ static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *sc
             cs_trace_packet(launch, scene, sample_table, place, &drawn, packet, &radiance);
             cs_accumulator_add(&accumulator, radiance.channel, radiance.shadow_rays,
                                drawn.active[packet], first);
+#if CS_HAS(AOVS)
+            cs_aov_sums_add(&sums, &radiance, drawn.active[packet], first);
+#endif
             first =
                 packet + 1 < drawn.count ? drawn.place[packet + 1] != drawn.place[packet] : !more;
             if (first) cs_accumulator_merge(pixels + place->state, &accumulator);
+#if CS_HAS(AOVS)
+            if (first) cs_aov_sums_merge(launch, &sums, place->state, aovs);
+#endif
         }
     }
 }
@@ -53,12 +66,13 @@ static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *sc
  *
  * Global size: at least launch.pixel_count / launch.pixels_each, rounded up; any local size.
  * pixels: one cs_pixel for each pixel of the crop from launch.page_first on, or each that is drawn,
- * zero at first. order: the crop's pixels (row by row) in the order in which they are drawn.
+ * zero at first. aovs: for each of them the sums of the planes in launch.planes; not used without
+ * the feature AOVS. order: the crop's pixels (row by row) in the order in which they are drawn.
  * shears: the oracle's answer for each pixel of the crop, in pixels. sample_table: the pattern's.
  * lens_table: the optics'. The others: the scene, see cs_scene_buffers. */
 __kernel void cs_render(const cs_launch launch, __global cs_pixel *pixels,
-                        __global const uint *order, __global const float *shears,
-                        __global const uint *sample_table,
+                        __global cs_exact_sum *aovs, __global const uint *order,
+                        __global const float *shears, __global const uint *sample_table,
                         __global const float *lens_table CS_SCENE_PARAMETERS)
 {
     cs_u32 begin = (cs_u32)get_global_id(0) * launch.pixels_each;
@@ -73,7 +87,7 @@ __kernel void cs_render(const cs_launch launch, __global cs_pixel *pixels,
     for (cs_u32 block = launch.first_block; block < launch.last_block; block += CS_FLUSH_BLOCKS) {
         cs_u32 end = min(block + (cs_u32)CS_FLUSH_BLOCKS, launch.last_block) * (cs_u32)CS_BLOCK;
         cs_sample(&launch, &scene, sample_table, lens_table, places, count,
-                  block * (cs_u32)CS_BLOCK, end, pixels);
+                  block * (cs_u32)CS_BLOCK, end, pixels, aovs);
     }
     if (launch.last_block != launch.pattern.blocks) return;
     for (int i = 0; i < count; i++)

@@ -55,10 +55,11 @@ static const cs_setting *entry_of(clshear_setting setting, clshear_setting_kind 
 static const cs_setting *integer_entry(clshear_setting setting)
 {
     const size_t index = cs_setting_index(setting);
-    const int is_switch =
-        index < CS_SETTING_COUNT && cs_setting_table[index].kind == CLSHEAR_SWITCH;
-    return entry_of(setting, is_switch ? CLSHEAR_SWITCH : CLSHEAR_INTEGER, CLSHEAR_CHOICE,
-                    "a whole number");
+    const int is_known = index < CS_SETTING_COUNT;
+    const int is_switch = is_known && cs_setting_table[index].kind == CLSHEAR_SWITCH;
+    const int is_list = is_known && cs_setting_table[index].most > 1; /* of choices */
+    const clshear_setting_kind kind = is_switch ? CLSHEAR_SWITCH : CLSHEAR_INTEGER;
+    return entry_of(setting, kind, is_list ? kind : CLSHEAR_CHOICE, "a whole number");
 }
 
 clshear_status clshear_settings_set_integer(clshear_settings *settings, clshear_setting setting,

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "pattern/pattern.h"
+#include "render/aov.h"
 #include "render/camera_choice.h"
 #include "render/render_job.h"
 #include "render/studio.h"
@@ -127,6 +128,7 @@ clshear_status cs_job_begin(cs_job *job, clshear_scene *scene, const clshear_set
     CS_TRY(cs_studio_complete(scene, &job->settings, error));
     CS_TRY(cs_lighting_make(scene, &job->settings, &job->lighting, error));
     job->features = features_of(job);
+    job->planes = cs_aov_planes(&job->settings);
     CS_TRY(make_camera(job, error));
 done:
     return status;

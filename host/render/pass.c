@@ -57,14 +57,16 @@ static clshear_status run_kernel(const cs_pass *pass, const cs_batch *batch,
 {
     const cs_buffer *buffers[CS_SCENE_BUFFERS];
     cs_lit_buffers(pass->scene, pass->lighting, buffers);
-    const cs_argument arguments[] = {
-        {.value = launch, .size = sizeof *launch},
-        {.buffer = pass->pixels->pages[launch->page_first / pass->pixels->page_pixels]},
-        {.buffer = batch->order},
-        {.buffer = pass->shears},
-        {.buffer = batch->rows},
-        {.buffer = pass->optics},
-        CS_SCENE_BUFFER_LIST(CS_SCENE_ARGUMENT)};
+    const cs_pixels *pixels = pass->pixels;
+    const size_t page = launch->page_first / pixels->page_pixels;
+    const cs_argument arguments[] = {{.value = launch, .size = sizeof *launch},
+                                     {.buffer = pixels->pages[page]},
+                                     {.buffer = pixels->aovs != NULL ? pixels->aovs[page] : NULL},
+                                     {.buffer = batch->order},
+                                     {.buffer = pass->shears},
+                                     {.buffer = batch->rows},
+                                     {.buffer = pass->optics},
+                                     CS_SCENE_BUFFER_LIST(CS_SCENE_ARGUMENT)};
     return CS_RUN_WITH(pass->scene->context->device, RENDER, pass->features,
                        (launch->pixel_count + launch->pixels_each - 1) / launch->pixels_each,
                        arguments, error);

@@ -64,7 +64,7 @@ static clshear_status run(cs_job *job, const cs_f32 *shears, const cs_u32 *list,
     const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, samples));
     cs_pass pass = cs_job_pass(job);
     if (count > 0) {
-        CS_TRY(cs_pixels_create(context, count, width, &pixels, error));
+        CS_TRY(cs_pixels_create(context, count, width, 0, &pixels, error));
         CS_TRY(cs_buffer_create(context->device, job->pixel_count * sizeof *shears, shears,
                                 &shear_buffer, error));
         CS_TRY(cs_batch_create(context, &pattern, list, count, width, list != NULL, &batch, error));

@@ -2,14 +2,17 @@
 
 #include <stdlib.h>
 
+#include "kernels/aov.h"
+
 enum {
     BAND = 8 /* rows of a tile, as in cs_tiled_pixel */
 };
 
 size_t cs_page_pixels(const clshear_context *context, cs_u32 width)
 {
-    const size_t band = (size_t)BAND * width,
-                 bands = context->page_bytes / (band * sizeof(cs_pixel));
+    const size_t sums = CS_PLANES * sizeof(cs_exact_sum); /* with or without, for one cut */
+    const size_t most = sums > sizeof(cs_pixel) ? sums : sizeof(cs_pixel);
+    const size_t band = (size_t)BAND * width, bands = context->page_bytes / (band * most);
     return band * (bands > 0 ? bands : 1);
 }
 
@@ -19,53 +22,82 @@ static size_t pixels_of_page(const cs_pixels *pixels, size_t page)
     return left < pixels->page_pixels ? left : pixels->page_pixels;
 }
 
-clshear_status cs_pixels_create(clshear_context *context, size_t count, cs_u32 width,
+/* A buffer of zeros for each page. */
+static clshear_status create_pages(cs_device *device, const cs_pixels *pixels, size_t item,
+                                   cs_buffer ***pages, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    *pages = calloc(pixels->page_count, sizeof(cs_buffer *));
+    CS_REQUIRE(*pages != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
+               pixels->count);
+    for (size_t page = 0; page < pixels->page_count; page++)
+        CS_TRY(cs_buffer_create(device, pixels_of_page(pixels, page) * item, NULL, &(*pages)[page],
+                                error));
+done:
+    return status;
+}
+
+clshear_status cs_pixels_create(clshear_context *context, size_t count, cs_u32 width, size_t planes,
                                 cs_pixels *pixels, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     pixels->count = count;
     pixels->page_pixels = cs_page_pixels(context, width);
     pixels->page_count = (count + pixels->page_pixels - 1) / pixels->page_pixels;
-    pixels->pages = calloc(pixels->page_count, sizeof(cs_buffer *));
-    CS_REQUIRE(pixels->pages != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", count);
-    for (size_t page = 0; page < pixels->page_count; page++)
-        CS_TRY(cs_buffer_create(context->device, pixels_of_page(pixels, page) * sizeof(cs_pixel),
-                                NULL, &pixels->pages[page], error));
+    pixels->planes = planes;
+    CS_TRY(create_pages(context->device, pixels, sizeof(cs_pixel), &pixels->pages, error));
+    if (planes > 0)
+        CS_TRY(create_pages(context->device, pixels, planes * sizeof(cs_exact_sum), &pixels->aovs,
+                            error));
 done:
     return status;
 }
 
+static void free_pages(cs_buffer **pages, size_t count)
+{
+    for (size_t page = 0; pages != NULL && page < count; page++)
+        cs_buffer_free(pages[page]);
+    free(pages);
+}
+
 void cs_pixels_free(cs_pixels *pixels)
 {
-    for (size_t page = 0; pixels->pages != NULL && page < pixels->page_count; page++)
-        cs_buffer_free(pixels->pages[page]);
-    free(pixels->pages);
+    free_pages(pixels->pages, pixels->page_count);
+    free_pages(pixels->aovs, pixels->page_count);
     *pixels = (cs_pixels){0};
 }
 
 /* The part of pixels `first` ... that lies in the page of the first: how many, and where in it. */
 static size_t part_in_page(const cs_pixels *pixels, size_t first, size_t count, size_t *page,
-                           size_t *offset)
+                           size_t *place)
 {
     *page = first / pixels->page_pixels;
-    const size_t place = first % pixels->page_pixels, left = pixels_of_page(pixels, *page) - place;
-    *offset = place * sizeof(cs_pixel);
+    *place = first % pixels->page_pixels;
+    const size_t left = pixels_of_page(pixels, *page) - *place;
     return count < left ? count : left;
 }
 
-/* Reads into `values`, or writes from `given` where that is not NULL, page by page. */
+/* What is moved: `item` bytes of each pixel, from `from` to the device, or to `to`. */
+typedef struct traffic {
+    cs_buffer **pages;
+    size_t item;
+    char *to;
+    const char *from; /* NULL: to the host */
+} traffic;
+
+/* Moves pixels `first` ... page by page. */
 static clshear_status transfer(const cs_pixels *pixels, size_t first, size_t count,
-                               cs_pixel *values, const cs_pixel *given, cs_error *error)
+                               const traffic *move, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    for (size_t at = 0, part, page, offset; at < count; at += part) {
-        part = part_in_page(pixels, first + at, count - at, &page, &offset);
-        cs_buffer *buffer = pixels->pages[page];
-        const size_t size = part * sizeof(cs_pixel);
-        if (given != NULL)
-            CS_TRY(cs_buffer_write(buffer, offset, size, given + at, error));
+    for (size_t at = 0, part, page, place; at < count; at += part) {
+        part = part_in_page(pixels, first + at, count - at, &page, &place);
+        cs_buffer *buffer = move->pages[page];
+        const size_t size = part * move->item, offset = place * move->item;
+        if (move->from != NULL)
+            CS_TRY(cs_buffer_write(buffer, offset, size, move->from + at * move->item, error));
         else
-            CS_TRY(cs_buffer_read(buffer, offset, size, values + at, error));
+            CS_TRY(cs_buffer_read(buffer, offset, size, move->to + at * move->item, error));
     }
 done:
     return status;
@@ -74,11 +106,28 @@ done:
 clshear_status cs_pixels_read(const cs_pixels *pixels, size_t first, size_t count, cs_pixel *values,
                               cs_error *error)
 {
-    return transfer(pixels, first, count, values, NULL, error);
+    const traffic move = {pixels->pages, sizeof *values, (char *)values, NULL};
+    return transfer(pixels, first, count, &move, error);
 }
 
 clshear_status cs_pixels_write(cs_pixels *pixels, size_t first, size_t count,
                                const cs_pixel *values, cs_error *error)
 {
-    return transfer(pixels, first, count, NULL, values, error);
+    const traffic move = {pixels->pages, sizeof *values, NULL, (const char *)values};
+    return transfer(pixels, first, count, &move, error);
+}
+
+clshear_status cs_pixels_read_aovs(const cs_pixels *pixels, size_t first, size_t count,
+                                   cs_exact_sum *values, cs_error *error)
+{
+    const traffic move = {pixels->aovs, pixels->planes * sizeof *values, (char *)values, NULL};
+    return transfer(pixels, first, count, &move, error);
+}
+
+clshear_status cs_pixels_write_aovs(cs_pixels *pixels, size_t first, size_t count,
+                                    const cs_exact_sum *values, cs_error *error)
+{
+    const traffic move = {pixels->aovs, pixels->planes * sizeof *values, NULL,
+                          (const char *)values};
+    return transfer(pixels, first, count, &move, error);
 }

@@ -3,6 +3,7 @@
 #ifndef CS_RENDER_PIXELS_H
 #define CS_RENDER_PIXELS_H
 
+#include "clshear/device/stats.h"
 #include "kernels/pixel.h"
 #include "render/objects.h"
 
@@ -10,6 +11,8 @@
  * to one. Start from zeros. */
 typedef struct cs_pixels {
     cs_buffer **pages; /* cs_pixel */
+    cs_buffer **aovs;  /* of the same pixels: `planes` cs_exact_sum each; NULL: none */
+    size_t planes;
     size_t page_count;
     size_t page_pixels; /* of all pages but the last */
     size_t count;
@@ -18,8 +21,8 @@ typedef struct cs_pixels {
 /* Pixels in a page of a window of this width. */
 size_t cs_page_pixels(const clshear_context *context, cs_u32 width);
 
-/* `count` pixels of a window, all zero. */
-clshear_status cs_pixels_create(clshear_context *context, size_t count, cs_u32 width,
+/* `count` pixels of a window, all zero, with sums of some planes of AOVs. */
+clshear_status cs_pixels_create(clshear_context *context, size_t count, cs_u32 width, size_t planes,
                                 cs_pixels *pixels, cs_error *error);
 void cs_pixels_free(cs_pixels *pixels);
 
@@ -28,5 +31,11 @@ clshear_status cs_pixels_read(const cs_pixels *pixels, size_t first, size_t coun
                               cs_error *error);
 clshear_status cs_pixels_write(cs_pixels *pixels, size_t first, size_t count,
                                const cs_pixel *values, cs_error *error);
+
+/* The same for their sums of planes. */
+clshear_status cs_pixels_read_aovs(const cs_pixels *pixels, size_t first, size_t count,
+                                   cs_exact_sum *values, cs_error *error);
+clshear_status cs_pixels_write_aovs(cs_pixels *pixels, size_t first, size_t count,
+                                    const cs_exact_sum *values, cs_error *error);
 
 #endif

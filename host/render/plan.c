@@ -5,6 +5,7 @@
 
 #include "oracle/oracle.h"
 #include "pattern/pattern.h"
+#include "render/aov.h"
 #include "render/pilot.h"
 #include "render/resume.h"
 
@@ -25,7 +26,8 @@ static clshear_status reserve(cs_job *job, cs_error *error)
     CS_REQUIRE(job->depth != NULL && job->shear_px != NULL && job->rule != NULL,
                CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", job->pixel_count);
     CS_TRY(cs_pixels_create(job->scene->context, job->pixel_count,
-                            (cs_u32)(job->window[1] - job->window[0]), &job->pixels, error));
+                            (cs_u32)(job->window[1] - job->window[0]), cs_aov_count(job->planes),
+                            &job->pixels, error));
     const cs_array *table = &job->optics.table;
     CS_TRY(cs_buffer_create(device, table->count * table->item_size, table->items,
                             &job->optics_table, error));
@@ -135,6 +137,8 @@ clshear_status cs_job_plan(cs_job *job, cs_error *error)
     /* What the scene's surfaces need is compiled by now, when the scene was completed. */
     if (job->features != job->scene->device_scene.needs.features)
         CS_TRY(cs_pass_warm_up(job->scene->context->device, job->features, error));
+    if (job->planes != 0)
+        CS_TRY(cs_pass_warm_up(job->scene->context->device, cs_aov_features(job), error));
     const double start_s = cs_now_s();
     CS_TRY(reserve(job, error));
     CS_TRY(find_depths(job, error));

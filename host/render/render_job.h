@@ -25,7 +25,8 @@ typedef struct cs_job {
     clshear_oracle oracle;
     cs_camera camera;
     cs_lighting lighting;
-    cs_u32 features; /* CS_FEATURE_ bits that the render needs */
+    cs_u32 features; /* CS_FEATURE_ bits that the render needs, but for its AOVs */
+    cs_u32 planes;   /* of AOVs: a set of CS_PLANE_ numbers */
     cs_optics_tables optics;
     cs_buffer *optics_table;
     cs_pattern pattern;

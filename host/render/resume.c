@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "pattern/pattern.h"
+#include "render/aov.h"
 #include "render/record.h"
 
 enum {
@@ -133,6 +134,8 @@ clshear_status cs_resume_check(cs_job *job, cs_error *error)
     if (memcmp(base->window, job->window, sizeof job->window) != 0)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "the image to extend shows other pixels; give the same --crop");
+    const clshear_status status = cs_aov_check(job, error);
+    if (status != CLSHEAR_OK) return status;
     const uint32_t had = (uint32_t)samples / job->replicates;
     if (job->pattern.grid.count <= had)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
@@ -219,7 +222,8 @@ clshear_status cs_resume_begin(cs_job *job, uint32_t replicate, cs_error *error)
 {
     job->replicates_begun = replicate + 1;
     if (job->base == NULL) return CLSHEAR_OK;
-    return for_pixels(job, replicate, load, 1, error);
+    const clshear_status status = replicate == 0 ? cs_aov_load(job, error) : CLSHEAR_OK;
+    return status == CLSHEAR_OK ? for_pixels(job, replicate, load, 1, error) : status;
 }
 
 clshear_status cs_resume_end(cs_job *job, uint32_t replicate, cs_error *error)

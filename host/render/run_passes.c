@@ -1,5 +1,6 @@
 /* The passes of a render over its batches. */
 #include "optics/shear_mode.h"
+#include "render/aov.h"
 #include "render/resume.h"
 
 cs_pass cs_job_pass(const cs_job *job)
@@ -36,6 +37,8 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
     pass.shears = job->shears;
     pass.pixels = &job->pixels;
     pass.settings = &job->settings;
+    pass.launch.planes = job->planes;
+    pass.features = cs_aov_features(job);
     for (size_t b = 0; b < job->batch_count; b++)
         pass.total += (double)replicates * (double)job->batches[b].pixel_count *
                       job->batches[b].pattern.grid.count;

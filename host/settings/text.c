@@ -75,12 +75,25 @@ static clshear_status refuse(const cs_setting *setting, const char *text, cs_err
                    expectation);
 }
 
-/* Reads up to `capacity` numbers separated by commas. Returns their count, or 0 if there are more
+/* Reads a number, or the name of a choice, that ends at `end`. Returns where it ends, or `text`. */
+static const char *read_one(const cs_setting *setting, const char *text, const char *end,
+                            double *number)
+{
+    char name[32];
+    if (setting->kind != CLSHEAR_CHOICE) return cs_parse_number(text, end, number);
+    if ((size_t)(end - text) >= sizeof name) return text;
+    snprintf(name, sizeof name, "%.*s", (int)(end - text), text);
+    *number = cs_choice_find(setting->choices, name);
+    return *number >= 0.0 ? end : text;
+}
+
+/* Reads up to `capacity` values separated by commas. Returns their count, or 0 if there are more
  * or the text has anything else. */
-static size_t read_numbers(const char *text, size_t capacity, double *numbers)
+static size_t read_numbers(const cs_setting *setting, const char *text, size_t capacity,
+                           double *numbers)
 {
     for (size_t i = 0; i < capacity; i++) {
-        const char *end = cs_parse_number(text, text + strcspn(text, ","), &numbers[i]);
+        const char *end = read_one(setting, text, text + strcspn(text, ","), &numbers[i]);
         if (end == text || !isfinite(numbers[i])) return 0;
         if (*end == '\0') return i + 1;
         if (*end != ',') return 0;
@@ -92,7 +105,7 @@ static size_t read_numbers(const char *text, size_t capacity, double *numbers)
 int cs_setting_parse(const cs_setting *setting, const char *text, double *numbers)
 {
     if (setting->kind != CLSHEAR_CHOICE)
-        return read_numbers(text, setting->values, numbers) == setting->values;
+        return read_numbers(setting, text, setting->values, numbers) == setting->values;
     numbers[0] = cs_choice_find(setting->choices, text);
     return numbers[0] >= 0.0;
 }
@@ -107,7 +120,7 @@ static clshear_status set_numbers(clshear_settings *settings, size_t index, cons
     const size_t capacity = entry->values * entry->most;
     double *all = malloc((before + capacity) * sizeof *all);
     if (all == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    const size_t added = read_numbers(text, capacity, all + before);
+    const size_t added = read_numbers(entry, text, capacity, all + before);
     clshear_status status = CLSHEAR_BAD_ARGUMENT;
     if (added > 0 && added % entry->values == 0 && before + added > capacity) {
         free(all);
@@ -136,7 +149,8 @@ clshear_status cs_settings_set_text(clshear_settings *settings, size_t index, co
                                     cs_error *error)
 {
     const cs_setting *entry = &cs_setting_table[index];
-    if (entry->kind == CLSHEAR_CHOICE) {
+    cs_setting_value *value = &settings->values[index];
+    if (entry->kind == CLSHEAR_CHOICE && entry->most == 1) {
         double number;
         if (cs_setting_parse(entry, text, &number))
             return cs_settings_set(settings, entry->setting, &number, 1, error);
@@ -161,7 +175,9 @@ void cs_settings_print(const clshear_settings *settings, size_t index, char *tex
     if (entry->kind == CLSHEAR_TEXT)
         append(text, size, "%s", value->text);
     else if (entry->kind == CLSHEAR_CHOICE)
-        append(text, size, "%s", entry->choices[(int)value->numbers[0]].name);
+        for (size_t i = 0; i < value->count; i++)
+            append(text, size, "%s%s", i > 0 ? "," : "",
+                   entry->choices[(int)value->numbers[i]].name);
     else
         for (size_t i = 0; i < value->count; i++)
             append(text, size, "%s%s", i > 0 ? "," : "",

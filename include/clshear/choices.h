@@ -2,7 +2,8 @@
  *
  * CLSHEAR_SHEAR_NONE, _TOROIDAL, _EQUAL_AREA; CLSHEAR_ORACLE_CENTRE, _MEDIAN, _NEAR, _FAR, _PILOT;
  * CLSHEAR_FILTER_BOX, _TENT, _GAUSSIAN, _BLACKMAN_HARRIS; CLSHEAR_APERTURE_DISK, _SQUARE, _POLYGON,
- * _IMAGE. */
+ * _IMAGE; CLSHEAR_AOV_ALBEDO, _NORMAL, _POSITION, _DEPTH, _COVERAGE, _EMISSION, _DIRECT, _INDIRECT.
+ */
 #ifndef CLSHEAR_CHOICES_H
 #define CLSHEAR_CHOICES_H
 
@@ -31,5 +32,13 @@ typedef enum clshear_aperture {
     CLSHEAR_APERTURE_LIST(CLSHEAR_CHOICE)
 #undef CLSHEAR_CHOICE
 } clshear_aperture;
+
+/* Any number of them: pass an array to clshear_settings_set_numbers, or names separated by commas
+ * to clshear_settings_set_text. */
+typedef enum clshear_aov {
+#define CLSHEAR_CHOICE(identifier, number, name, meaning) CLSHEAR_AOV_##identifier = number,
+    CLSHEAR_AOV_LIST(CLSHEAR_CHOICE)
+#undef CLSHEAR_CHOICE
+} clshear_aov;
 
 #endif

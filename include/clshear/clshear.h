@@ -413,6 +413,7 @@ CLSHEAR_API void clshear_film_describe(const clshear_film *film, clshear_film_in
  *   Samples               number of samples
  *   Gain                  with CLSHEAR_GAIN: variance of small patterns without shear over their
  *                         variance with it, both averaged over 5 x 5 pixels
+ *   Albedo.R/G/B ...      with CLSHEAR_AOV: means through lens and pixel, see clshear_aov
  *   Pattern<n>.R/G/B      with CLSHEAR_KEEP_PATTERNS or _EXTENDABLE: mean of replicate n */
 CLSHEAR_API const char *clshear_film_channel_name(const clshear_film *film, size_t index);
 

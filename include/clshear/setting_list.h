@@ -37,6 +37,16 @@
     X(POLYGON, 2, "polygon", "a regular polygon with its corners at the lens radius") \
     X(IMAGE, 3, "image", "an image whose longer side is twice the lens radius")
 
+#define CLSHEAR_AOV_LIST(X)                                                          \
+    X(ALBEDO, 0, "albedo", "Albedo.R/G/B: base colour of the surface that is seen")  \
+    X(NORMAL, 1, "normal", "N.X/Y/Z: its unit shading normal, on the viewer's side") \
+    X(POSITION, 2, "position", "P.X/Y/Z: its place, in the file's coordinates")      \
+    X(DEPTH, 3, "depth", "Depth.Z: its camera depth")                                \
+    X(COVERAGE, 4, "coverage", "Coverage.A: part of the samples that see a surface") \
+    X(EMISSION, 5, "emission", "Emission.R/G/B: light that is seen directly")        \
+    X(DIRECT, 6, "direct", "Direct.R/G/B: light that met one surface on its way")    \
+    X(INDIRECT, 7, "indirect", "Indirect.R/G/B: light that met several")
+
 /* ------------------------------------------------------------------------------------------------
  * Settings: X(identifier, number, name, aliases, kind, values, most, fallback, low, high, choices,
  *             use, argument, help)
@@ -51,7 +61,7 @@
  * most      largest number of values; above 1, each use of the flag appends one
  * fallback  default value; "": the render chooses it
  * low, high bounds of each number, both inclusive
- * choices   list of a CHOICE: shear, oracle, filter, aperture, sampler; otherwise none
+ * choices   list of a CHOICE: shear, oracle, filter, aperture, sampler, aov; otherwise none
  * use       RECIPE: affects the picture or its noise, is written to the metadata, and must be the
  *           same when a render is continued; RECORD: is written to the metadata; PRIVATE: neither
  * argument  placeholder in the help; "": the flag takes no value
@@ -96,6 +106,8 @@
       "box, tent, gaussian or blackman-harris") \
     X(FILTER_WIDTH, 24, "filter-width", "", NUMBER, 1, 1, "", 0.01, 64, none, RECIPE, "PX", \
       "the filter's whole width (box 1, tent 2, others 3)") \
+    X(AOV, 30, "aov", "", CHOICE, 1, 8, "", 0, 0, aov, RECORD, "NAME,...", \
+      "more channels in the EXR: albedo, normal, depth...") \
     /* Camera */ \
     X(EYE, 40, "eye", "", NUMBER, 3, 1, "", -1e12, 1e12, none, RECIPE, "X,Y,Z", \
       "camera position") \
