@@ -27,6 +27,11 @@ static size_t hash_position(const float *position)
     return hash;
 }
 
+static int is_same(const float *a, const float *b)
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 /* Makes the first vertex at each position the parent of the others there. `slots` is an open hash
  * table of vertices, all `nothing`. */
 static void join_positions(const cs_scene *scene, uint32_t *parent, uint32_t *slots, size_t count)
@@ -34,8 +39,7 @@ static void join_positions(const cs_scene *scene, uint32_t *parent, uint32_t *sl
     const float(*positions)[3] = scene->positions.items;
     for (uint32_t i = 0; i < scene->positions.count; i++) {
         size_t slot = hash_position(positions[i]) % count;
-        while (slots[slot] != nothing &&
-               memcmp(positions[slots[slot]], positions[i], sizeof positions[i]) != 0)
+        while (slots[slot] != nothing && !is_same(positions[slots[slot]], positions[i]))
             slot = (slot + 1) % count;
         if (slots[slot] == nothing) slots[slot] = i;
         parent[i] = slots[slot];
