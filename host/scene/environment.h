@@ -18,7 +18,8 @@ typedef struct cs_environment_view {
     double strength;     /* its radiance is multiplied by it */
 } cs_environment_view;
 
-/* From "R,G,B", "gradient:R,G,B,R,G,B" (zenith, horizon) or the path of an image. Freed by cs_environment_free. */
+/* From "R,G,B", "gradient:R,G,B,R,G,B" (zenith, horizon) or the path of an image. Freed by
+ * cs_environment_free. */
 clshear_status cs_environment_read(const char *text, const cs_environment_view *view,
                                    cs_environment *environment, cs_error *error);
 

@@ -118,7 +118,7 @@ static clshear_status set_numbers(clshear_settings *settings, size_t index, cons
     const cs_setting_value *value = &settings->values[index];
     const size_t before = entry->most > 1 && value->is_set ? value->count : 0;
     const size_t capacity = entry->values * entry->most;
-    double *all = malloc((before + capacity) * sizeof *all);
+    double *all = malloc((before + capacity + 1) * sizeof *all); /* a text has no numbers */
     if (all == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     const size_t added = read_numbers(entry, text, capacity, all + before);
     clshear_status status = CLSHEAR_BAD_ARGUMENT;
@@ -149,7 +149,6 @@ clshear_status cs_settings_set_text(clshear_settings *settings, size_t index, co
                                     cs_error *error)
 {
     const cs_setting *entry = &cs_setting_table[index];
-    cs_setting_value *value = &settings->values[index];
     if (entry->kind == CLSHEAR_CHOICE && entry->most == 1) {
         double number;
         if (cs_setting_parse(entry, text, &number))
