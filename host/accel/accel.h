@@ -41,4 +41,11 @@ enum {
 clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const cs_f32 *optics,
                               const int *window, int lens_rays, cs_depth *depth, cs_error *error);
 
+/* The distance at which a ray meets the first surface, in lengths of `direction`, between `near`
+ * and `far`, and the number of the triangle there; infinite, and `triangle` unchanged, if it meets
+ * none.
+ */
+float cs_accel_distance(const cs_accel *accel, const float *origin, const float *direction,
+                        float near, float far, uint32_t *triangle);
+
 #endif

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/vec.h"
+#include "render/interior.h"
 #include "scene/camera.h"
 #include "scene/framing.h"
 #include "settings/view.h"
@@ -53,11 +54,15 @@ static clshear_status choose_camera(const clshear_scene *scene, const clshear_se
                    cameras->count, names);
 }
 
+static int z_is_up(const cs_scene *scene, const clshear_settings *settings)
+{
+    return cs_is_set(settings, Z_UP) ? cs_integer(settings, Z_UP) != 0 : scene->z_up;
+}
+
 /* The camera that frames the scene. The settings may turn it, and say what is up. */
 static cs_view frame_scene(const cs_scene *scene, const clshear_settings *settings)
 {
-    const int z_up = cs_is_set(settings, Z_UP) ? cs_integer(settings, Z_UP) != 0 : scene->z_up;
-    cs_framing framing = cs_framing_default(scene, z_up);
+    cs_framing framing = cs_framing_default(scene, z_is_up(scene, settings));
     if (cs_is_set(settings, FOV)) framing.fov_deg = (float)cs_number(settings, FOV);
     if (cs_is_set(settings, ORBIT)) {
         framing.azimuth_deg = (float)cs_numbers(settings, ORBIT)[0];
@@ -67,6 +72,27 @@ static cs_view frame_scene(const cs_scene *scene, const clshear_settings *settin
                            (int)cs_integer(settings, HEIGHT));
 }
 
+/* The camera of a scene without one: inside if it is a room, unless the settings place it. */
+static clshear_status default_view(const clshear_scene *scene, const clshear_settings *settings,
+                                   cs_view *view, cs_error *error)
+{
+    int is_room = 0;
+    const int is_placed = cs_is_set(settings, ORBIT) || cs_is_set(settings, EYE) ||
+                          cs_is_set(settings, TARGET) || cs_is_set(settings, UP);
+    clshear_status status = CLSHEAR_OK;
+    if (!is_placed)
+        status = cs_interior_view(scene, z_is_up(&scene->scene, settings), &is_room, view, error);
+    if (status != CLSHEAR_OK) return status;
+    if (is_room)
+        cs_warn(
+            &scene->context->log,
+            "the scene is taken for a room and seen from inside; "
+            "--orbit 35,20 shows it from outside, --z-up sets it upright if it lies on its side");
+    else
+        *view = frame_scene(&scene->scene, settings);
+    return CLSHEAR_OK;
+}
+
 clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *settings,
                               cs_error *error)
 {
@@ -74,11 +100,13 @@ clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *sett
     const double *origin = scene->scene.origin;
     clshear_status status = CLSHEAR_OK;
     int number = -1;
+    cs_view view;
     CS_TRY(choose_camera(scene, settings, &number, error));
-    const cs_view view =
-        number < 0 ? frame_scene(&scene->scene, settings)
-                   : cs_camera_of_scene(&scene->scene, number, (int)cs_integer(settings, WIDTH),
-                                        (int)cs_integer(settings, HEIGHT));
+    if (number < 0)
+        CS_TRY(default_view(scene, settings, &view, error));
+    else
+        view = cs_camera_of_scene(&scene->scene, number, (int)cs_integer(settings, WIDTH),
+                                  (int)cs_integer(settings, HEIGHT));
     if (!cs_is_set(settings, EYE))
         CS_TRY(set_vector(settings, CLSHEAR_EYE, view.eye, origin, error));
     if (!cs_is_set(settings, TARGET))

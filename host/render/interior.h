@@ -1,0 +1,13 @@
+/* The first picture of a room: from inside. */
+#ifndef CS_RENDER_INTERIOR_H
+#define CS_RENDER_INTERIOR_H
+
+#include "render/objects.h"
+
+/* Whether the scene is a closed room with many things in it (`is_room`), and if so a view from
+ * inside: level, at eye height, where many of the things are seen. Eye and target are relative to
+ * the scene's origin. The lens is not chosen. */
+clshear_status cs_interior_view(const clshear_scene *scene, int z_up, int *is_room, cs_view *view,
+                                cs_error *error);
+
+#endif
