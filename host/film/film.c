@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "clshear/clshear.h"
+
 clshear_status cs_film_create(const int *window, int full_width, int full_height, cs_error *error,
                               clshear_film **result)
 {
@@ -134,6 +136,21 @@ const float *cs_film_channel(const clshear_film *film, const char *name)
     return NULL;
 }
 
+/* The tone that the settings in the metadata ask for. */
+static cs_tone tone_of(const clshear_film *film)
+{
+    cs_tone tone = {0};
+    const cs_attribute *attributes = film->attributes.items;
+    for (size_t i = 0; i < film->attributes.count; i++)
+        if (attributes[i].kind == CS_ATTRIBUTE_FLOAT &&
+            strcmp(attributes[i].name, "clshear.exposure") == 0)
+            tone.exposure = attributes[i].numbers[0];
+    cs_film_int(film, "clshear.autoExposure", &tone.is_auto);
+    const char *curve = cs_film_text(film, "clshear.tone");
+    if (curve != NULL && strcmp(curve, "filmic") == 0) tone.curve = CLSHEAR_TONE_FILMIC;
+    return tone;
+}
+
 static clshear_status write_channels(const clshear_film *film, const char *path, const char **names,
                                      const float **planes)
 {
@@ -154,6 +171,7 @@ static clshear_status write_channels(const clshear_film *film, const char *path,
         .planes = planes,
         .attribute_count = film->attributes.count,
         .attributes = film->attributes.items,
+        .tone = tone_of(film),
     };
     return cs_image_write(path, &picture, cs_thread_error());
 }

@@ -193,7 +193,8 @@ static clshear_status add_light(const importing *work, const struct aiLight *sou
                 work->model->path, light.name);
         return CLSHEAR_OK;
     }
-    if (light.kind == CS_MODEL_DIRECTIONAL || !(fade > 0.0)) fade = 1.0;
+    light.is_even = light.kind != CS_MODEL_DIRECTIONAL && !(fade > 0.0);
+    if (light.kind == CS_MODEL_DIRECTIONAL || light.is_even) fade = 1.0;
     transform(&matrix, &source->mPosition, 1.0, light.position);
     transform(&matrix, &source->mDirection, 0.0, light.axis);
     light.cone[0] = 0.5f * source->mAngleInnerCone;

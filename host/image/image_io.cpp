@@ -384,6 +384,9 @@ ImageBuf buffer_for(const std::string &extension, const cs_picture *picture)
         for (size_t i = 0; i < picture->channel_count; i++)
             if (std::strcmp(picture->names[i], name) == 0) chosen.push_back(i);
     ImageBuf linear = interleaved(picture, chosen);
+    if (!linear.has_error() && chosen.size() == 3)
+        cs_tone_apply(&picture->tone, static_cast<float *>(linear.localpixels()),
+                      static_cast<size_t>(picture->width) * static_cast<size_t>(picture->height));
     return OIIO::ImageBufAlgo::colorconvert(linear, "linear", "sRGB", false);
 }
 

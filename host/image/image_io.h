@@ -7,6 +7,7 @@
 
 #include "base/status.h"
 #include "image/texel_kinds.h"
+#include "image/tone.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -65,6 +66,7 @@ typedef struct cs_picture {
     const float *const *planes;
     size_t attribute_count;
     const cs_attribute *attributes;
+    cs_tone tone; /* for formats other than .exr */
 } cs_picture;
 
 /* A picture with the memory it owns. Initialise to zero. */
@@ -85,8 +87,9 @@ void cs_image_free(cs_loaded_picture *loaded);
  * size: JPEG has 16 bits for it. */
 clshear_status cs_image_check(const char *path, int width, int height, cs_error *error);
 
-/* Writes .exr with all planes as float32, or other formats with the planes R, G, B under the sRGB
- * curve (8 bits; TIFF 16). The file appears under its name only when it is complete. */
+/* Writes .exr with all planes as float32, or other formats with the planes R, G, B under `tone`
+ * and the sRGB curve (8 bits; TIFF 16). The file appears under its name only when it is complete.
+ */
 clshear_status cs_image_write(const char *path, const cs_picture *picture, cs_error *error);
 
 #ifdef __cplusplus

@@ -211,7 +211,7 @@ clshear_status cs_model_build(cs_model *model, double smooth_degrees, cs_scene *
     CS_TRY(cs_model_smooth(model, smooth_degrees, error));
     CS_TRY(cs_build_materials(model, scene, error)); /* checks the numbers of materials */
     CS_TRY(add_triangles(model, scene, error));
-    CS_TRY(cs_build_lights(model, scene, error));
+    CS_TRY(cs_build_lights(model, (const double(*)[3])bounds, scene, error));
     CS_TRY(cs_build_cameras(model, scene, error));
     if (scene->degenerate > 0)
         cs_warn(model->log, "%s: %zu triangles without area are left out", model->path,

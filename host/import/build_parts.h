@@ -20,7 +20,8 @@ clshear_status cs_build_textures(const cs_model *model, cs_scene *scene,
 void cs_report_plain(const cs_model *model, const size_t *plain);
 
 /* Lights and cameras, relative to the scene's origin. */
-clshear_status cs_build_lights(const cs_model *model, cs_scene *scene, cs_error *error);
+clshear_status cs_build_lights(const cs_model *model, const double bounds[2][3], cs_scene *scene,
+                               cs_error *error);
 clshear_status cs_build_cameras(const cs_model *model, cs_scene *scene, cs_error *error);
 
 #endif

@@ -18,8 +18,20 @@ static void make_cone(const cs_model_light *source, clshear_light *light)
         light->direction[i] = (float)source->axis[i];
 }
 
+/* What makes a light that does not fade with distance as bright at the middle of the scene, the
+ * mean of its bounds, as one that does: the squared distance. */
+static float fading(const cs_model_light *source, const double bounds[2][3])
+{
+    double square = 0.0;
+    for (int i = 0; i < 3; i++) {
+        const double step = source->position[i] - 0.5 * (bounds[0][i] + bounds[1][i]);
+        square += step * step;
+    }
+    return source->is_even ? (float)square : 1.0f;
+}
+
 static clshear_status build_light(const cs_model *model, const cs_model_light *source,
-                                  cs_scene *scene, cs_error *error)
+                                  const double bounds[2][3], cs_scene *scene, cs_error *error)
 {
     clshear_light light = {.struct_size = sizeof light, .kind = CLSHEAR_LIGHT_POINT};
     if (source->kind == CS_MODEL_DIRECTIONAL) light.kind = CLSHEAR_LIGHT_DIRECTIONAL;
@@ -29,7 +41,7 @@ static clshear_status build_light(const cs_model *model, const cs_model_light *s
     for (int i = 0; i < 3; i++) {
         light.position[i] = (float)(source->position[i] - scene->origin[i]);
         light.direction[i] = (float)-source->axis[i];
-        light.colour[i] = source->colour[i];
+        light.colour[i] = source->colour[i] * fading(source, bounds);
     }
     if (source->kind == CS_MODEL_SPOT) make_cone(source, &light);
     if (!cs_is_colour(light.colour)) {
@@ -48,12 +60,13 @@ static clshear_status build_light(const cs_model *model, const cs_model_light *s
     return CLSHEAR_OK;
 }
 
-clshear_status cs_build_lights(const cs_model *model, cs_scene *scene, cs_error *error)
+clshear_status cs_build_lights(const cs_model *model, const double bounds[2][3], cs_scene *scene,
+                               cs_error *error)
 {
     const cs_model_light *lights = model->lights.items;
     clshear_status status = CLSHEAR_OK;
     for (size_t i = 0; i < model->lights.count && status == CLSHEAR_OK; i++)
-        status = build_light(model, &lights[i], scene, error);
+        status = build_light(model, &lights[i], bounds, scene, error);
     return status;
 }
 

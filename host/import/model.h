@@ -49,6 +49,7 @@ typedef struct cs_model_light {
     float colour[3]; /* radiant intensity; directional: irradiance */
     float cone[2];   /* of a spot: inner and outer half angle, radians */
     float range;     /* 0: none */
+    int is_even;     /* its colour is irradiance, at any distance, as light models of old have it */
 } cs_model_light;
 
 typedef struct cs_model_camera {

@@ -37,6 +37,10 @@
     X(POLYGON, 2, "polygon", "a regular polygon with its corners at the lens radius") \
     X(IMAGE, 3, "image", "an image whose longer side is twice the lens radius")
 
+#define CLSHEAR_TONE_LIST(X)                                        \
+    X(SRGB, 0, "srgb", "the sRGB curve alone; values are cut at 1") \
+    X(FILMIC, 1, "filmic", "Hable's curve first, which rolls highlights off")
+
 #define CLSHEAR_AOV_LIST(X)                                                          \
     X(ALBEDO, 0, "albedo", "Albedo.R/G/B: base colour of the surface that is seen")  \
     X(NORMAL, 1, "normal", "N.X/Y/Z: its unit shading normal, on the viewer's side") \
@@ -61,7 +65,8 @@
  * most      largest number of values; above 1, each use of the flag appends one
  * fallback  default value; "": the render chooses it
  * low, high bounds of each number, both inclusive
- * choices   list of a CHOICE: shear, oracle, filter, aperture, sampler, aov; otherwise none
+ * choices   list of a CHOICE: shear, oracle, filter, aperture, sampler, tone,
+ *           aov; otherwise none
  * use       RECIPE: affects the picture or its noise, is written to the metadata, and must be the
  *           same when a render is continued; RECORD: is written to the metadata; PRIVATE: neither
  * argument  placeholder in the help; "": the flag takes no value
@@ -106,6 +111,12 @@
       "box, tent, gaussian or blackman-harris") \
     X(FILTER_WIDTH, 24, "filter-width", "", NUMBER, 1, 1, "", 0.01, 64, none, RECIPE, "PX", \
       "the filter's whole width (box 1, tent 2, others 3)") \
+    X(EXPOSURE, 25, "exposure", "", NUMBER, 1, 1, "0", -100, 100, none, RECORD, "EV", \
+      "brighter by EV stops; not in EXR files") \
+    X(AUTO_EXPOSURE, 26, "auto-exposure", "", SWITCH, 1, 1, "0", 0, 1, none, RECORD, "", \
+      "the picture's log-average grey first; not in EXR") \
+    X(TONE, 27, "tone", "", CHOICE, 1, 1, "srgb", 0, 0, tone, RECORD, "CURVE", \
+      "srgb or filmic; not in EXR files") \
     X(AOV, 30, "aov", "", CHOICE, 1, 8, "", 0, 0, aov, RECORD, "NAME,...", \
       "more channels in the EXR: albedo, normal, depth...") \
     /* Camera */ \
