@@ -409,6 +409,12 @@ wait $child
 [ $? -eq 143 ] || wrong "early interrupt: exit code, $(cat h.txt)"
 [ ! -e never.exr ] || wrong "early interrupt: a picture"
 
+# A link is written through, also one that leads to no file yet.
+mkdir -p linked
+ln -s linked/new.exr dangling.exr
+expect 0 "" -- "$cornell" $small --quiet --out dangling.exr
+[ -L dangling.exr ] && [ -s linked/new.exr ] || wrong "a dangling link is not written through"
+
 # What nohup starts goes on after a hangup.
 nohup "$program" "$cornell" --spp 4000 --width 64 --height 64 --quiet --out nohup.exr 2>h.txt &
 child=$!

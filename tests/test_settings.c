@@ -272,10 +272,11 @@ static int take_other(void *user, const char *file, int line, const char *name, 
 static void files_are_read(void **state)
 {
     clshear_settings *settings = *state;
-    const char *path = test_file("good.flags", "# a comment\n\n  --spp 64   # behind a value\n"
-                                               "width=32\nheight 16\r\n--adaptive\n"
-                                               "eye 1,2,3\nlight 0,0,0,1,1,1\nlight 1,0,0,1,1,1\n"
-                                               "aperture-radius\t2");
+    const char *path =
+        test_file("good.flags", "\xef\xbb\xbf# a comment\n\n  --spp 64   # behind a value\n"
+                                "width=32\nheight 16\r\n--adaptive\n"
+                                "eye 1,2,3\nlight 0,0,0,1,1,1\nlight 1,0,0,1,1,1\n"
+                                "aperture-radius\t2");
     double eye[3], lights[12];
     int64_t spp, width, height, adaptive;
     size_t count;

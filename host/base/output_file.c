@@ -12,11 +12,28 @@ int cs_is_special_file(const char *path)
     return stat(path, &about) == 0 && !S_ISREG(about.st_mode);
 }
 
+/* Where the link at `path` leads, though nothing is there yet; NULL if it is no link. */
+static char *link_target(const char *path)
+{
+    char name[4096];
+    const ssize_t length = readlink(path, name, sizeof name - 1);
+    if (length < 0) return NULL;
+    name[length] = '\0';
+    const char *slash = strrchr(path, '/');
+    const size_t folder = *name == '/' || slash == NULL ? 0 : (size_t)(slash + 1 - path);
+    char *target = malloc(folder + (size_t)length + 1);
+    if (target == NULL) return NULL;
+    memcpy(target, path, folder);
+    memcpy(target + folder, name, (size_t)length + 1);
+    return target;
+}
+
 int cs_output_begin(const char *path, cs_output_file *file)
 {
     *file = (cs_output_file){0};
     const int special = cs_is_special_file(path);
     file->target = special ? NULL : realpath(path, NULL);
+    if (file->target == NULL && !special) file->target = link_target(path);
     if (file->target == NULL) file->target = strdup(path);
     if (file->target == NULL) return ENOMEM;
     const size_t size = strlen(file->target) + sizeof ".part" + 20; /* 64 bits have 20 digits */

@@ -79,7 +79,9 @@ clshear_status cs_settings_read(clshear_settings *settings, const char *path,
     char *text = read_text(path), place[600];
     int number = 1;
     CS_REQUIRE(text != NULL, CLSHEAR_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
-    for (char *line = text; line != NULL; number++) {
+    /* Editors put a byte order mark before UTF-8. */
+    const size_t mark = strncmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    for (char *line = text + mark; line != NULL; number++) {
         char *next = strchr(line, '\n');
         if (next != NULL) *next++ = '\0';
         const words found = cut_line(line);
