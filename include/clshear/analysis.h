@@ -27,6 +27,11 @@ typedef struct clshear_convergence clshear_convergence; /* measured variance ove
 CLSHEAR_API clshear_status clshear_points_draw(const char *sampler, size_t count, size_t sets,
                                                uint32_t seed, clshear_points **points);
 
+/* The same, but the planar sets of "poisson" and "ccvt" are made anew from the seed instead of being
+ * the kept ones that all seeds share. For expectations over sets; it may take minutes. */
+CLSHEAR_API clshear_status clshear_points_draw_fresh(const char *sampler, size_t count, size_t sets,
+                                                     uint32_t seed, clshear_points **points);
+
 /* Copies points from memory. Coordinate d of point i of set s is values[(s * count + i) *
  * dimensions + d], in [0, 1). `names` has one letter for each of the 1 to 6 dimensions: x y (film),
  * u v (lens), p q (light). */

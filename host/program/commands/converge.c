@@ -230,6 +230,8 @@ static int check_integrand(converge_job *job)
     if (name == NULL) return EXIT_DONE;
     if (job->pixels.count > 0)
         return complain(EXIT_USAGE, "--pixels are of a SCENE, not of an --integrand");
+    if (clshear_settings_is_set(job->options.settings, CLSHEAR_FRESH_SETS))
+        return complain(EXIT_USAGE, "--fresh-sets is of a SCENE, not of an --integrand");
     job->measured.struct_size = sizeof job->measured;
     if (clshear_integrand_find(name, &job->measured) != CLSHEAR_OK) return complain_of_library();
     job->measured.angle_deg = job->angle.items[0];
