@@ -29,6 +29,7 @@ void cs_convergence_free(clshear_convergence *result)
     free(result->counts);
     free(result->errors);
     free(result->local);
+    free(result->maps);
     *result = (clshear_convergence){0};
 }
 
