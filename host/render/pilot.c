@@ -60,8 +60,8 @@ static clshear_status run(cs_job *job, const cs_f32 *shears, const cs_u32 *list,
     cs_buffer *shear_buffer = NULL;
     cs_pixels pixels = {0};
     cs_batch batch = {0};
-    const cs_u32 sampler = job->pattern.sampler, width = (cs_u32)(job->window[1] - job->window[0]);
-    const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, samples));
+    const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
+    const cs_pattern pattern = cs_pattern_of_length(&job->pattern, samples);
     cs_pass pass = cs_job_pass(job);
     if (count > 0) {
         CS_TRY(cs_pixels_create(context, count, width, 0, &pixels, error));

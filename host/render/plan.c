@@ -97,7 +97,7 @@ static clshear_status batch_by_samples(cs_job *job, cs_error *error)
             if (job->samples[pixel] == wanted) list[count++] = pixel;
         }
         if (count == 0) continue;
-        const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, wanted));
+        const cs_pattern pattern = cs_pattern_of_length(&job->pattern, wanted);
         job->batch_count++; /* first, so that what a failure leaves is freed */
         CS_TRY(cs_batch_create(job->scene->context, &pattern, list, count, width, 0,
                                &job->batches[job->batch_count - 1], error));

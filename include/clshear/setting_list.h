@@ -98,6 +98,8 @@
       "keep the data for --extend in the EXR") \
     X(KEEP_PATTERNS, 10, "keep-patterns", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
       "keep the mean of each replicate: Pattern<n>.R/G/B") \
+    X(FRESH_SETS, 16, "fresh-sets", "", SWITCH, 1, 1, "0", 0, 1, none, RECIPE, "", \
+      "poisson, ccvt: sets of this seed, not the kept ones") \
     X(GAIN, 11, "gain-channel", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
       "measure the gain of the shear: channel Gain") \
     /* Image */ \
