@@ -312,7 +312,10 @@ remarks="black|brighter|everything is in focus"
     expect 0 "black: the camera does not see" -- bare.obj $small --eye 0,0,1e5 --target 0,0,2e5 \
         --light 0,0,9,1,1,1 --out k.exr
     expect 0 "black: no light reaches" -- bare.obj $small --light 1e6,1e6,1e6,0,0,0 --out k.exr
-    expect 0 "is brighter than 1" -- bare.obj $small --environment 99,99,99 --out k.exr
+    expect 0 "--exposure -9 or --auto-exposure" -- bare.obj $small --environment 99,99,99 \
+        --out k.exr
+    expect 0 "" -- bare.obj $small --environment 99,99,99 --exposure -8 --out k.png
+    if echo "$output" | grep -qE "$remarks"; then wrong "a remark on a dark exposure: $output"; fi
     expect 0 "everything is in focus" -- bare.obj $small --lens-radius 1e-6 --out k.exr
     expect 0 "" -- bare.obj $small --out k.exr
     if echo "$output" | grep -qE "$remarks"; then wrong "a remark on a good picture: $output"; fi
