@@ -8,4 +8,7 @@
  * if it is sharp everywhere although a lens was given (`has_lens`). */
 void remark_on_picture(const clshear_film *film, int has_lens);
 
+/* Prints what a render that rules may stop has promised and reached, and what is left. */
+void remark_on_end(const clshear_film *film, const clshear_settings *settings);
+
 #endif
