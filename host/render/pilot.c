@@ -130,7 +130,7 @@ static int is_candidate(int rule)
 /* The fraction of pixels that the budget affords, when each is tried with all its candidates. */
 static double affordable_part(const cs_job *job, const choice *c)
 {
-    const double budget = 0.06 * (double)job->spp * (double)job->pixel_count;
+    const double budget = 0.06 * (double)job->pilot_spp * (double)job->pixel_count;
     double tries = 0.0;
     for (size_t i = 0; i < job->pixel_count; i++) {
         int candidates = 0;

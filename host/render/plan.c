@@ -8,6 +8,7 @@
 #include "render/aov.h"
 #include "render/pilot.h"
 #include "render/resume.h"
+#include "render/rounds.h"
 
 /* Fewer samples than this leave a pilot nothing to find out with. */
 static const cs_u32 least_spp_for_pilot = 64;
@@ -171,6 +172,7 @@ void cs_job_free(cs_job *job)
     free(job->gain);
     free(job->samples);
     cs_resume_free(job);
+    cs_rounds_free(job);
     for (size_t b = 0; b < job->batch_count; b++)
         cs_batch_free(&job->batches[b]);
     cs_pixels_free(&job->pixels);
