@@ -7,6 +7,7 @@
 #include "base/depth.h"
 #include "base/status.h"
 #include "clshear/device/camera.h"
+#include "clshear/device/camera_sample.h"
 #include "kernels/scene.h"
 #include "scene/scene.h"
 
@@ -40,6 +41,18 @@ enum {
  */
 clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const cs_f32 *optics,
                               const int *window, int lens_rays, cs_depth *depth, cs_error *error);
+
+/* Cameras of a shutter: where it opens, in the middle, where it closes. */
+typedef struct cs_shutter_cameras {
+    cs_camera open;
+    cs_camera middle;
+    cs_camera closed;
+} cs_shutter_cameras;
+
+/* Computes the velocities, as cs_oracle_velocity, of what the pixels of a window see through the
+ * middle of the lens in the middle of the shutter. */
+void cs_accel_velocity(const cs_accel *accel, const cs_shutter_cameras *cameras, const int *window,
+                       cs_velocity *velocities);
 
 /* The distance at which a ray meets the first surface, in lengths of `direction`, between `near`
  * and `far`, and the number of the triangle there; infinite, and `triangle` unchanged, if it meets

@@ -57,7 +57,7 @@
  *
  * number    value of the enumerator; never reused, because compiled programs depend on it. It also
  *           gives the group in lists: 1 samples, 20 image, 40 camera, 50 lens, 60 light,
- *           70 reading, 80 device, and all numbers up to the next group
+ *           70 reading, 80 device, 100 motion, and all numbers up to the next group
  * name      name of the flag, without dashes
  * aliases   other names of the flag, separated by spaces
  * kind      SWITCH (0 or 1), INTEGER, NUMBER, CHOICE (a name out of `choices`), TEXT
@@ -185,7 +185,10 @@
     X(THREADS, 81, "threads", "t nthreads", INTEGER, 1, 1, "0", 0, 4096, none, PRIVATE, "N", \
       "CPU threads; 0: all") \
     X(PACKET, 82, "packet", "", INTEGER, 1, 1, "", 1, 16, none, PRIVATE, "W", \
-      "samples traced together: 1, 4, 8 or 16")
+      "samples traced together: 1, 4, 8 or 16") \
+    /* Motion */ \
+    X(CAMERA_TO, 100, "camera-to", "", NUMBER, 6, 1, "", -1e12, 1e12, none, RECIPE, "EYE,TARGET", \
+      "where the camera is when the shutter closes")
 /* clang-format on */
 
 #endif

@@ -80,7 +80,8 @@ static inline cs_vfloat cs_three_boxes_quantile(cs_vfloat a, cs_vfloat b, cs_vfl
     }
     cs_vfloat sum = 6.0f * area * tail < square ? cubic : linear;
     sum = linear > middle ? t : sum;
-    sum = (narrow + middle < wide) & (2.0f * wide * tail > narrow + middle) ? flat : sum;
+    cs_vint has_flat = narrow + middle < wide;
+    sum = (has_flat & (2.0f * wide * tail > narrow + middle)) ? flat : sum;
     return mass > 0.5f ? narrow + middle + wide - sum : sum;
 }
 

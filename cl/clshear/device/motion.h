@@ -24,12 +24,6 @@
 /* Circle of confusion, as a part of the motion, below which it is the motion that counts. */
 #define CS_LEAST_CONFUSION 0.015625f
 
-/* Velocity of a surface on the film, pixels while the shutter is open. */
-typedef struct cs_velocity {
-    cs_f32 x;
-    cs_f32 y;
-} cs_velocity;
-
 /* A point of pixel and lens, and a time of the shutter, 0 where it opens and 1 where it closes. */
 typedef struct cs_moving_sample {
     cs_camera_sample point;
