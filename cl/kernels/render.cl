@@ -9,6 +9,11 @@ static inline void cs_trace_packet(const cs_launch *launch, const cs_scene_buffe
                                    cs_sample_table sample_table, const cs_place *place,
                                    const cs_drawn *drawn, int packet, cs_radiance *radiance)
 {
+#if CS_HAS(MOVING)
+    cs_scene_buffers moved = *scene;
+    moved.time = drawn->time[packet];
+    scene = &moved;
+#endif
     cs_camera_sample point = drawn->point[packet];
 #if CS_HAS(MOTION)
     const cs_eye eye = cs_eye_at(launch, drawn->time[packet]);

@@ -57,8 +57,10 @@ clshear_status cs_motion_begin(cs_job *job, const cs_view *view, cs_error *error
     cameras->middle.optics = job->camera.optics;
     cameras->closed.optics = job->camera.optics;
     job->motion = motion_between(view, &closing);
-    job->moves = memcmp(&cameras->open, &cameras->closed, sizeof cameras->open) != 0;
+    const int scene_moves = cs_scene_moves(&job->scene->scene);
+    job->moves = scene_moves || memcmp(&cameras->open, &cameras->closed, sizeof cameras->open) != 0;
     if (job->moves) job->features |= CS_FEATURE_MOTION;
+    if (scene_moves) job->features |= CS_FEATURE_MOVING;
 done:
     return status;
 }
