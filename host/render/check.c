@@ -5,6 +5,7 @@
 #include "pattern/pattern.h"
 #include "render/aov.h"
 #include "render/camera_choice.h"
+#include "render/motion.h"
 #include "render/render_job.h"
 #include "render/studio.h"
 #include "scene/camera.h"
@@ -107,6 +108,7 @@ static clshear_status make_camera(cs_job *job, cs_error *error)
                "use equal-area");
     CS_TRY(cs_camera_frame(&view, job->width, job->height, &job->camera, error));
     job->camera.optics = job->optics.optics;
+    CS_TRY(cs_motion_begin(job, &view, error));
     const double width_px = (double)job->camera.optics.filter_width;
     CS_TRY(cs_settings_set(&job->settings, CLSHEAR_FILTER_WIDTH, &width_px, 1, error));
 done:

@@ -57,7 +57,7 @@
  *
  * number    value of the enumerator; never reused, because compiled programs depend on it. It also
  *           gives the group in lists: 1 samples, 20 image, 40 camera, 50 lens, 60 light,
- *           70 reading, 80 device, 90 stopping, and all numbers up to the next group
+ *           70 reading, 80 device, 90 stopping, 100 motion, and all numbers up to the next group
  * name      name of the flag, without dashes
  * aliases   other names of the flag, separated by spaces
  * kind      SWITCH (0 or 1), INTEGER, NUMBER, CHOICE (a name out of `choices`), TEXT
@@ -194,7 +194,10 @@
     X(NOISE_PIXEL, 91, "noise-pixel", "", NUMBER, 1, 1, "", 1e-6, 1, none, RECORD, "R", \
       "stop when 95 % of pixels err less on a screen") \
     X(TIME, 92, "time", "", NUMBER, 1, 1, "", 0.001, 1e9, none, RECORD, "S", \
-      "stop after S seconds")
+      "stop after S seconds") \
+    /* Motion */ \
+    X(CAMERA_TO, 100, "camera-to", "", NUMBER, 6, 1, "", -1e12, 1e12, none, RECIPE, "EYE,TARGET", \
+      "where the camera is when the shutter closes")
 /* clang-format on */
 
 #endif
