@@ -1,8 +1,10 @@
 /* Spots, suns and environments against closed forms. */
 #include "support.h"
 
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
+#include <sys/stat.h>
 
 #include "clshear/device/hash.h"
 #include "image/image_io.h"
@@ -96,9 +98,8 @@ static void spot_over_a_floor(void **state)
 }
 
 /* A cone of 0.5 degrees fades from its axis on: at half its angle, 3/4 of the root of the light are
- * left. A cone of 40 degrees with an edge of 0.001 is full 0.05 inside of it and dark 0.05 outside.
- */
-* / static void spots_may_be_narrow_or_sharp(void **state)
+ * left. A cone of 40 degrees with an edge of 0.001 is full 0.05 inside it and dark 0.05 outside. */
+static void spots_may_be_narrow_or_sharp(void **state)
 {
     static const struct {
         float inner_deg, outer_deg;
@@ -225,7 +226,8 @@ static cs_environment made_environment(double rotation_deg)
     cs_environment made = {0};
     const cs_environment_view view = {.rotation_deg = rotation_deg, .strength = 1.0};
     fill_image(texels);
-    assert_int_equal(cs_environment_make(texels, WIDTH, HEIGHT, &view, &made, &error), CLSHEAR_OK);
+    assert_int_equal(cs_environment_make(texels, WIDTH, HEIGHT, &made, &error), CLSHEAR_OK);
+    cs_environment_show(&view, &made.light);
     return made;
 }
 
@@ -308,6 +310,63 @@ static void directions_follow_their_density(void **state)
     assert_above(boxes, 100);
     assert_below(square, boxes + 5.0 * sqrt(2.0 * boxes));
     cs_environment_free(&made);
+}
+
+/* Writes an image of one colour around everything. Its size in the file is always the same. */
+static void write_even_image(const char *path, float value)
+{
+    static float plane[WIDTH * HEIGHT];
+    const char *const names[3] = {"R", "G", "B"};
+    const float *const list[3] = {plane, plane, plane};
+    const cs_picture picture = {.width = WIDTH,
+                                .height = HEIGHT,
+                                .full_width = WIDTH,
+                                .full_height = HEIGHT,
+                                .channel_count = 3,
+                                .names = names,
+                                .planes = list};
+    cs_error error;
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        plane[i] = value;
+    assert_int_equal(cs_image_write(path, &picture, &error), CLSHEAR_OK);
+}
+
+static double sky_of(clshear_scene *scene, const char *path, double strength)
+{
+    clshear_settings *settings = looking_down_at(0.0, 16);
+    test_set(settings, CLSHEAR_TARGET, "0,2,0");
+    test_set(settings, CLSHEAR_ENVIRONMENT, "%s", path);
+    test_set_number(settings, CLSHEAR_ENVIRONMENT_STRENGTH, strength);
+    return render(scene, settings).mean;
+}
+
+/* A file that is gone is an error, and one that has changed is read again; one that cannot be told
+ * from what was read, since its times and its size were put back, is not. */
+static void environment_files_are_kept(void **state)
+{
+    const char *path = test_path("kept.exr");
+    struct stat before;
+    FILE *file;
+    clshear_scene *scene = test_floor(*state, 1.0f, 0.5f);
+    write_even_image(path, 0.25f);
+    assert_near(sky_of(scene, path, 1.0), 0.25, 1e-6);
+    assert_int_equal(stat(path, &before), 0);
+    file = fopen(path, "r+");
+    assert_non_null(file);
+    assert_int_equal(fputs("no image", file) < 0, 0);
+    assert_int_equal(fclose(file), 0);
+    const struct timespec times[2] = {before.st_atim, before.st_mtim};
+    assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
+    assert_near(sky_of(scene, path, 2.0), 0.5, 1e-6);
+    write_even_image(path, 0.75f);
+    assert_near(sky_of(scene, path, 1.0), 0.75, 1e-6);
+    assert_int_equal(remove(path), 0);
+    clshear_settings *settings = looking_down_at(0.0, 16);
+    clshear_film *film = NULL;
+    test_set(settings, CLSHEAR_ENVIRONMENT, "%s", path);
+    test_refused(clshear_render(scene, settings, &film), CLSHEAR_BAD_FILE, "kept.exr");
+    clshear_settings_free(settings);
+    clshear_scene_free(scene);
 }
 
 /* The image as a file around a floor: the reflected radiance is albedo / pi times its irradiance,
@@ -446,6 +505,7 @@ int main(void)
         cmocka_unit_test(texels_are_where_they_should_be),
         cmocka_unit_test(directions_follow_their_density),
         cmocka_unit_test(image_around_a_floor),
+        cmocka_unit_test(environment_files_are_kept),
         cmocka_unit_test(studio_lights_what_has_no_light),
         cmocka_unit_test(studio_lights_the_inside),
         cmocka_unit_test(wrong_lights_are_refused),
