@@ -88,6 +88,12 @@ expect 1 "environment 1,2: neither R,G,B nor a file" -- "$cornell" --quiet --env
 expect 1 "environment gone.hdr: neither" -- "$cornell" --quiet --environment gone.hdr --out refused.exr
 expect 1 "65500" -- "$cornell" --quiet --spp 1 --width 65536 --height 1 --out wide.jpg
 
+# A name may be as long as the file system has them, and one that is longer is refused before the render.
+long=$(printf 'n%.0s' $(seq 251))
+expect 0 "" -- "$cornell" --quiet --spp 1 --width 8 --height 8 --out "$long.png"
+[ -s "$long.png" ] || wrong "no picture under a name of 255 bytes"
+expect 1 "the name is too long" -- "$cornell" --quiet --spp 1000000000 --out "${long}n.png"
+
 # Renders. Settings beside the scene are read and said; the command line wins.
 # shellcheck disable=SC2086
 {
@@ -395,6 +401,12 @@ grep -q "/dev/full: cannot be written" full.txt || wrong "full device: $(cat ful
 output=$("$program" "$cornell" --width 64 --height 64 --spp 256 --out g.exr 2>&1 >/dev/null)
 [ "$(echo "$output" | grep -c ' %')" -le 11 ] || wrong "too many lines of progress"
 case $output in *"100 %"*) ;; *) wrong "never at 100 %: $output" ;; esac
+
+# On a narrow terminal, no longer than it is wide.
+output=$(script -qec "stty cols 20; '$program' '$cornell' --width 64 --height 64 --spp 256 --out g.exr" /dev/null)
+case $output in *"100 %"*) ;; *) wrong "terminal: $output" ;; esac
+longest=$(echo "$output" | tr '\r' '\n' | awk '/ %/ && length > most { most = length } END { print most }')
+[ "$longest" -le 19 ] || wrong "a line of progress has $longest columns of 20"
 
 # Ctrl-C, kill and a closed terminal: what was done is written, with true counts, and the exit code
 # says so.
