@@ -36,7 +36,7 @@ typedef struct cs_launch {
     cs_f32 clamp;       /* most that a bounce adds to a channel; 0: no limit */
     cs_u32 planes;      /* of AOVs that are kept: a set of CS_PLANE_ numbers */
 } cs_launch;
-CS_SHARED_WORDS(cs_launch, 73);
+CS_SHARED_WORDS(cs_launch, 76);
 
 /* How many pixels a work-item draws, so that their packets make CS_TOGETHER.
  * blocks: of a pixel's pattern in the launch. packet: lanes. */

@@ -58,6 +58,15 @@ static clshear_status find_depths(cs_job *job, cs_error *error)
     return CLSHEAR_OK;
 }
 
+cs_f32 cs_job_shear(const cs_job *job, size_t index, cs_rule rule)
+{
+    const size_t width = (size_t)(job->window[1] - job->window[0]);
+    const size_t x = (size_t)job->window[0] + index % width;
+    const size_t y = (size_t)job->window[2] + index / width;
+    return cs_oracle_shear(&job->camera, (cs_f32)x + 0.5f, (cs_f32)y + 0.5f, &job->depth[index],
+                           rule);
+}
+
 /* Rules and shears of all pixels; those of the picture that is extended, if there is one. */
 static clshear_status choose_shears(cs_job *job, cs_error *error)
 {
@@ -73,7 +82,7 @@ static clshear_status choose_shears(cs_job *job, cs_error *error)
         else if (is_given)
             job->shear_px[i] = (cs_f32)cs_number(&job->settings, SHEAR_PX);
         else
-            job->shear_px[i] = cs_oracle_shear(&job->camera, &job->depth[i], rule);
+            job->shear_px[i] = cs_job_shear(job, i, rule);
     }
     if (!pilot || extended != NULL || job->spp < least_spp_for_pilot ||
         job->shear_kind != CLSHEAR_SHEAR_EQUAL_AREA)

@@ -138,6 +138,8 @@
       "frame the scene from there, degrees; 0,0: its front") \
     X(FOCUS_POINT, 48, "focus-point", "", NUMBER, 3, 1, "", -1e12, 1e12, none, PRIVATE, "X,Y,Z", \
       "focus on the depth of this point") \
+    X(ORTHOGRAPHIC, 49, "orthographic", "", NUMBER, 1, 1, "", 0, 1e12, none, RECIPE, "WIDTH", \
+      "parallel view, WIDTH along the shorter axis; 0: fits") \
     /* Lens */ \
     X(LENS_RADIUS, 50, "lens-radius", "aperture-radius", NUMBER, 1, 1, "", 0, 1e12, none, RECIPE, \
       "R", "lens radius in scene units; 0: pinhole") \
@@ -155,6 +157,8 @@
       "aperture narrower by this ratio") \
     X(BLUR, 57, "blur", "", NUMBER, 1, 1, "", 0, 1e6, none, PRIVATE, "PX", \
       "lens radius by the blur of points at infinity") \
+    X(TILT, 58, "tilt", "", NUMBER, 2, 1, "0,0", -89, 89, none, RECIPE, "AZIMUTH,ELEVATION", \
+      "the focal plane faces there, degrees; 0,0: the camera") \
     /* Light */ \
     X(LIGHT, 60, "light", "", NUMBER, 6, 64, "", -1e15, 1e15, none, PRIVATE, "X,Y,Z,R,G,B", \
       "add a point light; repeatable") \
