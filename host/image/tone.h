@@ -25,6 +25,16 @@ float cs_tone_auto_scale(const float *pixels, size_t count);
  * 0 to 0 and the linear white of 11.2 to 1; the value is doubled before, as there. */
 float cs_tone_filmic(float value);
 
+/* AgX, the base image of Troy Sobotka's OpenColorIO configuration (github.com/sobotka/AgX, 2022),
+ * of three linear Rec.709 values: inset of the primaries, log2 encoding from 10 stops below grey
+ * to 6.5 above, the sigmoid. What that gives is meant for an sRGB screen, and is made linear here
+ * so that the sRGB curve that follows brings it back. */
+void cs_tone_agx(float *rgb);
+
+/* Its sigmoid, of a place in the log2 encoding, 0 to 1: from 0 to 1, with 0.5 and slope 2 at grey.
+ */
+float cs_tone_agx_curve(float place);
+
 /* Applies `tone` to three linear values for each of `count` pixels. */
 void cs_tone_apply(const cs_tone *tone, float *pixels, size_t count);
 

@@ -37,9 +37,10 @@
     X(POLYGON, 2, "polygon", "a regular polygon with its corners at the lens radius") \
     X(IMAGE, 3, "image", "an image whose longer side is twice the lens radius")
 
-#define CLSHEAR_TONE_LIST(X)                                        \
-    X(SRGB, 0, "srgb", "the sRGB curve alone; values are cut at 1") \
-    X(FILMIC, 1, "filmic", "Hable's curve first, which rolls highlights off")
+#define CLSHEAR_TONE_LIST(X)                                                  \
+    X(SRGB, 0, "srgb", "the sRGB curve alone; values are cut at 1")           \
+    X(FILMIC, 1, "filmic", "Hable's curve first, which rolls highlights off") \
+    X(AGX, 2, "agx", "Sobotka's AgX first, which also takes the colour out of them")
 
 #define CLSHEAR_AOV_LIST(X)                                                          \
     X(ALBEDO, 0, "albedo", "Albedo.R/G/B: base colour of the surface that is seen")  \
@@ -116,7 +117,7 @@
     X(AUTO_EXPOSURE, 26, "auto-exposure", "", SWITCH, 1, 1, "0", 0, 1, none, RECORD, "", \
       "the picture's log-average grey first; not in EXR") \
     X(TONE, 27, "tone", "", CHOICE, 1, 1, "srgb", 0, 0, tone, RECORD, "CURVE", \
-      "srgb or filmic; not in EXR files") \
+      "srgb, filmic or agx; not in EXR files") \
     X(AOV, 30, "aov", "", CHOICE, 1, 8, "", 0, 0, aov, RECORD, "NAME,...", \
       "more channels in the EXR: albedo, normal, depth...") \
     /* Camera */ \
