@@ -4,13 +4,13 @@
 
 #include "clshear/clshear.h"
 
-float cs_tone_auto_scale(const float *pixels, size_t count)
+float cs_tone_auto_scale(const float *const *planes, size_t count)
 {
     double sum = 0.0;
     size_t lit = 0;
     for (size_t i = 0; i < count; i++) {
-        const float *rgb = pixels + 3 * i;
-        const float luminance = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+        const float luminance =
+            0.2126f * planes[0][i] + 0.7152f * planes[1][i] + 0.0722f * planes[2][i];
         if (!(luminance > 0.0f) || !isfinite(luminance)) continue;
         sum += log((double)luminance);
         lit++;
@@ -79,10 +79,13 @@ void cs_tone_agx(float *rgb)
     }
 }
 
-void cs_tone_apply(const cs_tone *tone, float *pixels, size_t count)
+float cs_tone_scale(const cs_tone *tone, const float *const *planes, size_t count)
 {
-    const float scale =
-        exp2f(tone->exposure) * (tone->is_auto ? cs_tone_auto_scale(pixels, count) : 1.0f);
+    return exp2f(tone->exposure) * (tone->is_auto ? cs_tone_auto_scale(planes, count) : 1.0f);
+}
+
+void cs_tone_apply(const cs_tone *tone, float scale, float *pixels, size_t count)
+{
     for (size_t i = 0; i < 3 * count; i++) {
         pixels[i] *= scale;
         if (tone->curve == CLSHEAR_TONE_FILMIC) pixels[i] = cs_tone_filmic(pixels[i]);

@@ -17,9 +17,13 @@ typedef struct cs_tone {
 
 /* 0.18 / the log-average of luminance (Reinhard, Stark, Shirley and Ferwerda, Photographic Tone
  * Reproduction for Digital Images, 2002, equations 1 and 2), here over the pixels that have any
- * light, so that a black background does not count. 1 where no pixel has. `pixels` has three linear
- * Rec.709 values for each of `count` pixels. */
-float cs_tone_auto_scale(const float *pixels, size_t count);
+ * light, so that a black background does not count. 1 where no pixel has. `planes` are red, green
+ * and blue, linear Rec.709, of `count` pixels. */
+float cs_tone_auto_scale(const float *const *planes, size_t count);
+
+/* By what `tone` multiplies values before the curve: 2^exposure, times cs_tone_auto_scale if it
+ * asks for that. */
+float cs_tone_scale(const cs_tone *tone, const float *const *planes, size_t count);
 
 /* Hable's curve (Filmic Tonemapping for Real-time Rendering, SIGGRAPH 2010 course), which takes
  * 0 to 0 and the linear white of 11.2 to 1; the value is doubled before, as there. */
@@ -35,8 +39,9 @@ void cs_tone_agx(float *rgb);
  */
 float cs_tone_agx_curve(float place);
 
-/* Applies `tone` to three linear values for each of `count` pixels. */
-void cs_tone_apply(const cs_tone *tone, float *pixels, size_t count);
+/* Multiplies three linear values for each of `count` pixels by `scale`, and applies the curve of
+ * `tone`. */
+void cs_tone_apply(const cs_tone *tone, float scale, float *pixels, size_t count);
 
 #ifdef __cplusplus
 }
