@@ -57,7 +57,9 @@ typedef struct cs_model_camera {
     double eye[3];
     double forward[3]; /* any length */
     double up[3];
-    double fov; /* vertical, radians */
+    double fov;    /* vertical, radians */
+    double height; /* what the picture shows of parallel lines of sight, above 0; or 0, and fov
+                      counts */
 } cs_model_camera;
 
 typedef struct cs_model {

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "commands/commands.h"
 #include "commands/film_files.h"
@@ -131,6 +132,18 @@ static int check_formats(const render_job *job)
     return EXIT_DONE;
 }
 
+/* Channels that no output has room for are told before the render. */
+static void tell_lost_channels(const render_job *job)
+{
+    if (job->options.quiet || !clshear_settings_is_set(job->options.settings, CLSHEAR_AOV)) return;
+    for (size_t i = 0; i < job->files.out.count; i++) {
+        const char *dot = strrchr(job->files.out.items[i], '.');
+        if (dot != NULL && strcasecmp(dot, ".exr") == 0) return;
+    }
+    fprintf(stderr, "clshear: --aov is for .exr, and no output is one: the channels are lost; "
+                    "add --out FILE.exr\n");
+}
+
 /* A lens that opens, and that was not chosen by the program. */
 static int given_a_lens(const clshear_settings *settings)
 {
@@ -162,6 +175,7 @@ static int run(void *user)
     if (code == EXIT_DONE) code = check_formats(job);
     if (code == EXIT_DONE)
         code = check_places("gain", job->files.gain.items, job->files.gain.count);
+    if (code == EXIT_DONE) tell_lost_channels(job);
     if (code == EXIT_DONE) code = scene_view_open(options, &view);
     if (code == EXIT_DONE) code = render(job, &view);
     scene_view_close(&view);
