@@ -110,7 +110,7 @@ __kernel void cs_render(const cs_launch launch, __global cs_pixel *pixels,
         cs_sample(&launch, &scene, sample_table, lens_table, places, count,
                   block * (cs_u32)CS_BLOCK, end, pixels, aovs);
     }
-    if (launch.last_block != launch.pattern.blocks) return;
+    if (launch.last_block != launch.pattern.blocks || launch.goes_on != 0u) return;
     for (int i = 0; i < count; i++)
         cs_finish_pattern(pixels + places[i].state);
 }

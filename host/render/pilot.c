@@ -66,8 +66,8 @@ static clshear_status run(cs_job *job, const trial *how, const cs_u32 *list, siz
     cs_buffer *shear_buffer = NULL, *velocities = NULL;
     cs_pixels pixels = {0};
     cs_batch batch = {0};
-    const cs_u32 sampler = job->pattern.sampler, width = (cs_u32)(job->window[1] - job->window[0]);
-    const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, samples));
+    const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
+    const cs_pattern pattern = cs_pattern_of_length(&job->pattern, samples);
     cs_pass pass = cs_job_pass(job);
     if (count > 0) {
         CS_TRY(cs_pixels_create(context, count, width, 0, &pixels, error));
@@ -151,7 +151,7 @@ static int differs(const cs_job *job, const choice *c, int rule, size_t i)
 /* The fraction of pixels that the budget affords, when each is tried with all its candidates. */
 static double affordable_part(const cs_job *job, const choice *c)
 {
-    const double budget = 0.06 * (double)job->spp * (double)job->pixel_count;
+    const double budget = 0.06 * (double)job->pilot_spp * (double)job->pixel_count;
     double tries = 0.0;
     for (size_t i = 0; i < job->pixel_count; i++) {
         int candidates = 0;

@@ -9,6 +9,7 @@
 #include "render/motion.h"
 #include "render/pilot.h"
 #include "render/resume.h"
+#include "render/rounds.h"
 
 /* Fewer samples than this leave a pilot nothing to find out with. */
 static const cs_u32 least_spp_for_pilot = 64;
@@ -98,7 +99,7 @@ static clshear_status batch_by_samples(cs_job *job, cs_error *error)
             if (job->samples[pixel] == wanted) list[count++] = pixel;
         }
         if (count == 0) continue;
-        const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, wanted));
+        const cs_pattern pattern = cs_pattern_of_length(&job->pattern, wanted);
         job->batch_count++; /* first, so that what a failure leaves is freed */
         CS_TRY(cs_batch_create(job->scene->context, &pattern, list, count, width, 0,
                                &job->batches[job->batch_count - 1], error));
@@ -174,6 +175,7 @@ void cs_job_free(cs_job *job)
     free(job->gain);
     free(job->samples);
     cs_resume_free(job);
+    cs_rounds_free(job);
     for (size_t b = 0; b < job->batch_count; b++)
         cs_batch_free(&job->batches[b]);
     cs_pixels_free(&job->pixels);
