@@ -91,6 +91,9 @@ clshear_status cs_job_choose_samples(cs_job *job, cs_error *error);
 clshear_status cs_job_plan(cs_job *job, cs_error *error);
 void cs_job_free(cs_job *job);
 
+/* How many of the lights are sampled by a pair of the tuple. */
+cs_u32 cs_area_lights(const cs_job *job);
+
 /* A pass over the job's window with its camera, seed and shear. */
 cs_pass cs_job_pass(const cs_job *job);
 
