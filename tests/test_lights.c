@@ -98,9 +98,8 @@ static void spot_over_a_floor(void **state)
 }
 
 /* A cone of 0.5 degrees fades from its axis on: at half its angle, 3/4 of the root of the light are
- * left. A cone of 40 degrees with an edge of 0.001 is full 0.05 inside of it and dark 0.05 outside.
- */
-* / static void spots_may_be_narrow_or_sharp(void **state)
+ * left. A cone of 40 degrees with an edge of 0.001 is full 0.05 inside it and dark 0.05 outside. */
+static void spots_may_be_narrow_or_sharp(void **state)
 {
     static const struct {
         float inner_deg, outer_deg;
