@@ -91,7 +91,8 @@ static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sampl
     drawn->shear[k] = place->shear;
     drawn->active[k] = active;
 #if CS_HAS(MOTION)
-    cs_vfloat time = cs_draw_time(&launch->pattern, sample_table, place->key, index, &point);
+    cs_vfloat time = cs_draw_time(&launch->pattern, sample_table, place->key, index,
+                                  launch->area_lights > 0u, &point);
     cs_moving_sample moving =
         cs_shear_moving(point, time, launch->shear_mode, &launch->camera.optics, lens_table,
                         place->shear, place->velocity);

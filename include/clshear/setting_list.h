@@ -202,7 +202,19 @@
       "stop after S seconds") \
     /* Motion */ \
     X(CAMERA_TO, 100, "camera-to", "", NUMBER, 6, 1, "", -1e12, 1e12, none, RECIPE, "EYE,TARGET", \
-      "where the camera is when the shutter closes")
+      "where the camera is when the shutter closes") \
+    X(TO, 101, "to", "", TEXT, 1, 1, "", 0, 0, none, RECIPE, "FILE", \
+      "the same mesh where the shutter closes") \
+    X(TURNTABLE, 102, "turntable", "", NUMBER, 1, 1, "", -90, 90, none, RECIPE, "DEG", \
+      "the scene turns by DEG while the shutter is open") \
+    X(SHUTTER, 103, "shutter", "", NUMBER, 2, 1, "", -1e6, 1e6, none, RECIPE, "OPEN,CLOSE", \
+      "seconds of the animation, from the frame's time on") \
+    X(SHUTTER_ANGLE, 104, "shutter-angle", "", NUMBER, 1, 1, "180", 0, 360, none, RECIPE, "DEG", \
+      "part of a frame, without --shutter; 360: all of it") \
+    X(FRAME, 105, "frame", "", INTEGER, 1, 1, "", 0, 1e6, none, RECIPE, "N", \
+      "frame of the animation, from 0") \
+    X(FPS, 106, "fps", "", NUMBER, 1, 1, "24", 1e-3, 1e6, none, RECIPE, "N", \
+      "frames per second of the animation")
 /* clang-format on */
 
 #endif
