@@ -400,6 +400,36 @@ for signal in INT:130 TERM:143 HUP:129; do
     oiiotool --info h.exr | grep -q "64 x   64, 13 channel" || wrong "$signal: bad file"
 done
 
+# SIGUSR1 asks for the picture so far; the render goes on, and its checkpoint is gone when it is done.
+rm -f h.exr h.txt
+"$program" "$cornell" --spp 4000 --width 64 --height 64 --checkpoint state --every 0 --out h.exr 2>h.txt &
+child=$!
+for _ in $(seq 300); do grep -q '10 %' h.txt 2>/dev/null && break; sleep 0.1; done
+[ -s state ] || wrong "no checkpoint"
+kill -USR1 $child
+wait $child
+[ $? -eq 0 ] || wrong "USR1: exit code"
+grep -q "going on; h.exr holds the samples so far" h.txt || wrong "USR1: $(cat h.txt)"
+case $(oiiotool --info -v h.exr) in *interrupted*) wrong "USR1: the picture is not complete" ;; esac
+[ ! -e state ] || wrong "the checkpoint is left"
+
+# Checkpoints that cannot be written, or are of something else.
+refuse 1 "resume: needs a checkpoint" -- "$cornell" --quiet --resume
+refuse 1 "--checkpoint no/such/state: folder no/such/ cannot be written" -- "$cornell" --checkpoint no/such/state
+echo "not a checkpoint" >state
+refuse 1 "state: is there already" -- "$cornell" --quiet --checkpoint state
+refuse 1 "state: is no whole checkpoint" -- "$cornell" --quiet --checkpoint state --resume
+rm -f state
+
+# Rules that end a render say what they promised.
+# shellcheck disable=SC2086
+{
+    expect 0 "ended by --noise at" -- "$cornell" $small --spp 4096 --noise 0.05 --out rule.exr
+    expect 0 "would take about" -- "$cornell" $small --spp 64 --noise 0.0001 --out rule.exr
+    case $(oiiotool --info -v rule.exr) in *'clshear.stoppedBy: "spp"'*) ;; *) wrong "rule untold" ;; esac
+    refuse 1 "needs 2 replicates" -- "$cornell" $small --quiet --noise 0.1 --replicates 1
+}
+
 # Before the first samples there is nothing to keep: the signal ends the program at once.
 "$program" "$cornell" --spp 1 --width 6000 --height 6000 --out never.exr 2>h.txt &
 child=$!

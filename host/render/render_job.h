@@ -68,6 +68,8 @@ typedef struct cs_job {
     double *pattern_sums;
     uint32_t patterns_kept;
     uint32_t replicates_begun;
+    int resumes;    /* whether the job goes on from a checkpoint */
+    double saved_s; /* when the last checkpoint was written */
     double start_s; /* when the render began */
     double prepass_s;
     double pilot_s;

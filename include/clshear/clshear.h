@@ -154,6 +154,13 @@ CLSHEAR_API void clshear_settings_set_progress(clshear_settings *settings,
                                                                const clshear_progress *state),
                                                void *user);
 
+/* Shows pictures of renders with these settings while they go on. `wanted` is called between two
+ * launches; when it does not return 0, `show` gets the picture so far, with complete == 0, which is
+ * the library's. Both are called in the rendering thread. NULL: no calls. */
+CLSHEAR_API void clshear_settings_set_preview(clshear_settings *settings, int (*wanted)(void *user),
+                                              void (*show)(void *user, clshear_film *film),
+                                              void *user);
+
 /* ------------------------------------------------------------------------------------------------
  * Context: an OpenCL device and the kernels compiled for it
  * --------------------------------------------------------------------------------------------- */

@@ -192,7 +192,13 @@
     X(NOISE_PIXEL, 91, "noise-pixel", "", NUMBER, 1, 1, "", 1e-6, 1, none, RECORD, "R", \
       "stop when 95 % of pixels err less on a screen") \
     X(TIME, 92, "time", "", NUMBER, 1, 1, "", 0.001, 1e9, none, RECORD, "S", \
-      "stop after S seconds")
+      "stop after S seconds") \
+    X(CHECKPOINT, 93, "checkpoint", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "FILE", \
+      "keep what is rendered there, for --resume") \
+    X(EVERY, 94, "every", "", NUMBER, 1, 1, "60", 0, 1e9, none, PRIVATE, "S", \
+      "seconds between two checkpoints") \
+    X(RESUME, 95, "resume", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
+      "go on from the checkpoint, if there is one")
 /* clang-format on */
 
 #endif

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 static volatile sig_atomic_t interrupted;
+static volatile sig_atomic_t asked_for_picture;
 static int hangup_ignored;
 
 static void note_interrupt(int signal_number)
@@ -13,9 +14,20 @@ static void note_interrupt(int signal_number)
     interrupted = signal_number;
 }
 
+static void note_wish(int signal_number)
+{
+    (void)signal_number;
+    asked_for_picture = 1;
+}
+
 void progress_note_signals(void)
 {
-    struct sigaction given;
+    struct sigaction given, action;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = note_wish;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGUSR1, &action, NULL);
     hangup_ignored = sigaction(SIGHUP, NULL, &given) == 0 && given.sa_handler == SIG_IGN;
 }
 
@@ -30,6 +42,13 @@ static void catch_interrupts(void)
     sigaction(SIGTERM, &action, NULL);
     if (hangup_ignored) action.sa_handler = SIG_IGN;
     sigaction(SIGHUP, &action, NULL);
+}
+
+int preview_wanted(void)
+{
+    const int wanted = asked_for_picture;
+    asked_for_picture = 0;
+    return wanted;
 }
 
 int interrupting_signal(void)
