@@ -415,7 +415,7 @@ case $(oiiotool --info -v h.exr) in *interrupted*) wrong "USR1: the picture is n
 
 # Checkpoints that cannot be written, or are of something else.
 refuse 1 "resume: needs a checkpoint" -- "$cornell" --quiet --resume
-refuse 1 "--checkpoint no/such/state: folder no/such/ cannot be written" -- "$cornell" --checkpoint no/such/state
+refuse 1 "--checkpoint no/such/state: folder no/such/ cannot be written" -- "$cornell" --quiet --checkpoint no/such/state
 echo "not a checkpoint" >state
 refuse 1 "state: is there already" -- "$cornell" --quiet --checkpoint state
 refuse 1 "state: is no whole checkpoint" -- "$cornell" --quiet --checkpoint state --resume

@@ -20,14 +20,20 @@ static void note_wish(int signal_number)
     asked_for_picture = 1;
 }
 
-void progress_note_signals(void)
+static void catch_wishes(void)
 {
-    struct sigaction given, action;
+    struct sigaction action;
     memset(&action, 0, sizeof action);
     action.sa_handler = note_wish;
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
     sigaction(SIGUSR1, &action, NULL);
+}
+
+void progress_note_signals(void)
+{
+    struct sigaction given;
+    catch_wishes();
     hangup_ignored = sigaction(SIGHUP, NULL, &given) == 0 && given.sa_handler == SIG_IGN;
 }
 
@@ -67,6 +73,7 @@ int progress_report(void *user, const clshear_progress *progress)
     progress_line *state = user;
     if (progress->fraction > 0.0 && !state->catches) {
         catch_interrupts();
+        catch_wishes(); /* again: LLVM takes this signal, too */
         state->catches = 1;
     }
     if (progress->samples_per_s <= 0.0) return interrupting_signal(); /* still finding depths */
