@@ -196,7 +196,7 @@ expect 2 "give a SCENE and a --pixel" -- slice "$cornell"
 expect 2 ".npy is for --projection 4d" -- slice "$cornell" --pixel 1,1 --out q.npy
 expect 2 "--projection xx: must be two letters" -- slice "$cornell" --pixel 1,1 --projection xx
 expect 2 "--pixel 600,1: is outside" -- slice "$cornell" --quiet --pixel 600,1 --out q.png
-for command in points spectrum predict converge slice; do
+for command in points spectrum predict converge slice merge; do
     expect 0 "usage: clshear $command" -- $command --help
     [ "$(echo "$output" | awk 'length > 80' | wc -l)" -eq 0 ] || wrong "$command --help wider than 80"
 done
@@ -428,6 +428,23 @@ rm -f state
     expect 0 "would take about" -- "$cornell" $small --spp 64 --noise 0.0001 --out rule.exr
     case $(oiiotool --info -v rule.exr) in *'clshear.stoppedBy: "spp"'*) ;; *) wrong "rule untold" ;; esac
     refuse 1 "needs 2 replicates" -- "$cornell" $small --quiet --noise 0.1 --replicates 1
+}
+
+# Shards, merged.
+# shellcheck disable=SC2086
+{
+    for shard in 1 2 3; do
+        expect 0 "" -- "$cornell" $small --quiet --shard $shard/3 --out shard-$shard.exr
+    done
+    expect 0 "shards 2 are missing" -- merge shard-3.exr shard-1.exr --out some.exr
+    expect 0 "" -- merge some.exr shard-2.exr --out all.exr --out all.png
+    case $(oiiotool --info -v all.exr) in *'clshear.shard: "1-3/3"'*) ;; *) wrong "shards untold" ;; esac
+    refuse 1 "shard 1 is in another of the films, too" -- merge some.exr shard-1.exr
+    refuse 1 "is no complete EXR of a shard" -- merge some.exr a.exr
+    refuse 1 "gone.exr" -- merge some.exr gone.exr
+    refuse 2 "no files given" -- merge
+    expect 2 "no --out given" -- merge shard-1.exr
+    refuse 1 "shard 4/3: must be K/N" -- "$cornell" $small --quiet --shard 4/3
 }
 
 # Before the first samples there is nothing to keep: the signal ends the program at once.

@@ -70,8 +70,8 @@ static cs_u32 base_of(const cs_job *job)
 
 void cs_recipe_of_state(const cs_job *job, char *text, size_t size)
 {
-    static const size_t others[] = {CS_INDEX_CROP, CS_INDEX_EXTENDABLE, CS_INDEX_KEEP_PATTERNS,
-                                    CS_INDEX_GAIN};
+    static const size_t others[] = {CS_INDEX_CROP, CS_INDEX_SHARD, CS_INDEX_EXTENDABLE,
+                                    CS_INDEX_KEEP_PATTERNS, CS_INDEX_GAIN};
     char value[256];
     size_t used =
         (size_t)snprintf(text, size, "version=%s;packet=%d;base=%08x;", CLSHEAR_VERSION_STRING,
@@ -84,13 +84,4 @@ void cs_recipe_of_state(const cs_job *job, char *text, size_t size)
     if (used < size) cs_record_list(&job->settings, CS_USE_RECORD, text + used, size - used);
     used = strlen(text);
     cs_recipe_of(job, text + used, size - used);
-}
-
-int cs_recipe_difference(const char *theirs, const char *mine, char *name, size_t size)
-{
-    size_t start = 0, i = 0;
-    for (; mine[i] == theirs[i] && mine[i] != '\0'; i++)
-        if (mine[i] == ';') start = i + 1;
-    snprintf(name, size, "%.*s", (int)strcspn(mine + start, "="), mine + start);
-    return mine[i] != theirs[i];
 }

@@ -2,6 +2,7 @@
 #ifndef CS_RENDER_RECIPE_H
 #define CS_RENDER_RECIPE_H
 
+#include "film/recipe_difference.h"
 #include "render/record.h"
 #include "render/render_job.h"
 
@@ -11,8 +12,5 @@ void cs_recipe_of(const cs_job *job, char *text, size_t size);
 
 /* The same with all that fixes the bits of a render in progress, the version first. */
 void cs_recipe_of_state(const cs_job *job, char *text, size_t size);
-
-/* Whether two recipes differ; `name` becomes that of the first thing in which they do. */
-int cs_recipe_difference(const char *theirs, const char *mine, char *name, size_t size);
 
 #endif

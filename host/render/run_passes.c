@@ -60,11 +60,17 @@ static clshear_status between_launches(void *user, cs_error *error)
     return status == CLSHEAR_OK ? show(now->job, error) : status;
 }
 
+cs_u32 cs_job_patterns(const cs_job *job)
+{
+    return (job->replicates - job->shard - 1) / job->shards + 1;
+}
+
 /* All replicates, one after another, from the one in progress on. */
 static clshear_status run_replicates(cs_job *job, cs_pass *pass, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     for (cs_u32 *at = &job->rounds.replicate; *at < job->replicates; ++*at) {
+        if (*at % job->shards != job->shard) continue;
         if (cs_pass_is_fresh(pass)) CS_TRY(cs_resume_begin(job, *at, error));
         CS_TRY(cs_pass_replicate(pass, job->batches, job->batch_count, *at, error));
         CS_TRY(cs_resume_end(job, *at, error));
@@ -86,7 +92,7 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
     pass.between = between_launches;
     pass.user = &now;
     for (size_t b = 0; b < job->batch_count; b++)
-        pass.total += (double)job->replicates * (double)job->batches[b].pixel_count *
+        pass.total += (double)cs_job_patterns(job) * (double)job->batches[b].pixel_count *
                       job->batches[b].pattern.grid.count;
     CS_TRY(cs_checkpoint_load(job, &pass, error));
     status = cs_stop_has_rules(&job->stop) ? cs_rounds_run(job, &pass, error)

@@ -198,7 +198,9 @@
     X(EVERY, 94, "every", "", NUMBER, 1, 1, "60", 0, 1e9, none, PRIVATE, "S", \
       "seconds between two checkpoints") \
     X(RESUME, 95, "resume", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
-      "go on from the checkpoint, if there is one")
+      "go on from the checkpoint, if there is one") \
+    X(SHARD, 96, "shard", "", TEXT, 1, 1, "", 0, 0, none, RECORD, "K/N", \
+      "part K of N: every Nth replicate, for clshear merge")
 /* clang-format on */
 
 #endif

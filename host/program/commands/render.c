@@ -51,7 +51,8 @@ const program_command render_command = {
              "       clshear spectrum [flags]    their power spectra\n"
              "       clshear slice SCENE [flags] the integrand of a pixel\n"
              "       clshear predict [flags]     variance expected from spectra\n"
-             "       clshear converge [flags]    variance against samples\n\n"
+             "       clshear converge [flags]    variance against samples\n"
+             "       clshear merge FILES [flags] shards of a render, put together\n\n"
              "Render SCENE (OBJ, glTF, PLY, STL) with depth of field. Each command has its own\n"
              "--help.\n\n"
              "  clshear scenes/cornell.obj --spp 1024 --out img.exr\n",

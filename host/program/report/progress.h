@@ -11,8 +11,8 @@ typedef struct progress_line {
     int catches; /* whether signals are caught */
 } progress_line;
 
-/* Notes that hangups are to be ignored, as nohup asks, and catches SIGUSR1. Call it first: compilers
- * of OpenCL drivers install handlers of their own. */
+/* Notes that hangups are to be ignored, as nohup asks, and catches SIGUSR1. Call it first:
+ * compilers of OpenCL drivers install handlers of their own. */
 void progress_note_signals(void);
 
 /* Whether SIGUSR1 came since the last call: it asks for the picture so far. */
