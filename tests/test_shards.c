@@ -222,7 +222,6 @@ static void packets_of_other_widths_merge(void **state)
         const float a = clshear_film_channel(whole, "G")[i],
                     b = clshear_film_channel(merged, "G")[i];
         off += fabsf(a - b) > 1e-4f * a;
-
     }
     assert_at_most(off, SIZE * SIZE / 100);
     for (int i = 0; i < SHARDS; i++)

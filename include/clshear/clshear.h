@@ -451,8 +451,8 @@ CLSHEAR_API clshear_status clshear_film_annotate(clshear_film *film, const char 
 /* Reads an EXR written by clshear_film_write. */
 CLSHEAR_API clshear_status clshear_film_read(const char *path, clshear_film **film);
 
-/* Merges `count` films of shards of one render (CLSHEAR_SHARD), or merges of them: means weighted by
- * samples, variances by their counts. Any order gives the same result. It may be merged further,
+/* Merges `count` films of shards of one render (CLSHEAR_SHARD), or merges of them: means weighted
+ * by samples, variances by their counts. Any order gives the same result. It may be merged further,
  * and has complete == 0 while shards are missing. Fails with CLSHEAR_BAD_ARGUMENT for films of
  * different renders, of interrupted ones, and for a shard that comes twice. */
 CLSHEAR_API clshear_status clshear_film_merge(const clshear_film *const *films, size_t count,
