@@ -36,6 +36,8 @@ typedef struct cs_job {
     const clshear_film *base;  /* the film that is continued; NULL: none */
     cs_u32 spp;
     cs_u32 replicates;
+    cs_u32 shard;     /* the job draws replicates shard, shard + shards, ... */
+    cs_u32 shards;    /* 1: all of them */
     cs_u32 pilot_spp; /* that pilots are a part of */
     cs_stop stop;
     cs_rounds rounds;
@@ -74,6 +76,8 @@ typedef struct cs_job {
     double *pattern_sums;
     uint32_t patterns_kept;
     uint32_t replicates_begun;
+    int resumes;    /* whether the job goes on from a checkpoint */
+    double saved_s; /* when the last checkpoint was written */
     double start_s; /* when the render began */
     double prepass_s;
     double pilot_s;
@@ -105,6 +109,9 @@ cs_pass cs_job_pass(const cs_job *job);
 /* Runs all passes. Each launch takes a fraction of a second, so that progress, cancelling and GPU
  * watchdogs work; how the work is cut into launches does not change the result. */
 clshear_status cs_job_run_passes(cs_job *job, cs_error *error);
+
+/* Patterns that the job draws for a pixel: its shard of the replicates. */
+cs_u32 cs_job_patterns(const cs_job *job);
 
 /* Turns the accumulated pixels into a film with metadata. */
 clshear_status cs_job_resolve(cs_job *job, clshear_film **film, cs_error *error);

@@ -154,6 +154,13 @@ CLSHEAR_API void clshear_settings_set_progress(clshear_settings *settings,
                                                                const clshear_progress *state),
                                                void *user);
 
+/* Shows pictures of renders with these settings while they go on. `wanted` is called between two
+ * launches; when it does not return 0, `show` gets the picture so far, with complete == 0, which is
+ * the library's. Both are called in the rendering thread. NULL: no calls. */
+CLSHEAR_API void clshear_settings_set_preview(clshear_settings *settings, int (*wanted)(void *user),
+                                              void (*show)(void *user, clshear_film *film),
+                                              void *user);
+
 /* ------------------------------------------------------------------------------------------------
  * Context: an OpenCL device and the kernels compiled for it
  * --------------------------------------------------------------------------------------------- */
@@ -448,6 +455,17 @@ CLSHEAR_API clshear_status clshear_film_annotate(clshear_film *film, const char 
 
 /* Reads an EXR written by clshear_film_write. */
 CLSHEAR_API clshear_status clshear_film_read(const char *path, clshear_film **film);
+
+/* Merges `count` films of shards of one render (CLSHEAR_SHARD), or merges of them: means weighted
+ * by samples, variances by their counts. Any order gives the same result. It may be merged further,
+ * and has complete == 0 while shards are missing. Fails with CLSHEAR_BAD_ARGUMENT for films of
+ * different renders, of interrupted ones, and for a shard that comes twice. */
+CLSHEAR_API clshear_status clshear_film_merge(const clshear_film *const *films, size_t count,
+                                              clshear_film **merged);
+
+/* Prints the shards of a film that are missing, as "2,5-7", truncated to `size` bytes; "" if none
+ * are, or if the film is no shard. */
+CLSHEAR_API void clshear_film_missing(const clshear_film *film, char *text, size_t size);
 
 /* Writes all channels as float32 (.exr), or R G B with the sRGB curve (.png, .jpg, .tif). An
  * existing file is replaced only when the new one is complete. */

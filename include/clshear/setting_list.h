@@ -200,6 +200,14 @@
       "stop when 95 % of pixels err less on a screen") \
     X(TIME, 92, "time", "", NUMBER, 1, 1, "", 0.001, 1e9, none, RECORD, "S", \
       "stop after S seconds") \
+    X(CHECKPOINT, 93, "checkpoint", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "FILE", \
+      "keep what is rendered there, for --resume") \
+    X(EVERY, 94, "every", "", NUMBER, 1, 1, "60", 0, 1e9, none, PRIVATE, "S", \
+      "seconds between two checkpoints") \
+    X(RESUME, 95, "resume", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
+      "go on from the checkpoint, if there is one") \
+    X(SHARD, 96, "shard", "", TEXT, 1, 1, "", 0, 0, none, RECORD, "K/N", \
+      "part K of N: every Nth replicate, for clshear merge") \
     /* Motion */ \
     X(CAMERA_TO, 100, "camera-to", "", NUMBER, 6, 1, "", -1e12, 1e12, none, RECIPE, "EYE,TARGET", \
       "where the camera is when the shutter closes") \
