@@ -222,6 +222,13 @@ expect 0 "" -- converge "$cornell" --quiet --width 24 --height 20 --crop 3,19,5,
 [ "$(wc -l <map.csv)" -eq $((1 + 16 * 4 * 4)) ] || wrong "map: $(wc -l <map.csv) rows"
 oiiotool --info -v map.exr | grep -q 'sz.equal-area.Gain' || wrong "map.exr has no gain"
 oiiotool --info map.png | grep -q '96 x *4' || wrong "map.png is not six panels"
+expect 0 "" -- predict "$cornell" --quiet --width 24 --height 20 --crop 3,5,5,6 --sampler mj --n 16 --sets 20 --resolution 15 \
+    --block 2 --measure 20 --map predicted.csv --map predicted.exr --map predicted.png --plot scatter.png
+[ "$(grep -c '^[34],5,[1-9]' predicted.csv)" -eq 2 ] || wrong "predict --map: no two pixels with a variance"
+oiiotool --info predicted.png | grep -q '4 x *1' || wrong "predicted.png is not two panels"
+[ -s predicted.exr ] && [ -s scatter.png ] || wrong "predict --map: no predicted.exr or scatter.png"
+expect 2 "--map and --plot are of a whole SCENE" -- predict "$cornell" --pixel 1,1 --measure 9 --map predicted.csv
+expect 2 "give the sets to --measure with" -- predict "$cornell" --map predicted.csv
 expect 2 "--map is of a whole image: leave out --pixels" -- converge "$cornell" --pixels 3,4 --map map.csv
 expect 2 "--fresh-sets is of a SCENE" -- converge --integrand box --fresh-sets
 expect 2 "a picture is of a whole image" -- converge "$cornell" --quiet --reference 0.5
