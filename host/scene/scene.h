@@ -16,7 +16,10 @@ enum {
 /* A camera of the file. */
 typedef struct cs_scene_camera {
     char name[CS_CAMERA_NAME];
-    cs_view view; /* its fov is vertical until an image size is known */
+    cs_view view;    /* fov and orthographic are vertical until an image size is known */
+    int moves;       /* whether it does while the shutter is open */
+    float eye_to[3]; /* where it closes, if so */
+    float target_to[3];
 } cs_scene_camera;
 
 typedef struct cs_scene {

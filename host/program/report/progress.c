@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 static volatile sig_atomic_t interrupted;
+static volatile sig_atomic_t asked_for_picture;
 static int hangup_ignored;
 
 static void note_interrupt(int signal_number)
@@ -14,9 +15,26 @@ static void note_interrupt(int signal_number)
     interrupted = signal_number;
 }
 
+static void note_wish(int signal_number)
+{
+    (void)signal_number;
+    asked_for_picture = 1;
+}
+
+static void catch_wishes(void)
+{
+    struct sigaction action;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = note_wish;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGUSR1, &action, NULL);
+}
+
 void progress_note_signals(void)
 {
     struct sigaction given;
+    catch_wishes();
     hangup_ignored = sigaction(SIGHUP, NULL, &given) == 0 && given.sa_handler == SIG_IGN;
 }
 
@@ -31,6 +49,13 @@ static void catch_interrupts(void)
     sigaction(SIGTERM, &action, NULL);
     if (hangup_ignored) action.sa_handler = SIG_IGN;
     sigaction(SIGHUP, &action, NULL);
+}
+
+int preview_wanted(void)
+{
+    const int wanted = asked_for_picture;
+    asked_for_picture = 0;
+    return wanted;
 }
 
 int interrupting_signal(void)
@@ -63,6 +88,7 @@ int progress_report(void *user, const clshear_progress *progress)
     progress_line *state = user;
     if (progress->fraction > 0.0 && !state->catches) {
         catch_interrupts();
+        catch_wishes(); /* again: LLVM takes this signal, too */
         state->catches = 1;
     }
     if (progress->samples_per_s <= 0.0) return interrupting_signal(); /* still finding depths */
