@@ -132,7 +132,8 @@ static int render(render_job *job, const scene_view *view)
         remark_on_picture(film, job->options.settings, job->has_lens);
     if (code == EXIT_DONE && !job->options.quiet) remark_on_end(film, job->options.settings);
     if (code == EXIT_DONE && info.complete) remove_checkpoint(job->options.settings);
-    if (code == EXIT_DONE && job->stats) report_statistics(view->context, view->scene, film);
+    if (code == EXIT_DONE && job->stats)
+        report_statistics(view->context, view->scene, job->options.settings, film);
     clshear_film_free(film);
     return code == EXIT_DONE && !info.complete ? EXIT_SIGNAL + interrupting_signal() : code;
 }
