@@ -2,6 +2,7 @@
 #include "kernels/bsdf/bsdf.h"
 #include "render/objects.h"
 #include "scene/albedo.h"
+#include "scene/emitters.h"
 
 static clshear_status upload(cs_device_scene *world, cs_device *device, cs_scene_buffer which,
                              const cs_array *array, cs_error *error)
@@ -47,15 +48,20 @@ done:
 }
 
 clshear_status cs_scene_upload_emitters(cs_device_scene *world, cs_device *device,
-                                        const cs_scene *scene, cs_error *error)
+                                        const cs_scene *scene, cs_flat_bvh *bvh, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_array emitters = {.item_size = sizeof(cs_emitter)};
-    CS_TRY(cs_scene_emitters(scene, &emitters, &world->emitted_power, error));
-    CS_TRY(upload(world, device, CS_SCENE_EMITTERS, &emitters, error));
-    world->emitters = (uint32_t)emitters.count;
+    cs_emitters emitters = {0};
+    CS_TRY(cs_emitters_make(scene, &emitters, error));
+    CS_TRY(upload(world, device, CS_SCENE_EMITTERS, &emitters.table, error));
+    CS_TRY(upload(world, device, CS_SCENE_EMITTER_NODES, &emitters.nodes, error));
+    cs_emitters_number(&emitters, bvh->triangles.items, bvh->triangles.count);
+    world->emitters = (uint32_t)emitters.table.count;
+    world->even_emitters = emitters.even;
+    world->emitted_power = emitters.power;
+    world->emitted_light = emitters.light;
 done:
-    cs_array_free(&emitters);
+    cs_emitters_free(&emitters);
     return status;
 }
 

@@ -85,14 +85,19 @@ done:
     return status;
 }
 
-/* All emissive triangles as one light. Their table makes the density of a point its luminance by
- * the whole power. */
-static clshear_status add_emitters(const cs_device_scene *world, cs_array *lights, cs_error *error)
+/* All emissive triangles as one light: by the tree all of them, by power those whose density is
+ * their luminance by the whole power. */
+static clshear_status add_emitters(const cs_device_scene *world, const clshear_settings *settings,
+                                   cs_lighting *lighting, cs_array *lights, cs_error *error)
 {
-    const cs_light light = {.kind = CS_LIGHT_TRIANGLES,
-                            .count = world->emitters,
-                            .parameters = {(float)(1.0 / world->emitted_power)}};
-    return world->emitters > 0 ? add(lights, &light, error) : CLSHEAR_OK;
+    const int by_power = cs_integer(settings, EMITTERS) == CLSHEAR_EMITTERS_POWER;
+    cs_light light = {.kind = CS_LIGHT_TRIANGLES, .count = world->emitters};
+    if (by_power ? world->even_emitters == 0 : world->emitters == 0) return CLSHEAR_OK;
+    if (by_power)
+        light.parameters[0] = (float)(1.0 / world->emitted_power);
+    else
+        lighting->features |= CS_FEATURE_EMITTERS;
+    return add(lights, &light, error);
 }
 
 static clshear_status add_environment(const clshear_scene *scene, const clshear_settings *settings,
@@ -121,7 +126,7 @@ static clshear_status collect(const clshear_scene *scene, const clshear_settings
         CS_TRY(add(lights, (const cs_light *)own->items + i, error));
     CS_TRY(add_settings(settings, scene->scene.origin, lights, error));
     CS_TRY(add_environment(scene, settings, lighting, lights, error));
-    CS_TRY(add_emitters(&scene->device_scene, lights, error));
+    CS_TRY(add_emitters(&scene->device_scene, settings, lighting, lights, error));
 done:
     return status;
 }

@@ -90,9 +90,4 @@ clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_erro
 /* The same, appended to the scene. */
 clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error);
 
-/* The emissive triangles (cs_emitter, in `emitters`), with probabilities in proportion to power:
- * area times luminance, whose sum is `total`. */
-clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, double *total,
-                                 cs_error *error);
-
 #endif
