@@ -379,6 +379,7 @@ static inline int cs_path_advance(const cs_scene_buffers *scene, const cs_launch
     cs_vint seen = cs_path_hit(scene, draws, path, &hit, &surface);
 #if CS_HAS(LIGHTS)
     cs_path_add_escaped(scene, &hit, path);
+    if (path->depth == 0u) cs_note_shapes(scene, path->lights, &path->ray, &hit, &path->radiance);
 #endif
     if (!cs_any(seen)) return 0;
 #if CS_HAS(MATERIALS)

@@ -132,7 +132,7 @@ static clshear_status depth_at(const clshear_scene *scene, const clshear_setting
     cs_view_of(settings, scene->scene.origin, &view);
     clshear_status status = cs_camera_frame(&view, width, height, &camera, error);
     if (status == CLSHEAR_OK)
-        status = cs_accel_depth(scene->accel, &camera, NULL, window, 0, &found, error);
+        status = cs_accel_depth(scene->accel, NULL, &camera, NULL, window, 0, &found, error);
     if (status == CLSHEAR_OK) *depth = found.centre;
     return status;
 }

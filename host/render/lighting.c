@@ -151,23 +151,29 @@ clshear_status cs_lighting_make(const clshear_scene *scene, const clshear_settin
                                 cs_lighting *lighting, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_array lights = {.item_size = sizeof(cs_light)};
-    CS_TRY(collect(scene, settings, lighting, &lights, error));
-    lighting->count = (cs_u32)lights.count;
-    for (size_t i = 0; i < lights.count; i++) {
-        const cs_u32 kind = ((const cs_light *)lights.items)[i].kind;
+    cs_array *lights = &lighting->list;
+    lights->item_size = sizeof(cs_light);
+    CS_TRY(collect(scene, settings, lighting, lights, error));
+    lighting->count = (cs_u32)lights->count;
+    for (size_t i = 0; i < lights->count; i++) {
+        const cs_u32 kind = ((const cs_light *)lights->items)[i].kind;
         lighting->area_count += (cs_u32)kinds[kind].is_area;
         lighting->features |= kinds[kind].features;
     }
-    CS_TRY(cs_buffer_create(scene->context->device, lights.count * lights.item_size, lights.items,
-                            &lighting->lights, error));
+    CS_TRY(cs_buffer_create(scene->context->device, lights->count * lights->item_size,
+                            lights->items, &lighting->lights, error));
 done:
-    cs_array_free(&lights);
     return status;
+}
+
+cs_shapes cs_lighting_shapes(const cs_lighting *lighting)
+{
+    return (cs_shapes){lighting->list.items, lighting->list.count};
 }
 
 void cs_lighting_free(cs_lighting *lighting)
 {
+    cs_array_free(&lighting->list);
     cs_buffer_free(lighting->lights);
     cs_buffer_free(lighting->environment);
     *lighting = (cs_lighting){0};

@@ -137,7 +137,7 @@ static inline cs_vfloat cs_node_light(const cs_emitter_tree *tree, cs_int_lanes 
         above += to[i] * vantage->normal[i];
     }
     cs_vfloat radius = node.radius.all;
-    cs_vfloat square = cs_max(cs_product(to, to), (cs_vfloat)(1e-30f));
+    cs_vfloat square = cs_max(cs_dot(to, to), (cs_vfloat)(1e-30f));
     cs_vfloat inverse = 1.0f / cs_sqrt(square);
     cs_vint within = square <= radius * radius;
     above = vantage->through ? cs_abs(above) : above;

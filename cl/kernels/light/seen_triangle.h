@@ -11,6 +11,7 @@
 
 #include "clshear/device/sampler/grid.h"
 #include "kernels/trigonometry.h"
+#include "kernels/vector.h"
 
 typedef struct cs_seen_triangle {
     cs_vfloat inverse[3];  /* of the distances of the corners; per unit of length */
@@ -18,11 +19,6 @@ typedef struct cs_seen_triangle {
     cs_vfloat triple;      /* product of their directions, at least 0 */
     cs_vfloat solid_angle; /* steradians, 0 to 2 pi */
 } cs_seen_triangle;
-
-static inline cs_vfloat cs_product(const cs_vfloat *a, const cs_vfloat *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /* corner: from the point to the first corner; the edges lead from there to the others. */
 static inline cs_seen_triangle cs_see_triangle(const cs_vfloat *corner, const cs_vfloat *edge1,
@@ -38,10 +34,10 @@ static inline cs_seen_triangle cs_see_triangle(const cs_vfloat *corner, const cs
         volume += corner[i] * (edge1[j] * edge2[k] - edge1[k] * edge2[j]);
     }
     for (int i = 0; i < 3; i++)
-        seen.inverse[i] = 1.0f / cs_sqrt(cs_max(cs_product(to[i], to[i]), (cs_vfloat)(1e-30f)));
+        seen.inverse[i] = 1.0f / cs_sqrt(cs_max(cs_dot(to[i], to[i]), (cs_vfloat)(1e-30f)));
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3;
-        seen.cosine[i] = cs_product(to[i], to[j]) * seen.inverse[i] * seen.inverse[j];
+        seen.cosine[i] = cs_dot(to[i], to[j]) * seen.inverse[i] * seen.inverse[j];
     }
     seen.triple = cs_abs(volume) * seen.inverse[0] * seen.inverse[1] * seen.inverse[2];
     seen.solid_angle =
