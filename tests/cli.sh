@@ -210,6 +210,14 @@ expect 1 "the reference has 24 x 20 pixels: it needs the image's size, 24 x 16" 
 oiiotool --create 24x20 1 --chnames Y -o grey.exr
 expect 1 "the reference has no channel R: it needs R, G and B" -- converge "$cornell" --quiet --width 24 --height 20 \
     --reference grey.exr
+expect 0 "" -- converge "$cornell" --quiet --width 24 --height 20 --crop 3,19,5,9 --sampler mj,sz --nsamps 4,16 \
+    --map map.csv --map map.exr --map map.png
+[ "$(grep -c '^3,5,mj,none,.*,1$' map.csv)" -eq 1 ] || wrong "map: no first pixel with gain 1"
+[ "$(wc -l <map.csv)" -eq $((1 + 16 * 4 * 4)) ] || wrong "map: $(wc -l <map.csv) rows"
+oiiotool --info -v map.exr | grep -q 'sz.equal-area.Gain' || wrong "map.exr has no gain"
+oiiotool --info map.png | grep -q '96 x *4' || wrong "map.png is not six panels"
+expect 2 "--map is of a whole image: leave out --pixels" -- converge "$cornell" --pixels 3,4 --map map.csv
+expect 2 "--fresh-sets is of a SCENE" -- converge --integrand box --fresh-sets
 expect 2 "a picture is of a whole image" -- converge "$cornell" --quiet --reference 0.5
 expect 2 "give either an --integrand or a SCENE" -- converge --sampler mj
 expect 2 "give either an --integrand or a SCENE" -- converge "$cornell" --integrand box

@@ -202,15 +202,16 @@ static cs_vantage vantage_at(cs_u32 n)
     return vantage;
 }
 
+static const cs_triangle_step at_rest[EMITTERS];
+
 static cs_emitter_tree make_tree(cs_array *table, cs_array *nodes)
 {
     cs_error error;
     table->item_size = sizeof(cs_emitter);
     scatter(table);
-    assert_int_equal(cs_emitter_tree_build(table, nodes, &error), CLSHEAR_OK);
+    assert_int_equal(cs_emitter_tree_build(NULL, table, nodes, &error), CLSHEAR_OK);
     assert_int_equal(nodes->count, 2 * EMITTERS);
-    const cs_emitter_tree tree = {nodes->items, table->items};
-    return tree;
+    return (cs_emitter_tree){.nodes = nodes->items, .emitters = table->items, .steps = at_rest};
 }
 
 /* Numbers choose an emitter with the chance that is said, and what is left of them is spread

@@ -97,6 +97,36 @@ static void spot_over_a_floor(void **state)
     clshear_scene_free(scene);
 }
 
+/* A cone of 0.5 degrees fades from its axis on: at half its angle, 3/4 of the root of the light are
+ * left. A cone of 40 degrees with an edge of 0.001 is full 0.05 inside it and dark 0.05 outside. */
+static void spots_may_be_narrow_or_sharp(void **state)
+{
+    static const struct {
+        float inner_deg, outer_deg;
+        double at_deg, part;
+    } cases[] = {{0.0f, 0.5f, 0.0, 1.0},
+                 {0.0f, 0.5f, 0.25, 0.5625},
+                 {39.999f, 40.0f, 39.95, 1.0},
+                 {39.999f, 40.0f, 40.05, 0.0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        clshear_scene *scene = test_floor(*state, 100.0f, 0.5f);
+        const clshear_light light = {.kind = CLSHEAR_LIGHT_SPOT,
+                                     .position = {0, 2, 0},
+                                     .direction = {0, -3, 0},
+                                     .colour = {8, 8, 8},
+                                     .inner_deg = cases[i].inner_deg,
+                                     .outer_deg = cases[i].outer_deg};
+        test_add_light(scene, &light);
+        const double angle = cases[i].at_deg * pi / 180.0;
+        const double truth = 0.5 / pi * 8.0 * pow(cos(angle), 3.0) / 4.0 * cases[i].part;
+        const estimate found = render(scene, looking_down_at(2.0 * tan(angle), 64));
+        print_message("spot of %g to %g degrees at %g: %.5f of %.5f\n", (double)light.inner_deg,
+                      (double)light.outer_deg, cases[i].at_deg, found.mean, truth);
+        assert_near(found.mean, truth, 2e-3 * 0.32);
+        clshear_scene_free(scene);
+    }
+}
+
 /* A floor, and a half plane x < 0 at a height of 10: seen from (0, 0, 0), it hides half of a sun in
  * the zenith. */
 static clshear_scene *floor_and_half_plane(clshear_context *context)
@@ -468,6 +498,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spot_over_a_floor),
+        cmocka_unit_test(spots_may_be_narrow_or_sharp),
         cmocka_unit_test(sun_behind_an_edge),
         cmocka_unit_test(sun_from_the_side),
         cmocka_unit_test(even_environment),

@@ -192,7 +192,7 @@ static void channels_know_shapes(void **state)
         const int middle = 16 * 33 + 16, side = 16 * 33 + 27, sky = 16 * 33 + 2;
         assert_near(channel_at(film, "Z", middle), 3.0, 1e-3);
         assert_near(channel_at(film, "Z", side), 6.0, 1e-3);
-        assert_false(isfinite(channel_at(film, "Z", sky)));
+        assert_int_equal(isfinite(channel_at(film, "Z", sky)) ? 1 : 0, 0);
         assert_near(channel_at(film, "Depth.Z", middle), 3.0, 0.01);
         assert_near(channel_at(film, "Depth.Z", side), 6.0, 1e-3);
         assert_near(channel_at(film, "P.Z", middle), 1.0, 0.01);

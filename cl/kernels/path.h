@@ -144,7 +144,7 @@ static inline cs_vint cs_is_open(const cs_surface *surface, const cs_vfloat *tow
 static inline cs_vint cs_find_surfaces(const cs_scene_buffers *scene, cs_u32 lights,
                                        const cs_ray *ray, cs_hit *hit, cs_surface *surface)
 {
-    cs_traverse(scene->nodes, scene->triangles, ray, 0, hit);
+    cs_traverse(scene, ray, 0, hit);
 #if CS_HAS(LIGHTS)
     cs_meet_shapes(scene, lights, ray, 0, hit);
 #else
@@ -243,7 +243,7 @@ static inline void cs_path_shadow(const cs_scene_buffers *scene, cs_ray *ray, co
     }
 #endif
     (void)draws;
-    cs_traverse(scene->nodes, scene->triangles, ray, 1, hit);
+    cs_traverse(scene, ray, 1, hit);
 #if CS_HAS(LIGHTS)
     cs_meet_shapes(scene, path->lights, ray, 1, hit);
 #else

@@ -5,6 +5,7 @@
 #include "pattern/pattern.h"
 #include "render/aov.h"
 #include "render/camera_choice.h"
+#include "render/motion.h"
 #include "render/render_job.h"
 #include "render/studio.h"
 #include "scene/camera.h"
@@ -28,11 +29,21 @@ static clshear_status check_window(cs_job *job, cs_error *error)
     return CLSHEAR_OK;
 }
 
+/* Samples per pixel of a render that rules may end, where none are asked for. */
+static const double most_spp = 65536.0;
+
 /* Without a number of replicates: that of the film that is continued, or two. */
 static clshear_status check_counts(cs_job *job, cs_error *error)
 {
     int before = 0;
+    job->stop = cs_stop_of(&job->settings);
+    if (cs_stop_has_rules(&job->stop) && !cs_is_set(&job->settings, SPP)) {
+        const clshear_status status =
+            cs_settings_set(&job->settings, CLSHEAR_SPP, &most_spp, 1, error);
+        if (status != CLSHEAR_OK) return status;
+    }
     job->spp = (cs_u32)cs_integer(&job->settings, SPP);
+    job->pilot_spp = job->spp;
     job->replicates = (cs_u32)cs_integer(&job->settings, REPLICATES);
     if (job->replicates == 0 && job->base != NULL &&
         cs_film_int(job->base, "clshear.replicates", &before))
@@ -67,6 +78,8 @@ static clshear_status choose_pattern(cs_job *job, cs_error *error)
                        "%u replicates of %u samples per pixel are more than 2000000000",
                        job->replicates, count);
     job->pattern = cs_pattern_of(sampler, 0, count);
+    if (cs_integer(&job->settings, FRESH_SETS))
+        cs_pattern_refresh(&job->pattern, (cs_u32)cs_integer(&job->settings, SEED));
     return CLSHEAR_OK;
 }
 
@@ -95,6 +108,7 @@ static clshear_status make_camera(cs_job *job, cs_error *error)
                "use equal-area");
     CS_TRY(cs_camera_frame(&view, job->width, job->height, &job->camera, error));
     job->camera.optics = job->optics.optics;
+    CS_TRY(cs_motion_begin(job, &view, error));
     const double width_px = (double)job->camera.optics.filter_width;
     CS_TRY(cs_settings_set(&job->settings, CLSHEAR_FILTER_WIDTH, &width_px, 1, error));
 done:

@@ -2,6 +2,7 @@
 #include "optics/shear_mode.h"
 #include "render/aov.h"
 #include "render/resume.h"
+#include "render/rounds.h"
 
 cs_pass cs_job_pass(const cs_job *job)
 {
@@ -10,6 +11,7 @@ cs_pass cs_job_pass(const cs_job *job)
     return (cs_pass){
         .scene = job->scene,
         .launch = {.camera = job->camera,
+                   .motion = job->motion,
                    .seed = job->seed,
                    .image_width = (cs_u32)job->width,
                    .crop_x = (cs_u32)job->window[0],
@@ -35,6 +37,7 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
     const cs_u32 replicates = job->replicates;
     cs_pass pass = cs_job_pass(job);
     pass.shears = job->shears;
+    pass.velocities = job->velocities;
     pass.pixels = &job->pixels;
     pass.settings = &job->settings;
     pass.launch.planes = job->planes;
@@ -42,6 +45,10 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
     for (size_t b = 0; b < job->batch_count; b++)
         pass.total += (double)replicates * (double)job->batches[b].pixel_count *
                       job->batches[b].pattern.grid.count;
+    if (cs_stop_has_rules(&job->stop)) {
+        CS_TRY(cs_rounds_run(job, &pass, error));
+        goto done;
+    }
     for (cs_u32 replicate = 0; replicate < replicates; replicate++) {
         CS_TRY(cs_resume_begin(job, replicate, error));
         CS_TRY(cs_pass_replicate(&pass, job->batches, job->batch_count, replicate, error));

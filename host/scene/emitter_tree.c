@@ -36,14 +36,17 @@ typedef struct builder {
 
 static const double right_angle = 1.57079632679490;
 
-static bound bound_of(const cs_emitter *emitter)
+/* A triangle at part `time` of its step; NULL: at rest. */
+static bound bound_at(const cs_emitter *emitter, const cs_triangle_step *step, double time)
 {
+    static const cs_triangle_step rest = {.padding = {0}};
+    const cs_triangle_step *by = step != NULL ? step : &rest;
     bound made = {.count = 1, .power = (double)emitter->area * (double)emitter->luminance};
     double e1[3], e2[3];
     for (int i = 0; i < 3; i++) {
-        const double a = (double)emitter->corner[i];
-        e1[i] = (double)emitter->edge1[i];
-        e2[i] = (double)emitter->edge2[i];
+        const double a = (double)emitter->corner[i] + time * (double)by->corner[i];
+        e1[i] = (double)emitter->edge1[i] + time * (double)by->edge1[i];
+        e2[i] = (double)emitter->edge2[i] + time * (double)by->edge2[i];
         made.low[i] = a + fmin(0.0, fmin(e1[i], e2[i]));
         made.high[i] = a + fmax(0.0, fmax(e1[i], e2[i]));
     }
@@ -90,6 +93,19 @@ static void join(bound *to, const bound *from)
     join_cone(to, from);
     to->power += from->power;
     to->count += from->count;
+}
+
+/* A triangle at all times: places are between their ends, and normals nearly so. */
+static bound bound_of(const cs_emitter *emitter, const cs_triangle_step *step)
+{
+    bound all = bound_at(emitter, step, 0.0);
+    for (int half = 1; half <= 2 && step != NULL; half++) {
+        const bound later = bound_at(emitter, step, 0.5 * half);
+        join(&all, &later);
+    }
+    all.power = (double)emitter->area * (double)emitter->luminance;
+    all.count = 1;
+    return all;
 }
 
 /* Power times the measure of the directions that it shines to, times the surface of the box. */
@@ -214,7 +230,8 @@ static void build(builder *work, item *items, size_t count, uint32_t at)
     build(work, items + first, count - first, child + 1);
 }
 
-clshear_status cs_emitter_tree_build(cs_array *table, cs_array *nodes, cs_error *error)
+clshear_status cs_emitter_tree_build(const cs_scene *scene, cs_array *table, cs_array *nodes,
+                                     cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     builder work = {.table = table->items, .used = CS_EMITTER_ROOT + 1};
@@ -225,7 +242,10 @@ clshear_status cs_emitter_tree_build(cs_array *table, cs_array *nodes, cs_error 
                "out of memory for %zu emissive triangles", table->count);
     for (size_t i = 0; i < table->count; i++) {
         item *one = &work.items[i];
-        one->bound = bound_of(&work.table[i]);
+        cs_triangle_step step;
+        const int moves = scene != NULL && cs_scene_moves(scene);
+        if (moves) step = cs_scene_step(scene, work.table[i].face);
+        one->bound = bound_of(&work.table[i], moves ? &step : NULL);
         one->emitter = (uint32_t)i;
         for (int a = 0; a < 3; a++)
             one->middle[a] = 0.5 * (one->bound.low[a] + one->bound.high[a]);

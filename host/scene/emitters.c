@@ -127,7 +127,7 @@ clshear_status cs_emitters_make(const cs_scene *scene, cs_emitters *emitters, cs
     tabulate(emitters);
     emitters->light = mean_light(scene, &emitters->table);
     if (emitters->table.count > 0)
-        CS_TRY(cs_emitter_tree_build(&emitters->table, &emitters->nodes, error));
+        CS_TRY(cs_emitter_tree_build(scene, &emitters->table, &emitters->nodes, error));
 done:
     for (size_t i = 0; i < textures && maps != NULL; i++)
         cs_emission_map_free(&maps[i]);

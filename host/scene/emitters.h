@@ -16,8 +16,10 @@ typedef struct cs_emitters {
 clshear_status cs_emitters_make(const cs_scene *scene, cs_emitters *emitters, cs_error *error);
 void cs_emitters_free(cs_emitters *emitters);
 
-/* Builds the tree over the table and writes the leaves' indices into it. At least one emitter. */
-clshear_status cs_emitter_tree_build(cs_array *table, cs_array *nodes, cs_error *error);
+/* Builds the tree over the table, of at least one emitter, and writes the leaves' indices into it.
+ * scene: how the emitters move; NULL: not at all. */
+clshear_status cs_emitter_tree_build(const cs_scene *scene, cs_array *table, cs_array *nodes,
+                                     cs_error *error);
 
 /* Writes the emitters' numbers into triangles, which are in any order. */
 void cs_emitters_number(const cs_emitters *emitters, cs_triangle *triangles, size_t count);

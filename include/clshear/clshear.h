@@ -143,6 +143,7 @@ typedef struct clshear_progress {
     double fraction;      /* finished part, 0 to 1; 0 before the samples that count */
     double samples_per_s; /* mean rate since the start; 0 while depths are found */
     double remaining_s;   /* estimate; 0 while it is unknown */
+    double noise;         /* relative standard error when a stop rule last looked; 0: it has not */
 } clshear_progress;
 
 /* Calls `progress` a few times a second during renders with these settings, in the rendering
@@ -231,6 +232,8 @@ typedef struct clshear_mesh {
     float emission[3]; /* radiance, on both sides; 0 to 1e15 */
     uint32_t
         material; /* what clshear_scene_add_material gave, in the place of those two; 0: none */
+    const float *positions_to; /* where the vertices are when the shutter closes; NULL: at rest */
+    const float *normals_to;   /* likewise; NULL: those above */
 } clshear_mesh;
 
 typedef enum clshear_light_kind {
@@ -396,6 +399,12 @@ typedef struct clshear_film_info {
     double pilot_s;         /* time of the pilots */
     double kernel_s;        /* time on the device, including the pilots */
     double render_s;        /* time of the whole call */
+    const char *stopped_by; /* setting that ended a render with rules: "noise", "noise-pixel",
+                             * "time", or "spp" where no rule did; NULL: there were none */
+    double noise;           /* relative standard error when a rule last looked; 0: none did */
+    double noise_pixel;     /* as CLSHEAR_NOISE_PIXEL has it; 0: the rule was not set */
+    double spp_expected;    /* samples per pixel that the noise promised would take; 0: unknown, or
+                             * the promise is kept */
 } clshear_film_info;
 
 /* Fills in `info`. The caller sets `info->struct_size`. */

@@ -61,7 +61,7 @@
  *
  * number    value of the enumerator; never reused, because compiled programs depend on it. It also
  *           gives the group in lists: 1 samples, 20 image, 40 camera, 50 lens, 60 light,
- *           70 reading, 80 device, and all numbers up to the next group
+ *           70 reading, 80 device, 90 stopping, 100 motion, and all numbers up to the next group
  * name      name of the flag, without dashes
  * aliases   other names of the flag, separated by spaces
  * kind      SWITCH (0 or 1), INTEGER, NUMBER, CHOICE (a name out of `choices`), TEXT
@@ -81,7 +81,7 @@
 #define CLSHEAR_SETTING_LIST(X) \
     /* Samples */ \
     X(SPP, 1, "spp", "samples", INTEGER, 1, 1, "256", 1, 2e9, none, RECORD, "N", \
-      "samples per pixel") \
+      "samples per pixel; the most where a rule may stop") \
     X(REPLICATES, 2, "replicates", "", INTEGER, 1, 1, "", 1, 2e9, none, RECIPE, "R", \
       "independent patterns of spp/R samples (2)") \
     X(SEED, 3, "seed", "", INTEGER, 1, 1, "0", 0, 4294967295.0, none, RECIPE, "N", \
@@ -102,6 +102,8 @@
       "keep the data for --extend in the EXR") \
     X(KEEP_PATTERNS, 10, "keep-patterns", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
       "keep the mean of each replicate: Pattern<n>.R/G/B") \
+    X(FRESH_SETS, 16, "fresh-sets", "", SWITCH, 1, 1, "0", 0, 1, none, RECIPE, "", \
+      "poisson, ccvt: sets of this seed, not the kept ones") \
     X(GAIN, 11, "gain-channel", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
       "measure the gain of the shear: channel Gain") \
     /* Image */ \
@@ -191,7 +193,17 @@
     X(THREADS, 81, "threads", "t nthreads", INTEGER, 1, 1, "0", 0, 4096, none, PRIVATE, "N", \
       "CPU threads; 0: all") \
     X(PACKET, 82, "packet", "", INTEGER, 1, 1, "", 1, 16, none, PRIVATE, "W", \
-      "samples traced together: 1, 4, 8 or 16")
+      "samples traced together: 1, 4, 8 or 16") \
+    /* Stopping */ \
+    X(NOISE, 90, "noise", "", NUMBER, 1, 1, "", 1e-6, 1, none, RECORD, "R", \
+      "stop when the picture's relative error is below R") \
+    X(NOISE_PIXEL, 91, "noise-pixel", "", NUMBER, 1, 1, "", 1e-6, 1, none, RECORD, "R", \
+      "stop when 95 % of pixels err less on a screen") \
+    X(TIME, 92, "time", "", NUMBER, 1, 1, "", 0.001, 1e9, none, RECORD, "S", \
+      "stop after S seconds") \
+    /* Motion */ \
+    X(CAMERA_TO, 100, "camera-to", "", NUMBER, 6, 1, "", -1e12, 1e12, none, RECIPE, "EYE,TARGET", \
+      "where the camera is when the shutter closes")
 /* clang-format on */
 
 #endif

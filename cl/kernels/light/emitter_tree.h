@@ -24,9 +24,13 @@ typedef struct cs_vantage {
 typedef struct cs_emitter_tree {
     CS_GLOBAL const cs_emitter_node *nodes;
     CS_GLOBAL const cs_emitter *emitters;
+#if CS_HAS(MOVING)
+    CS_GLOBAL const cs_triangle_step *steps; /* of the emitters */
+    cs_float_lanes time;
+#endif
 } cs_emitter_tree;
 
-/* An emitter in each lane. */
+/* An emitter in each lane, at the lane's time. */
 typedef struct cs_emitter_lanes {
     cs_float_lanes corner[3];
     cs_float_lanes edge1[3];
@@ -60,6 +64,14 @@ static inline void cs_load_emitters(const cs_emitter_tree *tree, cs_int_lanes in
             loaded->edge1[i].lane[lane] = emitter->edge1[i];
             loaded->edge2[i].lane[lane] = emitter->edge2[i];
         }
+#if CS_HAS(MOVING)
+        CS_GLOBAL const cs_triangle_step *step = tree->steps + index.lane[lane];
+        for (int i = 0; i < 3; i++) {
+            loaded->corner[i].lane[lane] += tree->time.lane[lane] * step->corner[i];
+            loaded->edge1[i].lane[lane] += tree->time.lane[lane] * step->edge1[i];
+            loaded->edge2[i].lane[lane] += tree->time.lane[lane] * step->edge2[i];
+        }
+#endif
         loaded->luminance.lane[lane] = emitter->luminance;
     }
 }

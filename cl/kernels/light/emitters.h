@@ -12,7 +12,13 @@
 
 static inline cs_emitter_tree cs_emitter_tree_of(const cs_scene_buffers *scene)
 {
-    cs_emitter_tree tree = {scene->emitter_nodes, scene->emitters};
+    cs_emitter_tree tree;
+    tree.nodes = scene->emitter_nodes;
+    tree.emitters = scene->emitters;
+#if CS_HAS(MOVING)
+    tree.steps = scene->emitter_steps;
+    tree.time.all = scene->time;
+#endif
     return tree;
 }
 

@@ -105,6 +105,7 @@ static int render(const render_job *job, const scene_view *view)
     int code = film_files_write(&job->files, &job->options, film);
     if (code == EXIT_DONE && info.complete && !job->options.quiet)
         remark_on_picture(film, job->options.settings, job->has_lens);
+    if (code == EXIT_DONE && !job->options.quiet) remark_on_end(film, job->options.settings);
     if (code == EXIT_DONE && job->stats) report_statistics(view->context, view->scene, film);
     clshear_film_free(film);
     return code == EXIT_DONE && !info.complete ? EXIT_SIGNAL + interrupting_signal() : code;

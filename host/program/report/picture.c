@@ -74,3 +74,29 @@ void remark_on_picture(const clshear_film *film, const clshear_settings *setting
                 "--lens-radius blurs more (with --fstop: check --unit)\n",
                 (double)found.blur_px);
 }
+
+/* ", noise 1.2 % (1 % promised)" where that was promised. */
+static void print_promise(const clshear_settings *settings, clshear_setting setting,
+                          const char *name, double reached)
+{
+    double promised = 0.0;
+    if (!clshear_settings_is_set(settings, setting) ||
+        clshear_settings_get_number(settings, setting, &promised) != CLSHEAR_OK)
+        return;
+    fprintf(stderr, "; %s %.3g %%, %.3g %% promised", name, 100.0 * reached, 100.0 * promised);
+}
+
+void remark_on_end(const clshear_film *film, const clshear_settings *settings)
+{
+    clshear_film_info info = {.struct_size = sizeof info};
+    clshear_film_describe(film, &info);
+    if (info.stopped_by == NULL) return;
+    const double pixels = (double)info.width * (double)info.height;
+    fprintf(stderr, "clshear: ended by --%s at %.0f samples per pixel", info.stopped_by,
+            (double)info.samples / pixels);
+    print_promise(settings, CLSHEAR_NOISE, "noise", info.noise);
+    print_promise(settings, CLSHEAR_NOISE_PIXEL, "noise of pixels", info.noise_pixel);
+    if (info.spp_expected > 0.0)
+        fprintf(stderr, "; that would take about %.2g samples per pixel", info.spp_expected);
+    fputc('\n', stderr);
+}

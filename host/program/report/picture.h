@@ -9,4 +9,7 @@
  * (`has_lens`). */
 void remark_on_picture(const clshear_film *film, const clshear_settings *settings, int has_lens);
 
+/* Prints what a render that rules may stop has promised and reached, and what is left. */
+void remark_on_end(const clshear_film *film, const clshear_settings *settings);
+
 #endif

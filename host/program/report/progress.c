@@ -62,6 +62,7 @@ int progress_report(void *user, const clshear_progress *progress)
             1e-6 * progress->samples_per_s);
     if (progress->fraction > 0.0) /* else a pilot, which does not know what is left */
         fprintf(stderr, "  %ld:%02ld:%02ld left", left_s / 3600, left_s / 60 % 60, left_s % 60);
+    if (progress->noise > 0.0) fprintf(stderr, "  noise %.3g %%", 100.0 * progress->noise);
     fputs(state->on_terminal ? "   " : "\n", stderr);
     return interrupting_signal();
 }
