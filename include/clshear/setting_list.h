@@ -37,6 +37,10 @@
     X(POLYGON, 2, "polygon", "a regular polygon with its corners at the lens radius") \
     X(IMAGE, 3, "image", "an image whose longer side is twice the lens radius")
 
+#define CLSHEAR_EMITTERS_LIST(X)                                           \
+    X(TREE, 0, "tree", "by their light at the point, then by solid angle") \
+    X(POWER, 1, "power", "by power, then by area; none that a texture varies")
+
 #define CLSHEAR_TONE_LIST(X)                                                  \
     X(SRGB, 0, "srgb", "the sRGB curve alone; values are cut at 1")           \
     X(FILMIC, 1, "filmic", "Hable's curve first, which rolls highlights off") \
@@ -179,6 +183,8 @@
       RECIPE, "S", "its radiance is multiplied by this") \
     X(BOUNCES, 66, "bounces", "", INTEGER, 1, 1, "4", 0, 64, none, RECIPE, "N", \
       "surfaces that light meets on its way; 0: direct light") \
+    X(EMITTERS, 69, "emitters", "", CHOICE, 1, 1, "tree", 0, 0, emitters, RECIPE, "CHOICE", \
+      "how emissive triangles are sampled: tree or power") \
     X(CLAMP, 67, "clamp", "", NUMBER, 1, 1, "0", 0, 1e15, none, RECIPE, "L", \
       "most that a bounce adds to a sample (biased); 0: off") \
     /* Scene file */ \
