@@ -210,6 +210,14 @@ expect 1 "the reference has 24 x 20 pixels: it needs the image's size, 24 x 16" 
 oiiotool --create 24x20 1 --chnames Y -o grey.exr
 expect 1 "the reference has no channel R: it needs R, G and B" -- converge "$cornell" --quiet --width 24 --height 20 \
     --reference grey.exr
+expect 0 "" -- converge "$cornell" --quiet --width 24 --height 20 --crop 3,19,5,9 --sampler mj,sz --nsamps 4,16 \
+    --map map.csv --map map.exr --map map.png
+[ "$(grep -c '^3,5,mj,none,.*,1$' map.csv)" -eq 1 ] || wrong "map: no first pixel with gain 1"
+[ "$(wc -l <map.csv)" -eq $((1 + 16 * 4 * 4)) ] || wrong "map: $(wc -l <map.csv) rows"
+oiiotool --info -v map.exr | grep -q 'sz.equal-area.Gain' || wrong "map.exr has no gain"
+oiiotool --info map.png | grep -q '96 x *4' || wrong "map.png is not six panels"
+expect 2 "--map is of a whole image: leave out --pixels" -- converge "$cornell" --pixels 3,4 --map map.csv
+expect 2 "--fresh-sets is of a SCENE" -- converge --integrand box --fresh-sets
 expect 2 "a picture is of a whole image" -- converge "$cornell" --quiet --reference 0.5
 expect 2 "give either an --integrand or a SCENE" -- converge --sampler mj
 expect 2 "give either an --integrand or a SCENE" -- converge "$cornell" --integrand box
@@ -304,7 +312,10 @@ remarks="black|brighter|everything is in focus"
     expect 0 "black: the camera does not see" -- bare.obj $small --eye 0,0,1e5 --target 0,0,2e5 \
         --light 0,0,9,1,1,1 --out k.exr
     expect 0 "black: no light reaches" -- bare.obj $small --light 1e6,1e6,1e6,0,0,0 --out k.exr
-    expect 0 "is brighter than 1" -- bare.obj $small --environment 99,99,99 --out k.exr
+    expect 0 "--exposure -9 or --auto-exposure" -- bare.obj $small --environment 99,99,99 \
+        --out k.exr
+    expect 0 "" -- bare.obj $small --environment 99,99,99 --exposure -8 --out k.png
+    if echo "$output" | grep -qE "$remarks"; then wrong "a remark on a dark exposure: $output"; fi
     expect 0 "everything is in focus" -- bare.obj $small --lens-radius 1e-6 --out k.exr
     expect 0 "" -- bare.obj $small --out k.exr
     if echo "$output" | grep -qE "$remarks"; then wrong "a remark on a good picture: $output"; fi

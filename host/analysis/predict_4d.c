@@ -149,7 +149,7 @@ static clshear_status measure_energy(clshear_function function, void *user, doub
     clshear_points points = {0};
     float *values = malloc(count * sizeof *values);
     CS_REQUIRE(values != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    status = cs_points_draw("sz", count, sets, 0, &points);
+    status = cs_points_draw("sz", count, sets, 0, 0, &points);
     if (status == CLSHEAR_OK) status = cs_points_select(&points, "xyuv");
     CS_REQUIRE(status == CLSHEAR_OK, status, "%s", cs_thread_error()->message);
     for (size_t set = 0; set < sets; set++) {

@@ -6,6 +6,7 @@
 #include "pattern/pattern.h"
 #include "render/aov.h"
 #include "render/camera_choice.h"
+#include "render/motion.h"
 #include "render/render_job.h"
 #include "render/studio.h"
 #include "scene/camera.h"
@@ -112,6 +113,8 @@ static clshear_status choose_pattern(cs_job *job, cs_error *error)
                        "%u replicates of %u samples per pixel are more than 2000000000",
                        job->replicates, count);
     job->pattern = cs_pattern_of(sampler, 0, count);
+    if (cs_integer(&job->settings, FRESH_SETS))
+        cs_pattern_refresh(&job->pattern, (cs_u32)cs_integer(&job->settings, SEED));
     return CLSHEAR_OK;
 }
 
@@ -140,6 +143,7 @@ static clshear_status make_camera(cs_job *job, cs_error *error)
                "use equal-area");
     CS_TRY(cs_camera_frame(&view, job->width, job->height, &job->camera, error));
     job->camera.optics = job->optics.optics;
+    CS_TRY(cs_motion_begin(job, &view, error));
     const double width_px = (double)job->camera.optics.filter_width;
     CS_TRY(cs_settings_set(&job->settings, CLSHEAR_FILTER_WIDTH, &width_px, 1, error));
 done:

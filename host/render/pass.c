@@ -76,6 +76,7 @@ static clshear_status run_kernel(const cs_pass *pass, const cs_batch *batch,
                                      {.buffer = pixels->aovs != NULL ? pixels->aovs[page] : NULL},
                                      {.buffer = batch->order},
                                      {.buffer = pass->shears},
+                                     {.buffer = pass->velocities},
                                      {.buffer = batch->rows},
                                      {.buffer = pass->optics},
                                      CS_SCENE_BUFFER_LIST(CS_SCENE_ARGUMENT)};

@@ -28,9 +28,10 @@ typedef struct cs_place {
 /* What all launches of a render have in common, and how far it is. */
 typedef struct cs_pass {
     clshear_scene *scene;
-    cs_launch launch;        /* camera, seed, window, shear mode, lights */
-    const cs_buffer *optics; /* their table */
-    const cs_buffer *shears; /* of every pixel of the window */
+    cs_launch launch;            /* camera, seed, window, shear mode, lights */
+    const cs_buffer *optics;     /* their table */
+    const cs_buffer *shears;     /* of every pixel of the window */
+    const cs_buffer *velocities; /* likewise; NULL where nothing moves */
     const cs_pixels *pixels;
     const cs_lighting *lighting;
     cs_u32 features;                  /* CS_FEATURE_ bits of the variant that renders it */

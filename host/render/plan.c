@@ -6,6 +6,7 @@
 #include "oracle/oracle.h"
 #include "pattern/pattern.h"
 #include "render/aov.h"
+#include "render/motion.h"
 #include "render/pilot.h"
 #include "render/resume.h"
 #include "render/rounds.h"
@@ -50,7 +51,7 @@ static clshear_status find_depths(cs_job *job, cs_error *error)
         band[2] = band[3];
         band[3] += (int)(left < rows ? left : rows);
         clshear_status status =
-            cs_accel_depth(job->scene->accel, &job->camera, job->optics.table.items, band,
+            cs_accel_depth(job->scene->accel, &job->cameras.middle, job->optics.table.items, band,
                            lens_rays, depth, error);
         if (status == CLSHEAR_OK) status = cs_pass_ask(&job->settings, error);
         if (status != CLSHEAR_OK) return status;
@@ -98,7 +99,7 @@ static clshear_status batch_by_samples(cs_job *job, cs_error *error)
             if (job->samples[pixel] == wanted) list[count++] = pixel;
         }
         if (count == 0) continue;
-        const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, wanted));
+        const cs_pattern pattern = cs_pattern_of_length(&job->pattern, wanted);
         job->batch_count++; /* first, so that what a failure leaves is freed */
         CS_TRY(cs_batch_create(job->scene->context, &pattern, list, count, width, 0,
                                &job->batches[job->batch_count - 1], error));
@@ -143,6 +144,7 @@ clshear_status cs_job_plan(cs_job *job, cs_error *error)
     const double start_s = cs_now_s();
     CS_TRY(reserve(job, error));
     CS_TRY(find_depths(job, error));
+    CS_TRY(cs_motion_find(job, error));
     job->prepass_s = cs_now_s() - start_s;
     CS_TRY(choose_shears(job, error));
     if (cs_integer(&job->settings, GAIN) != 0) {
@@ -160,6 +162,7 @@ clshear_status cs_job_plan(cs_job *job, cs_error *error)
     job->pilot_s = cs_now_s() - start_s - job->prepass_s;
     CS_TRY(cs_buffer_create(job->scene->context->device, job->pixel_count * sizeof *job->shear_px,
                             job->shear_px, &job->shears, error));
+    CS_TRY(cs_motion_upload(job, job->rule, &job->velocities, error));
 done:
     return status;
 }
@@ -179,6 +182,8 @@ void cs_job_free(cs_job *job)
     cs_buffer_free(job->optics_table);
     cs_optics_free(&job->optics);
     cs_buffer_free(job->shears);
+    free(job->velocities_px);
+    cs_buffer_free(job->velocities);
     cs_lighting_free(&job->lighting);
     cs_settings_free(&job->settings);
 }

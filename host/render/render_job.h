@@ -45,7 +45,10 @@ typedef struct cs_job {
     int height;
     clshear_shear shear_kind;
     clshear_oracle oracle;
-    cs_camera camera;
+    cs_camera camera; /* where the shutter opens */
+    cs_shutter_cameras cameras;
+    cs_camera_motion motion;
+    int moves; /* whether anything does while the shutter is open */
     cs_lighting lighting;
     cs_u32 features; /* CS_FEATURE_ bits that the render needs, but for its AOVs */
     cs_u32 planes;   /* of AOVs: a set of CS_PLANE_ numbers */
@@ -64,6 +67,8 @@ typedef struct cs_job {
     size_t batch_count;
     cs_pixels pixels;
     cs_buffer *shears;
+    cs_velocity *velocities_px; /* NULL where nothing moves, as `velocities` */
+    cs_buffer *velocities;      /* of the chosen rules */
     /* For extensions, else NULL: means of finished patterns, a plane for each replicate and colour;
      * and the sums they are taken from, three for each pixel. */
     float *pattern_means;

@@ -6,6 +6,7 @@
 
 #include "oracle/oracle.h"
 #include "render/aov.h"
+#include "render/motion.h"
 #include "render/recipe.h"
 #include "render/resume.h"
 #include "render/rounds.h"
@@ -181,6 +182,7 @@ clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *erro
     CS_TRY(add_planes(film, &all));
     CS_TRY(read_pixels(job, film, &all, error));
     CS_TRY(cs_aov_resolve(job, all.samples, film, error));
+    CS_TRY(cs_motion_resolve(job, film, error));
     if (job->gain != NULL) {
         float *gain = cs_film_add_channel(film, "Gain");
         CS_REQUIRE(gain != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");

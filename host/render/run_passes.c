@@ -12,6 +12,7 @@ cs_pass cs_job_pass(const cs_job *job)
     return (cs_pass){
         .scene = job->scene,
         .launch = {.camera = job->camera,
+                   .motion = job->motion,
                    .seed = job->seed,
                    .image_width = (cs_u32)job->width,
                    .crop_x = (cs_u32)job->window[0],
@@ -85,6 +86,7 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
     cs_pass pass = cs_job_pass(job);
     progress now = {job, &pass};
     pass.shears = job->shears;
+    pass.velocities = job->velocities;
     pass.pixels = &job->pixels;
     pass.settings = &job->settings;
     pass.launch.planes = job->planes;

@@ -239,6 +239,8 @@ typedef struct clshear_mesh {
     float emission[3]; /* radiance, on both sides; 0 to 1e15 */
     uint32_t
         material; /* what clshear_scene_add_material gave, in the place of those two; 0: none */
+    const float *positions_to; /* where the vertices are when the shutter closes; NULL: at rest */
+    const float *normals_to;   /* likewise; NULL: those above */
 } clshear_mesh;
 
 typedef enum clshear_light_kind {

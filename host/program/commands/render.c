@@ -128,7 +128,7 @@ static int render(render_job *job, const scene_view *view)
     clshear_film_describe(film, &info);
     int code = film_files_write(&job->files, &job->options, film, "interrupted");
     if (code == EXIT_DONE && info.complete && !job->options.quiet)
-        remark_on_picture(film, job->has_lens);
+        remark_on_picture(film, job->options.settings, job->has_lens);
     if (code == EXIT_DONE && !job->options.quiet) remark_on_end(film, job->options.settings);
     if (code == EXIT_DONE && info.complete) remove_checkpoint(job->options.settings);
     if (code == EXIT_DONE && job->stats) report_statistics(view->context, view->scene, film);
