@@ -56,6 +56,12 @@ expect 1 "environment 1,2: neither R,G,B nor a file" -- "$cornell" --quiet --env
 expect 1 "environment gone.hdr: neither" -- "$cornell" --quiet --environment gone.hdr --out refused.exr
 expect 1 "65500" -- "$cornell" --quiet --spp 1 --width 65536 --height 1 --out wide.jpg
 
+# A name may be as long as the file system has them, and one that is longer is refused before the render.
+long=$(printf 'n%.0s' $(seq 251))
+expect 0 "" -- "$cornell" --quiet --spp 1 --width 8 --height 8 --out "$long.png"
+[ -s "$long.png" ] || wrong "no picture under a name of 255 bytes"
+expect 1 "the name is too long" -- "$cornell" --quiet --spp 1000000000 --out "${long}n.png"
+
 # Renders. Settings beside the scene are read and said; the command line wins.
 # shellcheck disable=SC2086
 {
@@ -158,7 +164,10 @@ remarks="black|brighter|everything is in focus"
     expect 0 "black: the camera does not see" -- bare.obj $small --eye 0,0,1e5 --target 0,0,2e5 \
         --light 0,0,9,1,1,1 --out k.exr
     expect 0 "black: no light reaches" -- bare.obj $small --light 1e6,1e6,1e6,0,0,0 --out k.exr
-    expect 0 "is brighter than 1" -- bare.obj $small --environment 99,99,99 --out k.exr
+    expect 0 "--exposure -9 or --auto-exposure" -- bare.obj $small --environment 99,99,99 \
+        --out k.exr
+    expect 0 "" -- bare.obj $small --environment 99,99,99 --exposure -8 --out k.png
+    if echo "$output" | grep -qE "$remarks"; then wrong "a remark on a dark exposure: $output"; fi
     expect 0 "everything is in focus" -- bare.obj $small --lens-radius 1e-6 --out k.exr
     expect 0 "" -- bare.obj $small --out k.exr
     if echo "$output" | grep -qE "$remarks"; then wrong "a remark on a good picture: $output"; fi
@@ -211,6 +220,32 @@ case $(oiiotool --info -v sampler.exr) in *"samplesPerPixel: 18"*) ;; *) wrong "
     refuse 1 "another seed" -- "$cornell" $small --quiet --extend more.exr --spp 128 --seed 4
     refuse 1 "rendered with --extendable" -- "$cornell" $small --quiet --extend a.exr --spp 128
     refuse 1 "gone.exr" -- "$cornell" $small --quiet --extend gone.exr --spp 128
+}
+
+# Rules that end a render say what they promised.
+# shellcheck disable=SC2086
+{
+    expect 0 "ended by --noise at" -- "$cornell" $small --spp 4096 --noise 0.05 --out rule.exr
+    expect 0 "would take about" -- "$cornell" $small --spp 64 --noise 0.0001 --out rule.exr
+    case $(oiiotool --info -v rule.exr) in *'clshear.stoppedBy: "spp"'*) ;; *) wrong "rule untold" ;; esac
+    refuse 1 "needs 2 replicates" -- "$cornell" $small --quiet --noise 0.1 --replicates 1
+}
+
+# Shards, merged.
+# shellcheck disable=SC2086
+{
+    for shard in 1 2 3; do
+        expect 0 "" -- "$cornell" $small --quiet --shard $shard/3 --out shard-$shard.exr
+    done
+    expect 0 "shards 2 are missing" -- merge shard-3.exr shard-1.exr --out some.exr
+    expect 0 "" -- merge some.exr shard-2.exr --out all.exr --out all.png
+    case $(oiiotool --info -v all.exr) in *'clshear.shard: "1-3/3"'*) ;; *) wrong "shards untold" ;; esac
+    refuse 1 "shard 1 is in another of the films, too" -- merge some.exr shard-1.exr
+    refuse 1 "is no complete EXR of a shard" -- merge some.exr a.exr
+    refuse 1 "gone.exr" -- merge some.exr gone.exr
+    refuse 2 "no files given" -- merge
+    expect 2 "no --out given" -- merge shard-1.exr
+    refuse 1 "shard 4/3: must be K/N" -- "$cornell" $small --quiet --shard 4/3
 }
 
 finish

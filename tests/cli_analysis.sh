@@ -65,7 +65,7 @@ expect 2 "give a SCENE and a --pixel" -- slice "$cornell"
 expect 2 ".npy is for --projection 4d" -- slice "$cornell" --pixel 1,1 --out q.npy
 expect 2 "--projection xx: must be two letters" -- slice "$cornell" --pixel 1,1 --projection xx
 expect 2 "--pixel 600,1: is outside" -- slice "$cornell" --quiet --pixel 600,1 --out q.png
-for command in points spectrum predict converge slice; do
+for command in points spectrum predict converge slice merge; do
     expect 0 "usage: clshear $command" -- $command --help
     [ "$(echo "$output" | awk 'length > 80' | wc -l)" -eq 0 ] || wrong "$command --help wider than 80"
 done
@@ -79,6 +79,21 @@ expect 1 "the reference has 24 x 20 pixels: it needs the image's size, 24 x 16" 
 oiiotool --create 24x20 1 --chnames Y -o grey.exr
 expect 1 "the reference has no channel R: it needs R, G and B" -- converge "$cornell" --quiet --width 24 --height 20 \
     --reference grey.exr
+expect 0 "" -- converge "$cornell" --quiet --width 24 --height 20 --crop 3,19,5,9 --sampler mj,sz --nsamps 4,16 \
+    --map map.csv --map map.exr --map map.png
+[ "$(grep -c '^3,5,mj,none,.*,1$' map.csv)" -eq 1 ] || wrong "map: no first pixel with gain 1"
+[ "$(wc -l <map.csv)" -eq $((1 + 16 * 4 * 4)) ] || wrong "map: $(wc -l <map.csv) rows"
+oiiotool --info -v map.exr | grep -q 'sz.equal-area.Gain' || wrong "map.exr has no gain"
+oiiotool --info map.png | grep -q '96 x *4' || wrong "map.png is not six panels"
+expect 0 "" -- predict "$cornell" --quiet --width 24 --height 20 --crop 3,5,5,6 --sampler mj --n 16 --sets 20 --resolution 15 \
+    --block 2 --measure 20 --map predicted.csv --map predicted.exr --map predicted.png --plot scatter.png
+[ "$(grep -c '^[34],5,[1-9]' predicted.csv)" -eq 2 ] || wrong "predict --map: no two pixels with a variance"
+oiiotool --info predicted.png | grep -q '4 x *1' || wrong "predicted.png is not two panels"
+[ -s predicted.exr ] && [ -s scatter.png ] || wrong "predict --map: no predicted.exr or scatter.png"
+expect 2 "--map and --plot are of a whole SCENE" -- predict "$cornell" --pixel 1,1 --measure 9 --map predicted.csv
+expect 2 "give the sets to --measure with" -- predict "$cornell" --map predicted.csv
+expect 2 "--map is of a whole image: leave out --pixels" -- converge "$cornell" --pixels 3,4 --map map.csv
+expect 2 "--fresh-sets is of a SCENE" -- converge --integrand box --fresh-sets
 expect 2 "a picture is of a whole image" -- converge "$cornell" --quiet --reference 0.5
 expect 2 "give either an --integrand or a SCENE" -- converge --sampler mj
 expect 2 "give either an --integrand or a SCENE" -- converge "$cornell" --integrand box

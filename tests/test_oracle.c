@@ -31,7 +31,7 @@ static void rules_take_their_depths(void **state)
     (void)state;
     const cs_camera camera = {.focal_distance = 4.0f, .pixel_width = 0.01f, .aperture_width = 0.2f};
     cs_depth depth = {2.0f, 1.0f, 4.0f, 8.0f, 0.5f};
-    const float expected[CS_RULE_COUNT] = {20.0f, 0.0f, 60.0f, -10.0f, 0.0f};
+    const float expected[CS_RULE_COUNT] = {20.0f, 0.0f, 60.0f, -10.0f, 0.0f, 20.0f, 0.0f};
     for (int rule = 0; rule < CS_RULE_COUNT; rule++)
         assert_near(cs_oracle_shear(&camera, 0.0f, 0.0f, &depth, (cs_rule)rule), expected[rule],
                     1e-4f);

@@ -13,7 +13,9 @@
 #define CS_FEATURE_WRAPS 16    /* that do not all repeat; needs TEXTURES */
 #define CS_FEATURE_COLOURS 32  /* colours of vertices */
 #define CS_FEATURE_AOVS 64     /* channels besides the radiance */
-#define CS_FEATURE_SETS 128    /* more than any set of bits */
+#define CS_FEATURE_MOTION 128  /* samples have times; the camera moves */
+#define CS_FEATURE_MOVING 256  /* surfaces move; needs MOTION */
+#define CS_FEATURE_SETS 512    /* more than any set of bits */
 
 /* The host sees everything. */
 #ifndef CS_FEATURES

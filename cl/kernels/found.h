@@ -2,8 +2,8 @@
 #ifndef CS_KERNELS_FOUND_H
 #define CS_KERNELS_FOUND_H
 
-#include "clshear/device/camera.h"
 #include "kernels/aov.h"
+#include "kernels/motion.h"
 #include "kernels/surface.h"
 #include "kernels/vector.h"
 
@@ -57,7 +57,7 @@ static inline void cs_note_surface(const cs_surface *surface, cs_radiance *found
 }
 
 /* Camera depth of the noted surfaces. */
-static inline void cs_note_depth(const cs_camera *camera, cs_radiance *found)
+static inline void cs_note_depth(const cs_eye *camera, cs_radiance *found)
 {
 #if CS_HAS(AOVS)
     cs_vfloat covered = found->plane[CS_PLANE_COVERAGE], depth = (cs_vfloat)(0.0f);

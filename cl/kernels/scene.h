@@ -19,19 +19,23 @@ enum {
 
 /* The buffers of a scene, in the order of kernels' arguments: X(identifier, name, type of the
  * elements). Structs, kernel parameters and the host's arrays are made from it. */
-#define CS_SCENE_BUFFER_LIST(X)          \
-    X(NODES, nodes, cs_node)             \
-    X(TRIANGLES, triangles, cs_triangle) \
-    X(FACES, faces, cs_face)             \
-    X(VERTICES, vertices, cs_vertex)     \
-    X(COLOURS, colours, cs_colour)       \
-    X(MATERIALS, materials, cs_material) \
-    X(TEXTURES, textures, cs_texture)    \
-    X(TEXELS, texels, half)              \
-    X(LIGHTS, lights, cs_light)          \
-    X(EMITTERS, emitters, cs_emitter)    \
-    X(ENVIRONMENT, environment, cs_f32)  \
-    X(ALBEDOS, albedos, cs_f32)
+#define CS_SCENE_BUFFER_LIST(X)                         \
+    X(NODES, nodes, cs_node)                            \
+    X(TRIANGLES, triangles, cs_triangle)                \
+    X(FACES, faces, cs_face)                            \
+    X(VERTICES, vertices, cs_vertex)                    \
+    X(COLOURS, colours, cs_colour)                      \
+    X(MATERIALS, materials, cs_material)                \
+    X(TEXTURES, textures, cs_texture)                   \
+    X(TEXELS, texels, half)                             \
+    X(LIGHTS, lights, cs_light)                         \
+    X(EMITTERS, emitters, cs_emitter)                   \
+    X(ENVIRONMENT, environment, cs_f32)                 \
+    X(ALBEDOS, albedos, cs_f32)                         \
+    X(NODE_STEPS, node_steps, cs_node_step)             \
+    X(TRIANGLE_STEPS, triangle_steps, cs_triangle_step) \
+    X(NORMAL_STEPS, normal_steps, cs_normal_step)       \
+    X(EMITTER_STEPS, emitter_steps, cs_triangle_step)
 
 #define CS_SCENE_IDENTIFIER(identifier, name, type) CS_SCENE_##identifier,
 
@@ -60,6 +64,31 @@ typedef struct cs_triangle {
     cs_u32 padding;
 } cs_triangle;
 CS_SHARED_WORDS(cs_triangle, 16);
+
+/* The steps: how what moves changes from where the shutter opens to where it closes, linearly in
+ * between. As many as there are nodes, triangles, vertices and emitters; none where nothing moves.
+ */
+
+/* Of the boxes of a node's children, which hold the children at every time. */
+typedef struct cs_node_step {
+    cs_f32 bounds[2][3][2]; /* child, axis, low and high */
+} cs_node_step;
+CS_SHARED_WORDS(cs_node_step, 12);
+
+/* Of a triangle, or of an emitter. */
+typedef struct cs_triangle_step {
+    cs_f32 corner[3];
+    cs_f32 edge1[3];
+    cs_f32 edge2[3];
+    cs_f32 padding[3];
+} cs_triangle_step;
+CS_SHARED_WORDS(cs_triangle_step, 12);
+
+/* Of a vertex. */
+typedef struct cs_normal_step {
+    cs_f32 normal[3];
+} cs_normal_step;
+CS_SHARED_WORDS(cs_normal_step, 3);
 
 enum {
     CS_FACE_SMOOTH = 1,   /* its vertices have normals */

@@ -113,7 +113,7 @@ static void depths_of_range(void *user, size_t begin, size_t end)
     const size_t width = (size_t)(work->window[1] - work->window[0]);
     struct RTCRayHit16 query = {0};
     for (int lane = 0; lane < WIDTH; lane++)
-        query.ray.mask[lane] = ~0u;
+        query.ray.mask[lane] = ~0u, query.ray.time[lane] = 0.5f;
     for (size_t first = begin; first < end; first += WIDTH) {
         const int count = end - first < WIDTH ? (int)(end - first) : WIDTH;
         cs_f32 centre[WIDTH];

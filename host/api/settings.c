@@ -223,3 +223,10 @@ void clshear_settings_set_progress(clshear_settings *settings,
     settings->progress = progress;
     settings->progress_user = user;
 }
+
+void clshear_settings_set_preview(clshear_settings *settings, int (*wanted)(void *user),
+                                  void (*show)(void *user, clshear_film *film), void *user)
+{
+    if (settings == NULL) return;
+    settings->preview = (cs_preview){wanted, show, user};
+}

@@ -11,7 +11,7 @@
 namespace
 {
 
-/* Copies a text, an integer or a float; returns false for other types. */
+/* Copies a text, an integer, a float or a matrix; returns false for other types. */
 bool copy_attribute(const OIIO::ParamValue &source, cs_attribute *target)
 {
     std::snprintf(target->name, sizeof target->name, "%s", source.name().c_str());
@@ -25,6 +25,9 @@ bool copy_attribute(const OIIO::ParamValue &source, cs_attribute *target)
     } else if (source.type() == TypeDesc::FLOAT) {
         target->kind = CS_ATTRIBUTE_FLOAT;
         target->numbers[0] = source.get_float();
+    } else if (source.type() == OIIO::TypeMatrix) {
+        target->kind = CS_ATTRIBUTE_MATRIX;
+        std::memcpy(target->numbers, source.data(), sizeof target->numbers);
     } else {
         return false;
     }

@@ -8,12 +8,13 @@
 
 static const float right_angle_deg = 90.0f;
 
-/* Files may give a cone without a soft edge, which is a narrow one here. */
+/* Files may give a cone without a soft edge, which is the narrowest one here. */
 static void make_cone(const cs_model_light *source, clshear_light *light)
 {
     light->kind = CLSHEAR_LIGHT_SPOT;
     light->outer_deg = fminf(source->cone[1] / (CS_PI / 180.0f), right_angle_deg);
-    light->inner_deg = fminf(source->cone[0] / (CS_PI / 180.0f), 0.999f * light->outer_deg);
+    light->inner_deg =
+        fminf(source->cone[0] / (CS_PI / 180.0f), nextafterf(light->outer_deg, 0.0f));
     for (int i = 0; i < 3; i++)
         light->direction[i] = (float)source->axis[i];
 }

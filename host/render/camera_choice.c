@@ -105,6 +105,21 @@ static clshear_status choose_extent(const clshear_scene *scene, clshear_settings
     return set_one(settings, CLSHEAR_ORTHOGRAPHIC, width, error);
 }
 
+/* Where a camera of the file is when the shutter closes, unless the settings place the camera. */
+static clshear_status follow_camera(const cs_scene_camera *camera, const double *origin,
+                                    clshear_settings *settings, cs_error *error)
+{
+    double numbers[6];
+    if (!camera->moves || cs_is_set(settings, EYE) || cs_is_set(settings, TARGET) ||
+        cs_is_set(settings, CAMERA_TO))
+        return CLSHEAR_OK;
+    for (int axis = 0; axis < 3; axis++) {
+        numbers[axis] = (double)camera->eye_to[axis] + origin[axis];
+        numbers[3 + axis] = (double)camera->target_to[axis] + origin[axis];
+    }
+    return cs_settings_set(settings, CLSHEAR_CAMERA_TO, numbers, 6, error);
+}
+
 clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *settings,
                               cs_error *error)
 {
@@ -119,6 +134,9 @@ clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *sett
     else
         view = cs_camera_of_scene(&scene->scene, number, (int)cs_integer(settings, WIDTH),
                                   (int)cs_integer(settings, HEIGHT));
+    if (number >= 0)
+        CS_TRY(follow_camera((const cs_scene_camera *)scene->scene.cameras.items + number, origin,
+                             settings, error));
     if (!cs_is_set(settings, EYE))
         CS_TRY(set_vector(settings, CLSHEAR_EYE, view.eye, origin, error));
     if (!cs_is_set(settings, TARGET))

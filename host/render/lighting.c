@@ -102,16 +102,13 @@ static clshear_status add_environment(const clshear_scene *scene, const clshear_
     const cs_environment_view view = {.rotation_deg = cs_number(settings, ENVIRONMENT_ROTATION),
                                       .strength = cs_number(settings, ENVIRONMENT_STRENGTH)};
     const char *text = cs_text(settings, ENVIRONMENT);
-    cs_environment environment = {0};
+    cs_light light;
     if (text == NULL || *text == '\0' || strcmp(text, "none") == 0) return CLSHEAR_OK;
-    CS_TRY(cs_environment_read(text, &view, &environment, error));
-    CS_TRY(add(lights, &environment.light, error));
-    const cs_array *image = &environment.image;
-    if (image->count > 0)
-        CS_TRY(cs_buffer_create(scene->context->device, image->count * image->item_size,
-                                image->items, &lighting->environment, error));
+    CS_TRY(cs_environment_cache_find(&scene->context->environments, scene->context->device, text,
+                                     &light, &lighting->environment, error));
+    cs_environment_show(&view, &light);
+    CS_TRY(add(lights, &light, error));
 done:
-    cs_environment_free(&environment);
     return status;
 }
 

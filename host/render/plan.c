@@ -7,8 +7,10 @@
 #include "oracle/oracle.h"
 #include "pattern/pattern.h"
 #include "render/aov.h"
+#include "render/motion.h"
 #include "render/pilot.h"
 #include "render/resume.h"
+#include "render/rounds.h"
 
 /* Fewer samples than this leave a pilot nothing to find out with. */
 static const cs_u32 least_spp_for_pilot = 64;
@@ -66,7 +68,7 @@ static clshear_status find_depths(cs_job *job, cs_error *error)
         band[2] = band[3];
         band[3] += (int)(left < rows ? left : rows);
         clshear_status status =
-            cs_accel_depth(job->scene->accel, &job->camera, job->optics.table.items, band,
+            cs_accel_depth(job->scene->accel, &job->cameras.middle, job->optics.table.items, band,
                            lens_rays, depth, error);
         if (status == CLSHEAR_OK) status = cs_pass_ask(&job->settings, error);
         if (status != CLSHEAR_OK) return status;
@@ -123,7 +125,7 @@ static clshear_status batch_by_samples(cs_job *job, cs_error *error)
             if (job->samples[pixel] == wanted) list[count++] = pixel;
         }
         if (count == 0) continue;
-        const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, wanted));
+        const cs_pattern pattern = cs_pattern_of_length(&job->pattern, wanted);
         job->batch_count++; /* first, so that what a failure leaves is freed */
         CS_TRY(cs_batch_create(job->scene->context, &pattern, list, count, width, 0,
                                &job->batches[job->batch_count - 1], error));
@@ -168,6 +170,7 @@ clshear_status cs_job_plan(cs_job *job, cs_error *error)
     const double start_s = cs_now_s();
     CS_TRY(reserve(job, error));
     CS_TRY(find_depths(job, error));
+    CS_TRY(cs_motion_find(job, error));
     job->prepass_s = cs_now_s() - start_s;
     CS_TRY(choose_shears(job, error));
     if (cs_integer(&job->settings, GAIN) != 0) {
@@ -185,6 +188,7 @@ clshear_status cs_job_plan(cs_job *job, cs_error *error)
     job->pilot_s = cs_now_s() - start_s - job->prepass_s;
     CS_TRY(cs_buffer_create(job->scene->context->device, job->pixel_count * sizeof *job->shear_px,
                             job->shear_px, &job->shears, error));
+    CS_TRY(cs_motion_upload(job, job->rule, &job->velocities, error));
 done:
     return status;
 }
@@ -197,12 +201,15 @@ void cs_job_free(cs_job *job)
     free(job->gain);
     free(job->samples);
     cs_resume_free(job);
+    cs_rounds_free(job);
     for (size_t b = 0; b < job->batch_count; b++)
         cs_batch_free(&job->batches[b]);
     cs_pixels_free(&job->pixels);
     cs_buffer_free(job->optics_table);
     cs_optics_free(&job->optics);
     cs_buffer_free(job->shears);
+    free(job->velocities_px);
+    cs_buffer_free(job->velocities);
     cs_lighting_free(&job->lighting);
     cs_settings_free(&job->settings);
 }

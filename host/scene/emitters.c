@@ -31,17 +31,21 @@ static double describe_emitter(const cs_scene *scene, size_t triangle, cs_emitte
     return (double)emitter->area * (double)luminance(look->emission);
 }
 
+/* What a texture varies is found by rays alone. */
+int cs_scene_is_emitter(const cs_scene *scene, size_t triangle)
+{
+    const uint32_t material = ((const uint32_t *)scene->triangle_materials.items)[triangle];
+    const cs_material *look = (const cs_material *)scene->materials.items + material;
+    return luminance(look->emission) > 0.0f && look->emission_texture == 0;
+}
+
 clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, double *total,
                                  cs_error *error)
 {
-    const uint32_t *materials = scene->triangle_materials.items;
-    const cs_material *looks = scene->materials.items;
     double below = 0.0;
     *total = 0.0;
     for (size_t i = 0; i < scene->indices.count; i++) {
-        const cs_material *look = &looks[materials[i]];
-        /* What a texture varies is found by rays alone. */
-        if (!(luminance(look->emission) > 0.0f) || look->emission_texture > 0) continue;
+        if (!cs_scene_is_emitter(scene, i)) continue;
         cs_emitter *emitter = cs_array_extend(emitters, 1);
         if (emitter == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
         double power = describe_emitter(scene, i, emitter);

@@ -51,6 +51,7 @@ clshear_status cs_settings_copy(const clshear_settings *from, clshear_settings *
     clshear_status status = CLSHEAR_OK;
     to->progress = from->progress;
     to->progress_user = from->progress_user;
+    to->preview = from->preview;
     for (size_t i = 0; i < CS_SETTING_COUNT; i++)
         CS_TRY(copy_value(&from->values[i], &to->values[i], error));
     if (from->aperture.luminance != NULL)

@@ -58,7 +58,7 @@
  *
  * number    value of the enumerator; never reused, because compiled programs depend on it. It also
  *           gives the group in lists: 1 samples, 20 image, 40 camera, 50 lens, 60 light,
- *           70 reading, 80 device, and all numbers up to the next group
+ *           70 reading, 80 device, 90 stopping, 100 motion, and all numbers up to the next group
  * name      name of the flag, without dashes
  * aliases   other names of the flag, separated by spaces
  * kind      SWITCH (0 or 1), INTEGER, NUMBER, CHOICE (a name out of `choices`), TEXT
@@ -78,13 +78,13 @@
 #define CLSHEAR_SETTING_LIST(X) \
     /* Samples */ \
     X(SPP, 1, "spp", "samples", INTEGER, 1, 1, "256", 1, 2e9, none, RECORD, "N", \
-      "samples per pixel") \
+      "samples per pixel; the most where a rule may stop") \
     X(REPLICATES, 2, "replicates", "", INTEGER, 1, 1, "", 1, 2e9, none, RECIPE, "R", \
       "independent patterns of spp/R samples (2)") \
     X(SEED, 3, "seed", "", INTEGER, 1, 1, "0", 0, 4294967295.0, none, RECIPE, "N", \
       "another seed, another noise") \
     X(SAMPLER, 4, "sampler", "", CHOICE, 1, 1, "sz", 0, 0, sampler, RECIPE, "NAME", \
-      "point set; --list-samplers has them") \
+      "point set; sobol where lights have a size, else sz") \
     X(SHEAR, 5, "shear", "", CHOICE, 1, 1, "equal-area", 0, 0, shear, RECIPE, "KIND", \
       "equal-area, toroidal or none") \
     X(ORACLE, 6, "oracle", "", CHOICE, 1, 1, "pilot", 0, 0, oracle, RECIPE, "RULE", \
@@ -99,6 +99,8 @@
       "keep the data for --extend in the EXR") \
     X(KEEP_PATTERNS, 10, "keep-patterns", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
       "keep the mean of each replicate: Pattern<n>.R/G/B") \
+    X(FRESH_SETS, 16, "fresh-sets", "", SWITCH, 1, 1, "0", 0, 1, none, RECIPE, "", \
+      "poisson, ccvt: sets of this seed, not the kept ones") \
     X(GAIN, 11, "gain-channel", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
       "measure the gain of the shear: channel Gain") \
     /* Image */ \
@@ -190,7 +192,37 @@
     X(THREADS, 81, "threads", "t nthreads", INTEGER, 1, 1, "0", 0, 4096, none, PRIVATE, "N", \
       "CPU threads; 0: all") \
     X(PACKET, 82, "packet", "", INTEGER, 1, 1, "", 1, 16, none, PRIVATE, "W", \
-      "samples traced together: 1, 4, 8 or 16")
+      "samples traced together: 1, 4, 8 or 16") \
+    /* Stopping */ \
+    X(NOISE, 90, "noise", "", NUMBER, 1, 1, "", 1e-6, 1, none, RECORD, "R", \
+      "stop when the picture's relative error is below R") \
+    X(NOISE_PIXEL, 91, "noise-pixel", "", NUMBER, 1, 1, "", 1e-6, 1, none, RECORD, "R", \
+      "stop when 95 % of pixels err less on a screen") \
+    X(TIME, 92, "time", "", NUMBER, 1, 1, "", 0.001, 1e9, none, RECORD, "S", \
+      "stop after S seconds") \
+    X(CHECKPOINT, 93, "checkpoint", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "FILE", \
+      "keep what is rendered there, for --resume") \
+    X(EVERY, 94, "every", "", NUMBER, 1, 1, "60", 0, 1e9, none, PRIVATE, "S", \
+      "seconds between two checkpoints") \
+    X(RESUME, 95, "resume", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
+      "go on from the checkpoint, if there is one") \
+    X(SHARD, 96, "shard", "", TEXT, 1, 1, "", 0, 0, none, RECORD, "K/N", \
+      "part K of N: every Nth replicate, for clshear merge") \
+    /* Motion */ \
+    X(CAMERA_TO, 100, "camera-to", "", NUMBER, 6, 1, "", -1e12, 1e12, none, RECIPE, "EYE,TARGET", \
+      "where the camera is when the shutter closes") \
+    X(TO, 101, "to", "", TEXT, 1, 1, "", 0, 0, none, RECIPE, "FILE", \
+      "the same mesh where the shutter closes") \
+    X(TURNTABLE, 102, "turntable", "", NUMBER, 1, 1, "", -90, 90, none, RECIPE, "DEG", \
+      "the scene turns by DEG while the shutter is open") \
+    X(SHUTTER, 103, "shutter", "", NUMBER, 2, 1, "", -1e6, 1e6, none, RECIPE, "OPEN,CLOSE", \
+      "seconds of the animation, from the frame's time on") \
+    X(SHUTTER_ANGLE, 104, "shutter-angle", "", NUMBER, 1, 1, "180", 0, 360, none, RECIPE, "DEG", \
+      "part of a frame, without --shutter; 360: all of it") \
+    X(FRAME, 105, "frame", "", INTEGER, 1, 1, "", 0, 1e6, none, RECIPE, "N", \
+      "frame of the animation, from 0") \
+    X(FPS, 106, "fps", "", NUMBER, 1, 1, "24", 1e-3, 1e6, none, RECIPE, "N", \
+      "frames per second of the animation")
 /* clang-format on */
 
 #endif

@@ -19,6 +19,39 @@ typedef struct cs_ray {
     (((x) - (camera).centre_px[0]) * (camera).rise[0] + \
      ((y) - (camera).centre_px[1]) * (camera).rise[1])
 
+/* Where a ray leaves the lens, and its direction, along the camera's axes. */
+typedef struct cs_lens_place {
+    cs_vfloat lens_right; /* from the camera's eye, units of the scene */
+    cs_vfloat lens_down;
+    cs_vfloat right; /* part of the direction, whose part along `forward` is 1 */
+    cs_vfloat down;
+} cs_lens_place;
+
+/* Arguments as for cs_lens_ray. */
+static inline cs_lens_place cs_lens_place_of(const cs_camera *camera, cs_vfloat x, cs_vfloat y,
+                                             cs_vfloat u, cs_vfloat v)
+{
+    cs_vfloat rise = CS_RISE(*camera, x, y);
+    cs_vfloat right = (x - camera->centre_px[0]) * camera->pixel_width;
+    cs_vfloat down = (y - camera->centre_px[1]) * camera->pixel_width;
+    cs_f32 inverse_focus = 1.0f / camera->focal_distance;
+    cs_lens_place place;
+    place.lens_right = u * (camera->aperture_width * camera->optics.squeeze);
+    place.lens_down = v * camera->aperture_width;
+    if (camera->orthographic) {
+        cs_vfloat inverse = -inverse_focus / (1.0f + rise);
+        place.right = place.lens_right * inverse;
+        place.down = place.lens_down * inverse;
+        place.lens_right += right;
+        place.lens_down += down;
+    } else {
+        cs_vfloat nearness = 1.0f - rise;
+        place.right = (right - place.lens_right * nearness) * inverse_focus;
+        place.down = (down - place.lens_down * nearness) * inverse_focus;
+    }
+    return place;
+}
+
 /* The ray that leaves the lens at (u, v) and belongs to raster position (x, y).
  *
  * x, y: pixels from the image's top left corner: the pixel's number plus cs_camera_sample.x or y.
@@ -28,30 +61,13 @@ typedef struct cs_ray {
 static inline cs_ray cs_lens_ray(cs_camera camera, cs_vfloat x, cs_vfloat y, cs_vfloat u,
                                  cs_vfloat v)
 {
-    cs_vfloat lens_right = u * (camera.aperture_width * camera.optics.squeeze);
-    cs_vfloat lens_down = v * camera.aperture_width;
-    cs_vfloat rise = CS_RISE(camera, x, y);
-    cs_vfloat right = (x - camera.centre_px[0]) * camera.pixel_width;
-    cs_vfloat down = (y - camera.centre_px[1]) * camera.pixel_width;
-    cs_f32 inverse_focus = 1.0f / camera.focal_distance;
-    cs_vfloat towards_right, towards_down;
-    if (camera.orthographic) {
-        cs_vfloat inverse = -inverse_focus / (1.0f + rise);
-        towards_right = lens_right * inverse;
-        towards_down = lens_down * inverse;
-        lens_right += right;
-        lens_down += down;
-    } else {
-        cs_vfloat nearness = 1.0f - rise;
-        towards_right = (right - lens_right * nearness) * inverse_focus;
-        towards_down = (down - lens_down * nearness) * inverse_focus;
-    }
+    cs_lens_place place = cs_lens_place_of(&camera, x, y, u, v);
     cs_ray ray;
     for (int axis = 0; axis < 3; axis++) {
-        ray.origin[axis] =
-            camera.eye[axis] + lens_right * camera.right[axis] + lens_down * camera.down[axis];
-        ray.direction[axis] = camera.forward[axis] + towards_right * camera.right[axis] +
-                              towards_down * camera.down[axis];
+        ray.origin[axis] = camera.eye[axis] + place.lens_right * camera.right[axis] +
+                           place.lens_down * camera.down[axis];
+        ray.direction[axis] = camera.forward[axis] + place.right * camera.right[axis] +
+                              place.down * camera.down[axis];
     }
     return ray;
 }

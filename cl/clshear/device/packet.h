@@ -44,6 +44,7 @@ typedef CS_VECTOR(uint) cs_vuint;
 #define cs_to_vuint(x) cs_as_vuint(CS_OVER_LANES(convert_int)(x))
 #define cs_mul_hi(a, b) mul_hi((cs_vuint)(a), (cs_vuint)(b))
 #define cs_sqrt(x) sqrt(x)
+#define cs_cbrt(x) cbrt(x)
 #define cs_abs(x) fabs(x)
 #define cs_floor(x) floor(x)
 
@@ -78,6 +79,7 @@ static inline cs_f32 cs_as_vfloat(cs_u32 x)
 #define cs_to_vuint(x) ((cs_u32)(cs_i32)(x))
 #define cs_mul_hi(a, b) ((cs_u32)(((uint64_t)(a) * (uint64_t)(b)) >> 32))
 #define cs_sqrt(x) sqrtf(x)
+#define cs_cbrt(x) cbrtf(x)
 #define cs_abs(x) fabsf(x)
 #define cs_floor(x) floorf(x)
 /* Whether any lane of a mask is true: here there is one. */
