@@ -88,6 +88,12 @@ expect 1 "environment 1,2: neither R,G,B nor a file" -- "$cornell" --quiet --env
 expect 1 "environment gone.hdr: neither" -- "$cornell" --quiet --environment gone.hdr --out refused.exr
 expect 1 "65500" -- "$cornell" --quiet --spp 1 --width 65536 --height 1 --out wide.jpg
 
+# A name may be as long as the file system has them, and one that is longer is refused before the render.
+long=$(printf 'n%.0s' $(seq 251))
+expect 0 "" -- "$cornell" --quiet --spp 1 --width 8 --height 8 --out "$long.png"
+[ -s "$long.png" ] || wrong "no picture under a name of 255 bytes"
+expect 1 "the name is too long" -- "$cornell" --quiet --spp 1000000000 --out "${long}n.png"
+
 # Renders. Settings beside the scene are read and said; the command line wins.
 # shellcheck disable=SC2086
 {
@@ -196,7 +202,7 @@ expect 2 "give a SCENE and a --pixel" -- slice "$cornell"
 expect 2 ".npy is for --projection 4d" -- slice "$cornell" --pixel 1,1 --out q.npy
 expect 2 "--projection xx: must be two letters" -- slice "$cornell" --pixel 1,1 --projection xx
 expect 2 "--pixel 600,1: is outside" -- slice "$cornell" --quiet --pixel 600,1 --out q.png
-for command in points spectrum predict converge slice; do
+for command in points spectrum predict converge slice merge; do
     expect 0 "usage: clshear $command" -- $command --help
     [ "$(echo "$output" | awk 'length > 80' | wc -l)" -eq 0 ] || wrong "$command --help wider than 80"
 done
@@ -216,6 +222,13 @@ expect 0 "" -- converge "$cornell" --quiet --width 24 --height 20 --crop 3,19,5,
 [ "$(wc -l <map.csv)" -eq $((1 + 16 * 4 * 4)) ] || wrong "map: $(wc -l <map.csv) rows"
 oiiotool --info -v map.exr | grep -q 'sz.equal-area.Gain' || wrong "map.exr has no gain"
 oiiotool --info map.png | grep -q '96 x *4' || wrong "map.png is not six panels"
+expect 0 "" -- predict "$cornell" --quiet --width 24 --height 20 --crop 3,5,5,6 --sampler mj --n 16 --sets 20 --resolution 15 \
+    --block 2 --measure 20 --map predicted.csv --map predicted.exr --map predicted.png --plot scatter.png
+[ "$(grep -c '^[34],5,[1-9]' predicted.csv)" -eq 2 ] || wrong "predict --map: no two pixels with a variance"
+oiiotool --info predicted.png | grep -q '4 x *1' || wrong "predicted.png is not two panels"
+[ -s predicted.exr ] && [ -s scatter.png ] || wrong "predict --map: no predicted.exr or scatter.png"
+expect 2 "--map and --plot are of a whole SCENE" -- predict "$cornell" --pixel 1,1 --measure 9 --map predicted.csv
+expect 2 "give the sets to --measure with" -- predict "$cornell" --map predicted.csv
 expect 2 "--map is of a whole image: leave out --pixels" -- converge "$cornell" --pixels 3,4 --map map.csv
 expect 2 "--fresh-sets is of a SCENE" -- converge --integrand box --fresh-sets
 expect 2 "a picture is of a whole image" -- converge "$cornell" --quiet --reference 0.5
@@ -396,6 +409,12 @@ output=$("$program" "$cornell" --width 64 --height 64 --spp 256 --out g.exr 2>&1
 [ "$(echo "$output" | grep -c ' %')" -le 11 ] || wrong "too many lines of progress"
 case $output in *"100 %"*) ;; *) wrong "never at 100 %: $output" ;; esac
 
+# On a narrow terminal, no longer than it is wide.
+output=$(script -qec "stty cols 20; '$program' '$cornell' --width 64 --height 64 --spp 256 --out g.exr" /dev/null)
+case $output in *"100 %"*) ;; *) wrong "terminal: $output" ;; esac
+longest=$(echo "$output" | tr '\r' '\n' | awk '/ %/ && length > most { most = length } END { print most }')
+[ "$longest" -le 19 ] || wrong "a line of progress has $longest columns of 20"
+
 # Ctrl-C, kill and a closed terminal: what was done is written, with true counts, and the exit code
 # says so.
 for signal in INT:130 TERM:143 HUP:129; do
@@ -410,6 +429,53 @@ for signal in INT:130 TERM:143 HUP:129; do
     [ -s h.exr ] || wrong "$signal: no picture"
     oiiotool --info h.exr | grep -q "64 x   64, 13 channel" || wrong "$signal: bad file"
 done
+
+# SIGUSR1 asks for the picture so far; the render goes on, and its checkpoint is gone when it is done.
+rm -f h.exr h.txt
+"$program" "$cornell" --spp 4000 --width 64 --height 64 --checkpoint state --every 0 --out h.exr 2>h.txt &
+child=$!
+for _ in $(seq 300); do grep -q '10 %' h.txt 2>/dev/null && break; sleep 0.1; done
+[ -s state ] || wrong "no checkpoint"
+kill -USR1 $child
+wait $child
+[ $? -eq 0 ] || wrong "USR1: exit code"
+grep -q "going on; h.exr holds the samples so far" h.txt || wrong "USR1: $(cat h.txt)"
+case $(oiiotool --info -v h.exr) in *interrupted*) wrong "USR1: the picture is not complete" ;; esac
+[ ! -e state ] || wrong "the checkpoint is left"
+
+# Checkpoints that cannot be written, or are of something else.
+refuse 1 "resume: needs a checkpoint" -- "$cornell" --quiet --resume
+refuse 1 "--checkpoint no/such/state: folder no/such/ cannot be written" -- "$cornell" --quiet --checkpoint no/such/state
+echo "not a checkpoint" >state
+refuse 1 "state: is there already" -- "$cornell" --quiet --checkpoint state
+refuse 1 "state: is no whole checkpoint" -- "$cornell" --quiet --checkpoint state --resume
+rm -f state
+
+# Rules that end a render say what they promised.
+# shellcheck disable=SC2086
+{
+    expect 0 "ended by --noise at" -- "$cornell" $small --spp 4096 --noise 0.05 --out rule.exr
+    expect 0 "would take about" -- "$cornell" $small --spp 64 --noise 0.0001 --out rule.exr
+    case $(oiiotool --info -v rule.exr) in *'clshear.stoppedBy: "spp"'*) ;; *) wrong "rule untold" ;; esac
+    refuse 1 "needs 2 replicates" -- "$cornell" $small --quiet --noise 0.1 --replicates 1
+}
+
+# Shards, merged.
+# shellcheck disable=SC2086
+{
+    for shard in 1 2 3; do
+        expect 0 "" -- "$cornell" $small --quiet --shard $shard/3 --out shard-$shard.exr
+    done
+    expect 0 "shards 2 are missing" -- merge shard-3.exr shard-1.exr --out some.exr
+    expect 0 "" -- merge some.exr shard-2.exr --out all.exr --out all.png
+    case $(oiiotool --info -v all.exr) in *'clshear.shard: "1-3/3"'*) ;; *) wrong "shards untold" ;; esac
+    refuse 1 "shard 1 is in another of the films, too" -- merge some.exr shard-1.exr
+    refuse 1 "is no complete EXR of a shard" -- merge some.exr a.exr
+    refuse 1 "gone.exr" -- merge some.exr gone.exr
+    refuse 2 "no files given" -- merge
+    expect 2 "no --out given" -- merge shard-1.exr
+    refuse 1 "shard 4/3: must be K/N" -- "$cornell" $small --quiet --shard 4/3
+}
 
 # Before the first samples there is nothing to keep: the signal ends the program at once.
 "$program" "$cornell" --spp 1 --width 6000 --height 6000 --out never.exr 2>h.txt &

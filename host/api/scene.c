@@ -1,6 +1,7 @@
 /* Public functions of scenes and cameras. */
 #include "api/arguments.h"
 #include "render/camera_choice.h"
+#include "render/focus_choice.h"
 #include "render/objects.h"
 #include "render/studio.h"
 #include "settings/settings.h"

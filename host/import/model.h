@@ -57,12 +57,16 @@ typedef struct cs_model_camera {
     double eye[3];
     double forward[3]; /* any length */
     double up[3];
-    double fov; /* vertical, radians */
+    double fov;    /* vertical, radians */
+    double height; /* what the picture shows of parallel lines of sight, above 0; or 0, and fov
+                      counts */
 } cs_model_camera;
 
 typedef struct cs_model {
     const char *path; /* of the file, for messages */
     const cs_log *log;
+    int is_played;       /* whether the animation is */
+    double time_s;       /* of the animation */
     cs_array positions;  /* double[3] */
     cs_array colours;    /* float[3], linear, one for each position; or none at all */
     cs_array normals;    /* float[3] */

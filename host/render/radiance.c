@@ -166,7 +166,8 @@ clshear_status cs_pixel_shear(clshear_scene *scene, const clshear_settings *sett
                           (int)cs_integer(&job.settings, LENS_RAYS), &depth, error));
     *shear_px = cs_is_set(&job.settings, SHEAR_PX)
                     ? (float)cs_number(&job.settings, SHEAR_PX)
-                    : cs_oracle_shear(&job.camera, &depth, cs_rule_of(job.oracle));
+                    : cs_oracle_shear(&job.camera, (cs_f32)x + 0.5f, (cs_f32)y + 0.5f, &depth,
+                                      cs_rule_of(job.oracle));
 done:
     cs_job_free(&job);
     return status;

@@ -16,7 +16,10 @@ enum {
 /* A camera of the file. */
 typedef struct cs_scene_camera {
     char name[CS_CAMERA_NAME];
-    cs_view view; /* its fov is vertical until an image size is known */
+    cs_view view;    /* fov and orthographic are vertical until an image size is known */
+    int moves;       /* whether it does while the shutter is open */
+    float eye_to[3]; /* where it closes, if so */
+    float target_to[3];
 } cs_scene_camera;
 
 typedef struct cs_scene {
@@ -88,7 +91,7 @@ int cs_material_is_textured(const cs_material *material);
 typedef struct cs_material_needs {
     cs_u32 features;       /* CS_FEATURE_ bits */
     int see_through;       /* alpha counts somewhere */
-    int textured_emission; /* which only rays find */
+    int textured_emission; /* which samples by the tree of emitters find, and rays */
 } cs_material_needs;
 
 cs_material_needs cs_scene_material_needs(const cs_scene *scene);

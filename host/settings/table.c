@@ -6,7 +6,7 @@
 
 /* A choice stands at its number, so that numbers are places in the lists. */
 #define CS_CHOICE_ENTRY(identifier, number, name, meaning) [number] = {name, meaning},
-#define CS_SAMPLER_CHOICE(identifier, name, draw, extra, shape, words, progressive, about) \
+#define CS_SAMPLER_CHOICE(identifier, name, draw, light, extra, shape, words, progressive, about) \
     {name, about},
 
 static const cs_choice choices_shear[] = {CLSHEAR_SHEAR_LIST(CS_CHOICE_ENTRY){NULL, NULL}};

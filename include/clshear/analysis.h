@@ -225,12 +225,15 @@ CLSHEAR_API clshear_status clshear_predict_variance(const clshear_spectrum *samp
                                                     double mean_square,
                                                     clshear_prediction **prediction);
 
-/* Highest frequencies, in each coordinate, of the sums in clshear_predict_variance_4d. */
+/* Highest frequencies, in each coordinate, of the sums in clshear_predict_variance_4d, and effort.
+ */
 typedef struct clshear_reach {
     size_t struct_size;
     uint32_t axis;  /* for parts of one coordinate: 1 to 65536; should be 4 N */
     uint32_t plane; /* for parts of two coordinates: 1 to 2047 */
     uint32_t block; /* for the block of three or four: 1 to 15 */
+    size_t points;  /* samples of the function for a part, in each of eight grids: a grid has one in
+                       every cell at least; 0: 2^19. Few make the energies noisy, not biased. */
 } clshear_reach;
 
 /* Predicts the variance of the mean of a function at N samples that are shifted at random around
