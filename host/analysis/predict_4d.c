@@ -179,7 +179,7 @@ clshear_status cs_predict_variance_4d(clshear_context *context, const clshear_po
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
-    clshear_prediction p = {.parts = CS_MOST_PARTS, .isotropic = NAN};
+    clshear_prediction p = {.parts = CS_MOST_PARTS};
     double seen = 0.0;
     CS_REQUIRE(samples->dimensions >= 4 && strncmp(samples->names, "xyuv", 4) == 0,
                CLSHEAR_BAD_ARGUMENT, "samples of %s: must begin with x, y, u, v", samples->names);
@@ -197,6 +197,8 @@ clshear_status cs_predict_variance_4d(clshear_context *context, const clshear_po
     p.energies[TAIL] = fmax(p.energy - seen, 0.0);
     p.variances[TAIL] = p.energies[TAIL] / (double)samples->count;
     p.variance += p.variances[TAIL];
+    for (size_t level = 0; level < CS_CONE_LEVELS; level++)
+        p.by_cones[level] = NAN;
     for (size_t part = 0; part < p.parts; part++)
         p.names[part] = parts[part].name;
     *prediction = p;

@@ -94,6 +94,10 @@ clshear_status cs_model_full(const cs_model *model, cs_error *error);
 clshear_status cs_model_set_colour(cs_model *model, size_t index, const float *colour,
                                    cs_error *error);
 
+/* A material of which no more is known than a name: mid-grey; white where positions have colours,
+ * so that they show those and not half of them. */
+void cs_model_plain(const cs_model *model, const char *name, cs_material_description *material);
+
 /* Adds an image, or finds it: a file (`path`), or a copy of `size` bytes. */
 clshear_status cs_model_add_image(cs_model *model, const char *path, const char *label,
                                   const void *bytes, size_t size, int *image, cs_error *error);

@@ -258,6 +258,12 @@ CLSHEAR_API double clshear_prediction_variance(const clshear_prediction *predict
  * al. 2015). NaN in four dimensions. */
 CLSHEAR_API double clshear_prediction_isotropic(const clshear_prediction *prediction);
 
+/* The predicted variance with the power of each frequency replaced by the mean over its ring within
+ * one of 2^`level` cones of directions, for levels 0 to 8: from the isotropic formula to, in the
+ * limit of many cones, the anisotropic one (Singh & Jarosz 2017). Above 8 the prediction itself;
+ * NaN in four dimensions. */
+CLSHEAR_API double clshear_prediction_in_cones(const clshear_prediction *prediction, size_t level);
+
 /* Variance of the integrand itself. */
 CLSHEAR_API double clshear_prediction_energy(const clshear_prediction *prediction);
 

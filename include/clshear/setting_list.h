@@ -88,7 +88,7 @@
     X(SEED, 3, "seed", "", INTEGER, 1, 1, "0", 0, 4294967295.0, none, RECIPE, "N", \
       "another seed, another noise") \
     X(SAMPLER, 4, "sampler", "", CHOICE, 1, 1, "sz", 0, 0, sampler, RECIPE, "NAME", \
-      "point set; sobol where lights have a size, else sz") \
+      "point set; sobol with light of a size or motion") \
     X(SHEAR, 5, "shear", "", CHOICE, 1, 1, "equal-area", 0, 0, shear, RECIPE, "KIND", \
       "equal-area, toroidal or none") \
     X(ORACLE, 6, "oracle", "", CHOICE, 1, 1, "pilot", 0, 0, oracle, RECIPE, "RULE", \

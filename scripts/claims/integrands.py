@@ -36,6 +36,10 @@ def predicted():
             yield row('isotropic-fails', '… where the isotropic formula is too high by a factor of',
                       '≫ 1', (isotropic / figure[0], isotropic / figure[2], isotropic / figure[1]), (10, math.inf),
                       f'clshear predict {words}')
+            for cones, expected, told in [(8, (5, math.inf), '≫ 1'), (256, (1, 1.2), '→ 1')]:
+                value = parts[f'predicted in {cones} cones'] / parts['predicted']
+                yield row(f'cones-{cones}', f'… the sum over {cones} cones of directions, over the whole prediction',
+                          told, (value, value * 0.98, value * 1.02), expected, f'clshear predict {words}')
 
 
 @group

@@ -8,6 +8,7 @@ import statistics
 import subprocess
 
 root = pathlib.Path(__file__).resolve().parents[2]
+program = os.environ.get('CLSHEAR', str(root / 'build' / 'clshear'))
 BATCHES = 6
 first_seed = 0  # of a run of scripts/reproduce; batches count up from it
 
@@ -17,7 +18,7 @@ STUDENT = [12.71, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262]
 
 def clshear(words):
     """Standard output of `clshear WORDS`."""
-    done = subprocess.run([str(root / 'build' / 'clshear'), *words.split()], cwd=root,
+    done = subprocess.run([program, *words.split()], cwd=root,
                           capture_output=True, text=True)
     if done.returncode != 0:
         raise SystemExit(f'clshear {words}: {done.stderr.strip()}')

@@ -5,7 +5,6 @@ import statistics
 from measure import clshear, interval, power, spectra
 from rows import group, row
 
-INFINITE = math.inf
 
 
 def sinc2(x):

@@ -59,6 +59,10 @@ const program_command predict_command = {
     .run = run,
 };
 
+enum {
+    CONE_LEVELS = 9 /* up to 256 cones */
+};
+
 typedef struct result {
     clshear_prediction *prediction;
     measurement measured;
@@ -75,6 +79,9 @@ static void write_table(FILE *stream, const void *user)
                 clshear_prediction_part_variance(p, k));
     fprintf(stream, "predicted,%.5g\npredicted as isotropic,%.5g\n", clshear_prediction_variance(p),
             clshear_prediction_isotropic(p));
+    for (size_t level = 1; level < CONE_LEVELS; level++)
+        fprintf(stream, "predicted in %d cones,%.5g\n", 1 << level,
+                clshear_prediction_in_cones(p, level));
     if (r->is_measured)
         fprintf(stream, "measured,%.5g\nmeasured 95%% low,%.5g\nmeasured 95%% high,%.5g\n",
                 r->measured.variance, r->measured.variance - 1.96 * r->measured.error,
