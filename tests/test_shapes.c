@@ -186,6 +186,7 @@ static void channels_know_shapes(void **state)
         test_set_number(settings, CLSHEAR_FOCAL_DISTANCE, 3.5);
         test_set_number(settings, CLSHEAR_BOUNCES, bounces);
         test_set(settings, CLSHEAR_SPHERE, "0,5,0,1,3,2,1");
+        test_set(settings, CLSHEAR_ORACLE, "centre");
         test_set(settings, CLSHEAR_AOV, "albedo,normal,position,depth,coverage,emission");
         add_quad(settings, corner, right, up);
         clshear_film *film = test_render(scene, settings);
