@@ -42,6 +42,10 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
     for (size_t b = 0; b < job->batch_count; b++)
         pass.total += (double)replicates * (double)job->batches[b].pixel_count *
                       job->batches[b].pattern.grid.count;
+    if (job->adaptive.begin > 0) {
+        CS_TRY(cs_adaptive_run(job, &pass, error));
+        goto done;
+    }
     for (cs_u32 replicate = 0; replicate < replicates; replicate++) {
         CS_TRY(cs_resume_begin(job, replicate, error));
         CS_TRY(cs_pass_replicate(&pass, job->batches, job->batch_count, replicate, error));

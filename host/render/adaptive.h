@@ -1,0 +1,56 @@
+/* Renders that share samples out between pixels by need, and keep all of them.
+ *
+ * The first two replicates begin with the same few samples in every pixel. How many a pixel has in
+ * replicates 1, 3, 5, ... is decided by its samples in the beginning of replicate 0; in replicates
+ * 0, 2, 4, ... by those of replicate 1. Then each pattern is drawn to its end, the beginnings as
+ * parts of theirs. Pixels that need no more than the beginning are not drawn again.
+ *
+ * Unbiased: the size of a pattern is a function of another replicate's samples, which are
+ * independent of its own; so, given its size, its mean has the expected value of every pattern of
+ * that size, which is the pixel's. Samples of other pixels are independent of it too, and both
+ * beginnings of the neighbours may be looked at. The pixel is the mean of its replicates with equal
+ * weights: weights by size would depend on the samples that they weigh. */
+#ifndef CS_RENDER_ADAPTIVE_H
+#define CS_RENDER_ADAPTIVE_H
+
+#include "clshear/device/stats.h"
+#include "kernels/pixel.h"
+#include "render/pass.h"
+
+struct cs_job;
+
+enum {
+    CS_MOST_BATCHES = 24,
+    CS_BEGINNINGS = 2,         /* replicates with one, and kinds of replicates: even and odd */
+    CS_LEAST_TO_SHARE_OUT = 8, /* samples in a pattern */
+};
+
+/* One kind of replicates, even or odd. */
+typedef struct cs_share {
+    cs_u32 *samples;         /* in a pattern of each pixel */
+    cs_exact_sum *beginning; /* sums of replicate 0's or 1's: three colours of each pixel */
+    cs_batch batches[CS_MOST_BATCHES];
+    size_t batch_count;
+} cs_share;
+
+/* Start from zeros. */
+typedef struct cs_adaptive {
+    cs_u32 begin;     /* samples of a beginning; 0: the job does not share out in this way */
+    cs_u32 drawn;     /* beginnings that are complete */
+    cs_u32 completed; /* replicates that went on from their beginning, or were drawn without one */
+    cs_share shares[CS_BEGINNINGS];
+} cs_adaptive;
+
+/* Whether the job's samples can be shared out in this way: a progressive sampler, two replicates or
+ * more of CS_LEAST_TO_SHARE_OUT samples, no AOVs (whose sums weigh samples equally), and nothing
+ * that needs patterns of one size. Then reserves what it takes. */
+clshear_status cs_adaptive_plan(struct cs_job *job, cs_error *error);
+void cs_adaptive_free(cs_adaptive *adaptive);
+
+/* Draws all replicates of the job. */
+clshear_status cs_adaptive_run(struct cs_job *job, cs_pass *pass, cs_error *error);
+
+/* The mean of a colour of a pixel, of whatever is drawn. */
+double cs_adaptive_mean(const struct cs_job *job, const cs_pixel *pixel, size_t index, int colour);
+
+#endif
