@@ -21,8 +21,7 @@ static cs_u32 beginning_of(cs_u32 pattern)
 static int can_share_out(const cs_job *job)
 {
     return cs_sampler_is_progressive(job->pattern.sampler) && job->replicates >= CS_BEGINNINGS &&
-           job->pattern.grid.count >= CS_LEAST_TO_SHARE_OUT && job->planes == 0 &&
-           job->base == NULL;
+           job->pattern.grid.count >= CS_LEAST_TO_SHARE_OUT && job->base == NULL;
 }
 
 clshear_status cs_adaptive_plan(cs_job *job, cs_error *error)
@@ -37,7 +36,7 @@ clshear_status cs_adaptive_plan(cs_job *job, cs_error *error)
             return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
                            job->pixel_count);
     }
-    return CLSHEAR_OK;
+    return cs_adaptive_reserve_aovs(job, error);
 }
 
 static void free_batches(cs_share *share)
@@ -54,7 +53,9 @@ void cs_adaptive_free(cs_adaptive *adaptive)
         free_batches(share);
         free(share->samples);
         free(share->beginning);
+        free(share->aovs);
     }
+    free(adaptive->aov_means);
 }
 
 /* What is done to the state of a pixel on the host. */
@@ -122,6 +123,7 @@ static clshear_status draw_beginning(cs_job *job, cs_pass *pass, cs_u32 replicat
         cs_batch_free(&batch);
     }
     CS_TRY(change_pixels(job, &taking, error));
+    CS_TRY(cs_adaptive_take_aovs(job, replicate, error));
     job->adaptive.drawn++;
 done:
     cs_batch_free(&batch);
@@ -220,11 +222,16 @@ static clshear_status draw_replicate(cs_job *job, cs_pass *pass, cs_u32 replicat
     const int has_begun = replicate < CS_BEGINNINGS;
     if (has_begun || replicate < 2 * CS_BEGINNINGS)
         CS_TRY(make_batches(job, share, has_begun ? job->adaptive.begin : 0, error));
-    if (has_begun) CS_TRY(change_pixels(job, &putting, error));
-    job->adaptive.completed = replicate + 1;
+    if (has_begun) {
+        CS_TRY(change_pixels(job, &putting, error));
+        CS_TRY(cs_adaptive_put_aovs(job, replicate, error));
+    }
+    job->adaptive.begun = replicate + 1;
     CS_TRY(cs_resume_begin(job, replicate, error));
     CS_TRY(cs_pass_replicate(pass, share->batches, share->batch_count, replicate, error));
     CS_TRY(cs_resume_end(job, replicate, error));
+    CS_TRY(cs_adaptive_close_aovs(job, replicate, error));
+    job->adaptive.closed = replicate + 1;
 done:
     return status;
 }
@@ -235,7 +242,9 @@ clshear_status cs_adaptive_run(cs_job *job, cs_pass *pass, cs_error *error)
     clshear_status status = begin(job, pass, error);
     for (cs_u32 r = 0; r < job->replicates && status == CLSHEAR_OK; r++)
         status = draw_replicate(job, pass, r, error);
-    return status;
+    if (status != CLSHEAR_OK && status != CS_CANCELLED) return status;
+    const clshear_status settled = cs_adaptive_settle_aovs(job, error);
+    return settled == CLSHEAR_OK ? status : settled;
 }
 
 double cs_adaptive_mean(const cs_job *job, const cs_pixel *pixel, size_t index, int colour)
@@ -246,7 +255,7 @@ double cs_adaptive_mean(const cs_job *job, const cs_pixel *pixel, size_t index, 
     const double pending = (double)pixel->sum[colour] + (double)pixel->carry[colour];
     /* Beginnings that no pattern contains yet. */
     double sum = 0.0, count = 0.0;
-    for (cs_u32 r = adaptive->completed; r < adaptive->drawn; r++) {
+    for (cs_u32 r = adaptive->begun; r < adaptive->drawn; r++) {
         const cs_exact_sum *beginning = &adaptive->shares[r].beginning[3 * index + (size_t)colour];
         sum += ((double)beginning->sum + (double)beginning->carry) / adaptive->begin;
         count++;

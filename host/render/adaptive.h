@@ -29,21 +29,24 @@ enum {
 typedef struct cs_share {
     cs_u32 *samples;         /* in a pattern of each pixel */
     cs_exact_sum *beginning; /* sums of replicate 0's or 1's: three colours of each pixel */
+    cs_exact_sum *aovs;      /* likewise, of the planes of each pixel; NULL: none */
     cs_batch batches[CS_MOST_BATCHES];
     size_t batch_count;
 } cs_share;
 
 /* Start from zeros. */
 typedef struct cs_adaptive {
-    cs_u32 begin;     /* samples of a beginning; 0: the job does not share out in this way */
-    cs_u32 drawn;     /* beginnings that are complete */
-    cs_u32 completed; /* replicates that went on from their beginning, or were drawn without one */
+    cs_u32 begin;  /* samples of a beginning; 0: the job does not share out in this way */
+    cs_u32 drawn;  /* beginnings that are complete */
+    cs_u32 begun;  /* replicates that went on from their beginning, or are drawn without one */
+    cs_u32 closed; /* replicates that are complete */
     cs_share shares[CS_BEGINNINGS];
+    double *aov_means; /* sums over the closed replicates of the means of their planes */
 } cs_adaptive;
 
 /* Whether the job's samples can be shared out in this way: a progressive sampler, two replicates or
- * more of CS_LEAST_TO_SHARE_OUT samples, no AOVs (whose sums weigh samples equally), and nothing
- * that needs patterns of one size. Then reserves what it takes. */
+ * more of CS_LEAST_TO_SHARE_OUT samples, and nothing that is continued. Then reserves what it
+ * takes. */
 clshear_status cs_adaptive_plan(struct cs_job *job, cs_error *error);
 void cs_adaptive_free(cs_adaptive *adaptive);
 
@@ -52,5 +55,14 @@ clshear_status cs_adaptive_run(struct cs_job *job, cs_pass *pass, cs_error *erro
 
 /* The mean of a colour of a pixel, of whatever is drawn. */
 double cs_adaptive_mean(const struct cs_job *job, const cs_pixel *pixel, size_t index, int colour);
+
+/* The AOVs of a job that has some; of others these do nothing. Reserves memory; takes the sums of a
+ * beginning off the device; puts them back; takes those of a complete replicate off it; and, in the
+ * end, puts there what resolves to the mean of whatever is drawn. */
+clshear_status cs_adaptive_reserve_aovs(struct cs_job *job, cs_error *error);
+clshear_status cs_adaptive_take_aovs(struct cs_job *job, cs_u32 replicate, cs_error *error);
+clshear_status cs_adaptive_put_aovs(struct cs_job *job, cs_u32 replicate, cs_error *error);
+clshear_status cs_adaptive_close_aovs(struct cs_job *job, cs_u32 replicate, cs_error *error);
+clshear_status cs_adaptive_settle_aovs(struct cs_job *job, cs_error *error);
 
 #endif
