@@ -4,6 +4,7 @@
 #define CS_KERNELS_DRAW_H
 
 #include "clshear/device/shear.h"
+#include "kernels/motion.h"
 #include "launch.h"
 
 typedef struct cs_place {
@@ -12,6 +13,9 @@ typedef struct cs_place {
     cs_u32 state; /* index in the buffer of pixels */
     cs_u32 key;   /* of the pixel's current pattern */
     cs_f32 shear; /* of its tuples, pixels */
+#if CS_HAS(MOTION)
+    cs_velocity velocity; /* of what it sees on the film */
+#endif
 } cs_place;
 
 /* Pixel `number` of the crop, row by row, which is the launch's pixel `index`. */
@@ -36,11 +40,31 @@ typedef struct cs_drawn {
     cs_f32 shear[CS_TOGETHER];
     cs_vint active[CS_TOGETHER]; /* lanes that are samples of the pattern */
     cs_camera_sample point[CS_TOGETHER];
+#if CS_HAS(MOTION)
+    cs_vfloat time[CS_TOGETHER]; /* of the shutter, 0 to 1 */
+#endif
     cs_pair light[CS_TOGETHER]; /* the tuple's slot, if there are area lights */
 #if CS_HAS(PATHS)
     cs_vuint index[CS_TOGETHER]; /* in the pattern */
 #endif
 } cs_drawn;
+
+/* The pair of samples `index` for area lights. Under the equal-area shear it takes the place of the
+ * lens's pair in `point`, a tuple, and the lens gets the light's own: the first pair decides what
+ * is seen and the light's pair whether it is lit, while the lens's only moves along the fibre. So
+ * those two should be the pair that the sampler makes together. */
+static inline cs_pair cs_draw_light(const cs_launch *launch, cs_sample_table sample_table,
+                                    cs_u32 key, cs_vuint index, cs_camera_sample *point)
+{
+    cs_pair light = cs_draw_extra(&launch->pattern, sample_table, key, index, CS_SLOT_LIGHT);
+    if (launch->shear_mode != (cs_u32)CS_SHEAR_EQUAL_AREA) return light;
+    cs_pair lens = light;
+    light.x = point->u;
+    light.y = point->v;
+    point->u = lens.x;
+    point->v = lens.y;
+    return light;
+}
 
 /* One packet of them, which begins at place `start` of the pixel's order, up to `end`. */
 static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sample_table,
@@ -59,19 +83,28 @@ static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sampl
     cs_draw(&launch->pattern, sample_table, place->key, index, tuple);
     cs_camera_sample point = {tuple[CS_AT_FILM], tuple[CS_END_FILM], tuple[CS_AT_LENS],
                               tuple[CS_END_LENS]};
-    drawn->place[k] = number;
-    drawn->shear[k] = place->shear;
-    drawn->active[k] = active;
-    drawn->point[k] =
-        cs_shear_alone(point, launch->shear_mode, &launch->camera.optics, lens_table, place->shear);
-#if CS_HAS(PATHS)
-    drawn->index[k] = index;
-#endif
     drawn->light[k].x = (cs_vfloat)(0.0f);
     drawn->light[k].y = (cs_vfloat)(0.0f);
     if (launch->area_lights > 0u)
-        drawn->light[k] =
-            cs_draw_extra(&launch->pattern, sample_table, place->key, index, CS_SLOT_LIGHT);
+        drawn->light[k] = cs_draw_light(launch, sample_table, place->key, index, &point);
+    drawn->place[k] = number;
+    drawn->shear[k] = place->shear;
+    drawn->active[k] = active;
+#if CS_HAS(MOTION)
+    cs_vfloat time = cs_draw_time(&launch->pattern, sample_table, place->key, index,
+                                  launch->area_lights > 0u, &point);
+    cs_moving_sample moving =
+        cs_shear_moving(point, time, launch->shear_mode, &launch->camera.optics, lens_table,
+                        place->shear, place->velocity);
+    drawn->point[k] = moving.point;
+    drawn->time[k] = moving.time;
+#else
+    drawn->point[k] =
+        cs_shear_alone(point, launch->shear_mode, &launch->camera.optics, lens_table, place->shear);
+#endif
+#if CS_HAS(PATHS)
+    drawn->index[k] = index;
+#endif
 }
 
 /* Draws the next packets of a few pixels from place `start` of their order on, up to `end`: of one
@@ -84,8 +117,10 @@ static inline void cs_draw_packets(const cs_launch *launch, cs_sample_table samp
     for (int number = 0; number < count; number++)
         for (cs_u32 at = start; drawn->count < CS_TOGETHER && at < end; at += (cs_u32)CS_PACKET)
             cs_draw_packet(launch, sample_table, lens_table, places, number, at, end, drawn);
+#if !CS_HAS(MOTION)
     cs_shear_together(drawn->point, drawn->shear, drawn->count, launch->shear_mode,
                       &launch->camera.optics);
+#endif
 }
 
 #endif

@@ -18,10 +18,17 @@ static cs_u32 beginning_of(cs_u32 pattern)
     return part > least ? part : least;
 }
 
+/* Stop rules, shards and checkpoints need all patterns to be planned before the first sample. */
+static int is_planned_ahead(const cs_job *job)
+{
+    return job->base != NULL || job->shards > 1 || cs_stop_has_rules(&job->stop) ||
+           cs_is_set(&job->settings, CHECKPOINT);
+}
+
 static int can_share_out(const cs_job *job)
 {
-    return cs_sampler_is_progressive(job->pattern.sampler) && job->replicates >= CS_BEGINNINGS &&
-           job->pattern.grid.count >= CS_LEAST_TO_SHARE_OUT && job->base == NULL;
+    return cs_sampler_is_progressive(job->pattern.sampler) && job->replicates == CS_BEGINNINGS &&
+           job->pattern.grid.count >= CS_LEAST_TO_SHARE_OUT && !is_planned_ahead(job);
 }
 
 clshear_status cs_adaptive_plan(cs_job *job, cs_error *error)
@@ -130,8 +137,8 @@ done:
     return status;
 }
 
-/* The sizes of a kind of patterns, powers of two from that of the beginning on: by what the other
- * kind's beginning has found in the pixel, and both in its neighbours (`near`). */
+/* The sizes of a replicate's patterns, powers of two from that of the beginning on: by what the
+ * other's beginning has found in the pixel, and both in its neighbours (`near`). */
 static clshear_status size_patterns(cs_job *job, const finding *other, const finding *near,
                                     cs_u32 *samples, cs_error *error)
 {
@@ -150,8 +157,8 @@ static clshear_status size_patterns(cs_job *job, const finding *other, const fin
     return cs_allocate_samples(&picture, &range, samples, error);
 }
 
-/* Batches of the pixels whose patterns have more than `had` samples, one for each size. */
-static clshear_status make_batches(cs_job *job, cs_share *share, cs_u32 had, cs_error *error)
+/* Batches of the pixels whose patterns go on after the beginning, one for each size. */
+static clshear_status make_batches(cs_job *job, cs_share *share, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
@@ -159,10 +166,10 @@ static clshear_status make_batches(cs_job *job, cs_share *share, cs_u32 had, cs_
     cs_u32 *list = malloc(job->pixel_count * sizeof *list);
     CS_REQUIRE(list != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
                job->pixel_count);
-    free_batches(share);
-    for (cs_u32 size = job->adaptive.begin; size <= CS_MAX_PATTERN; size *= 2) {
+    const cs_u32 had = job->adaptive.begin;
+    for (cs_u32 size = 2 * had; size <= CS_MAX_PATTERN; size *= 2) {
         size_t count = 0;
-        for (size_t i = 0; i < job->pixel_count && size > had; i++) {
+        for (size_t i = 0; i < job->pixel_count; i++) {
             const cs_u32 pixel = cs_tiled_pixel((cs_u32)i, width, height);
             if (share->samples[pixel] == size) list[count++] = pixel;
         }
@@ -213,19 +220,15 @@ done:
     return status;
 }
 
-/* Draws the rest of replicate 0 or 1, or all of a later one. */
+/* Draws the rest of a replicate. */
 static clshear_status draw_replicate(cs_job *job, cs_pass *pass, cs_u32 replicate, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_share *share = &job->adaptive.shares[replicate % CS_BEGINNINGS];
+    cs_share *share = &job->adaptive.shares[replicate];
     const change putting = {put_back, share};
-    const int has_begun = replicate < CS_BEGINNINGS;
-    if (has_begun || replicate < 2 * CS_BEGINNINGS)
-        CS_TRY(make_batches(job, share, has_begun ? job->adaptive.begin : 0, error));
-    if (has_begun) {
-        CS_TRY(change_pixels(job, &putting, error));
-        CS_TRY(cs_adaptive_put_aovs(job, replicate, error));
-    }
+    CS_TRY(make_batches(job, share, error));
+    CS_TRY(change_pixels(job, &putting, error));
+    CS_TRY(cs_adaptive_put_aovs(job, replicate, error));
     job->adaptive.begun = replicate + 1;
     CS_TRY(cs_resume_begin(job, replicate, error));
     CS_TRY(cs_pass_replicate(pass, share->batches, share->batch_count, replicate, error));

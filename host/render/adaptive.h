@@ -1,14 +1,13 @@
 /* Renders that share samples out between pixels by need, and keep all of them.
  *
- * The first two replicates begin with the same few samples in every pixel. How many a pixel has in
- * replicates 1, 3, 5, ... is decided by its samples in the beginning of replicate 0; in replicates
- * 0, 2, 4, ... by those of replicate 1. Then each pattern is drawn to its end, the beginnings as
- * parts of theirs. Pixels that need no more than the beginning are not drawn again.
+ * Two replicates begin with the same few samples in every pixel. How many a pixel has in one is
+ * decided by its samples in the beginning of the other. Then each pattern is drawn to its end, its
+ * beginning a part of it. Pixels that need no more than the beginning are not drawn again.
  *
  * Unbiased: the size of a pattern is a function of another replicate's samples, which are
  * independent of its own; so, given its size, its mean has the expected value of every pattern of
  * that size, which is the pixel's. Samples of other pixels are independent of it too, and both
- * beginnings of the neighbours may be looked at. The pixel is the mean of its replicates with equal
+ * beginnings of the neighbours may be looked at. The pixel is the mean of both with equal
  * weights: weights by size would depend on the samples that they weigh. */
 #ifndef CS_RENDER_ADAPTIVE_H
 #define CS_RENDER_ADAPTIVE_H
@@ -21,14 +20,14 @@ struct cs_job;
 
 enum {
     CS_MOST_BATCHES = 24,
-    CS_BEGINNINGS = 2,         /* replicates with one, and kinds of replicates: even and odd */
+    CS_BEGINNINGS = 2,         /* replicates */
     CS_LEAST_TO_SHARE_OUT = 8, /* samples in a pattern */
 };
 
-/* One kind of replicates, even or odd. */
+/* One of the replicates. */
 typedef struct cs_share {
     cs_u32 *samples;         /* in a pattern of each pixel */
-    cs_exact_sum *beginning; /* sums of replicate 0's or 1's: three colours of each pixel */
+    cs_exact_sum *beginning; /* sums of three colours of each pixel */
     cs_exact_sum *aovs;      /* likewise, of the planes of each pixel; NULL: none */
     cs_batch batches[CS_MOST_BATCHES];
     size_t batch_count;
@@ -38,19 +37,19 @@ typedef struct cs_share {
 typedef struct cs_adaptive {
     cs_u32 begin;  /* samples of a beginning; 0: the job does not share out in this way */
     cs_u32 drawn;  /* beginnings that are complete */
-    cs_u32 begun;  /* replicates that went on from their beginning, or are drawn without one */
+    cs_u32 begun;  /* replicates that went on from their beginning */
     cs_u32 closed; /* replicates that are complete */
     cs_share shares[CS_BEGINNINGS];
     double *aov_means; /* sums over the closed replicates of the means of their planes */
 } cs_adaptive;
 
-/* Whether the job's samples can be shared out in this way: a progressive sampler, two replicates or
- * more of CS_LEAST_TO_SHARE_OUT samples, and nothing that is continued. Then reserves what it
- * takes. */
+/* Whether the job's samples can be shared out in this way: a progressive sampler, two replicates of
+ * CS_LEAST_TO_SHARE_OUT samples or more, and nothing that is continued, has a stop rule, is a shard
+ * or has a checkpoint. Then reserves what it takes. */
 clshear_status cs_adaptive_plan(struct cs_job *job, cs_error *error);
 void cs_adaptive_free(cs_adaptive *adaptive);
 
-/* Draws all replicates of the job. */
+/* Draws the replicates of the job. */
 clshear_status cs_adaptive_run(struct cs_job *job, cs_pass *pass, cs_error *error);
 
 /* The mean of a colour of a pixel, of whatever is drawn. */

@@ -48,7 +48,7 @@ static void put(cs_job *job, cs_u32 replicate, size_t index, const cs_pixel *pix
 static void close(cs_job *job, cs_u32 replicate, size_t index, const cs_pixel *pixel,
                   cs_exact_sum *sums)
 {
-    const double samples = job->adaptive.shares[replicate % CS_BEGINNINGS].samples[index];
+    const double samples = job->adaptive.shares[replicate].samples[index];
     double *means = job->adaptive.aov_means + index * job->pixels.planes;
     (void)pixel;
     for (size_t k = 0; k < job->pixels.planes; k++) {
@@ -77,10 +77,10 @@ static void settle(cs_job *job, cs_u32 replicate, size_t index, const cs_pixel *
         return;
     }
     /* The replicate in progress, if there is one. */
-    const cs_u32 size = adaptive->shares[replicate % CS_BEGINNINGS].samples[index];
-    const cs_u32 open = adaptive->begun == adaptive->closed  ? 0
-                        : pixel->patterns > adaptive->closed ? size
-                                                             : pixel->pending;
+    const cs_u32 open = adaptive->begun == adaptive->closed ? 0
+                        : pixel->patterns > adaptive->closed
+                            ? adaptive->shares[replicate].samples[index]
+                            : pixel->pending;
     for (size_t k = 0; k < planes; k++) {
         double sum = adaptive->aov_means[index * planes + k], count = adaptive->closed;
         if (open > 0) sum += total_of(sums[k]) / open, count++;
