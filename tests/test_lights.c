@@ -171,6 +171,36 @@ static void sun_behind_an_edge(void **state)
     clshear_scene_free(scene);
 }
 
+/* In a penumbra, what a sample sees and which part of the sun lights it decide together. The
+ * equal-area shear gives these two the four dimensions of `sz` and leaves the place along the fibre
+ * to padding. The variance without the shear, which pads the light, is 5.6 times that with it. Both
+ * are means over 16 pixels with 240 degrees of freedom: the ratio has a standard error of 13 %, and
+ * the limit is 6 of them below (false alarms 1e-9). If the light were padded, it would be near 1. */
+static void light_is_paired_with_the_fibre(void **state)
+{
+    clshear_scene *scene = floor_and_half_plane(*state);
+    const clshear_light light = {.kind = CLSHEAR_LIGHT_DIRECTIONAL,
+                                 .direction = {0, 2, 0},
+                                 .colour = {3, 3, 3},
+                                 .diameter_deg = 10.0f};
+    double error[2];
+    test_add_light(scene, &light);
+    for (int sheared = 0; sheared < 2; sheared++) {
+        clshear_settings *settings = looking_down_at(0.0, 16 * 1024);
+        test_set_number(settings, CLSHEAR_FOV, 60.0);
+        test_set_number(settings, CLSHEAR_LENS_RADIUS, 0.5);
+        test_set_number(settings, CLSHEAR_FOCAL_DISTANCE, 3.0);
+        test_set(settings, CLSHEAR_SAMPLER, "sz");
+        test_set(settings, CLSHEAR_SHEAR, sheared ? "equal-area" : "none");
+        test_set(settings, CLSHEAR_ORACLE, "centre");
+        error[sheared] = render(scene, settings).error;
+    }
+    const double ratio = error[0] * error[0] / (error[1] * error[1]);
+    print_message("variance without shear over variance with it: %.2f\n", ratio);
+    assert_above(ratio, 2.5);
+    clshear_scene_free(scene);
+}
+
 /* The tilted sun's irradiance falls with the cosine, however large it is, while it is all up. */
 static void sun_from_the_side(void **state)
 {
@@ -500,6 +530,7 @@ int main(void)
         cmocka_unit_test(spot_over_a_floor),
         cmocka_unit_test(spots_may_be_narrow_or_sharp),
         cmocka_unit_test(sun_behind_an_edge),
+        cmocka_unit_test(light_is_paired_with_the_fibre),
         cmocka_unit_test(sun_from_the_side),
         cmocka_unit_test(even_environment),
         cmocka_unit_test(texels_are_where_they_should_be),

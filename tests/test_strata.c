@@ -172,6 +172,35 @@ static void nets_fill_elementary_intervals(void **state)
     }
 }
 
+/* All six dimensions of `sobol`, two at a time: the quality parameter of a pair is the sum of its
+ * degrees - 1, and boxes with 2^quality points each have exactly so many (Niederreiter 1992). */
+static void sobol_has_six_dimensions(void **state)
+{
+    static const cs_u32 quality[CS_DIMENSIONS] = {0, 0, 1, 2, 2, 3};
+    enum {
+        BITS = 9,
+        POINTS = 1 << BITS
+    };
+    static cs_f32 tuples[POINTS][CS_DIMENSIONS];
+    test_pattern drawn = test_pattern_of(CS_SAMPLER_SOBOL, POINTS, CS_ORDER_COHERENT);
+    (void)state;
+    for (cs_u32 i = 0; i < POINTS; i++)
+        test_draw(&drawn, 7, i, tuples[i]);
+    for (int d = 0; d < CS_DIMENSIONS; d++)
+        for (int e = 0; e < d; e++)
+            for (cs_u32 wide = 0, bits = BITS - quality[d] - quality[e]; wide <= bits; wide++) {
+                cs_u32 hits[POINTS] = {0};
+                for (cs_u32 i = 0; i < POINTS; i++) {
+                    const cs_u32 column = (cs_u32)(tuples[i][d] * (cs_f32)(1u << wide));
+                    const cs_u32 row = (cs_u32)(tuples[i][e] * (cs_f32)(1u << (bits - wide)));
+                    hits[row << wide | column]++;
+                }
+                for (cs_u32 box = 0; box < 1u << bits; box++)
+                    assert_int_equal(hits[box], POINTS >> bits);
+            }
+    test_pattern_free(&drawn);
+}
+
 /* Boxes with sides of powers of the bases, as many as points. */
 static void halton_fills_elementary_intervals(void **state)
 {
@@ -285,6 +314,7 @@ int main(void)
         cmocka_unit_test(hypergrids_are_stratified),
         cmocka_unit_test(orthogonal_arrays_are_orthogonal),
         cmocka_unit_test(nets_fill_elementary_intervals),
+        cmocka_unit_test(sobol_has_six_dimensions),
         cmocka_unit_test(halton_fills_elementary_intervals),
         cmocka_unit_test(blue_noise_keeps_its_distance),
         cmocka_unit_test(equal_capacity_has_no_low_frequencies),

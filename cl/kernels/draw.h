@@ -49,6 +49,23 @@ typedef struct cs_drawn {
 #endif
 } cs_drawn;
 
+/* The pair of samples `index` for area lights. Under the equal-area shear it takes the place of the
+ * lens's pair in `point`, a tuple, and the lens gets the light's own: the first pair decides what
+ * is seen and the light's pair whether it is lit, while the lens's only moves along the fibre. So
+ * those two should be the pair that the sampler makes together. */
+static inline cs_pair cs_draw_light(const cs_launch *launch, cs_sample_table sample_table,
+                                    cs_u32 key, cs_vuint index, cs_camera_sample *point)
+{
+    cs_pair light = cs_draw_extra(&launch->pattern, sample_table, key, index, CS_SLOT_LIGHT);
+    if (launch->shear_mode != (cs_u32)CS_SHEAR_EQUAL_AREA) return light;
+    cs_pair lens = light;
+    light.x = point->u;
+    light.y = point->v;
+    point->u = lens.x;
+    point->v = lens.y;
+    return light;
+}
+
 /* One packet of them, which begins at place `start` of the pixel's order, up to `end`. */
 static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sample_table,
                                   cs_optics_table lens_table, const cs_place *places, int number,
@@ -66,11 +83,16 @@ static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sampl
     cs_draw(&launch->pattern, sample_table, place->key, index, tuple);
     cs_camera_sample point = {tuple[CS_AT_FILM], tuple[CS_END_FILM], tuple[CS_AT_LENS],
                               tuple[CS_END_LENS]};
+    drawn->light[k].x = (cs_vfloat)(0.0f);
+    drawn->light[k].y = (cs_vfloat)(0.0f);
+    if (launch->area_lights > 0u)
+        drawn->light[k] = cs_draw_light(launch, sample_table, place->key, index, &point);
     drawn->place[k] = number;
     drawn->shear[k] = place->shear;
     drawn->active[k] = active;
 #if CS_HAS(MOTION)
-    cs_vfloat time = cs_draw_time(&launch->pattern, sample_table, place->key, index, &point);
+    cs_vfloat time = cs_draw_time(&launch->pattern, sample_table, place->key, index,
+                                  launch->area_lights > 0u, &point);
     cs_moving_sample moving =
         cs_shear_moving(point, time, launch->shear_mode, &launch->camera.optics, lens_table,
                         place->shear, place->velocity);
@@ -83,11 +105,6 @@ static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sampl
 #if CS_HAS(PATHS)
     drawn->index[k] = index;
 #endif
-    drawn->light[k].x = (cs_vfloat)(0.0f);
-    drawn->light[k].y = (cs_vfloat)(0.0f);
-    if (launch->area_lights > 0u)
-        drawn->light[k] =
-            cs_draw_extra(&launch->pattern, sample_table, place->key, index, CS_SLOT_LIGHT);
 }
 
 /* Draws the next packets of a few pixels from place `start` of their order on, up to `end`: of one

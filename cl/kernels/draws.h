@@ -20,13 +20,12 @@ typedef struct cs_draws {
     cs_vuint index;
 } cs_draws;
 
-/* A pair for surface number `depth` of the paths. Each is a slot with a key of its own, as well
- * stratified as the light's, and combined with the others at random (padding: Kollig & Keller
- * 2002, section 3). */
+/* A pair for surface number `depth` of the paths. Each is padding with a key of its own, as well
+ * stratified as the pairs of a tuple. */
 static inline cs_pair cs_draw_at(const cs_draws *draws, cs_u32 depth, cs_u32 purpose)
 {
     cs_u32 key = cs_key(draws->key, CS_KEY_BOUNCES + depth * (cs_u32)CS_DRAW_PURPOSES + purpose);
-    return cs_draw_extra(draws->pattern, draws->table, key, draws->index, CS_SLOT_LIGHT);
+    return cs_draw_padding(draws->pattern, draws->table, key, draws->index, CS_SLOT_LIGHT);
 }
 
 #endif

@@ -2,8 +2,9 @@
  * camera at rest.
  *
  * A sample's time comes beside its tuple. Samplers that stratify film and lens together give it
- * their third coordinate, and the place on the fibre along y a pair of its own; the others have
- * pairs anyway, and the time is one more. */
+ * their third coordinate; the place on the fibre then has the fourth and one from beside, which
+ * for `sobol` is the fifth of the same net. The others have pairs anyway, and the time is one more.
+ */
 #ifndef CS_KERNELS_MOTION_H
 #define CS_KERNELS_MOTION_H
 
@@ -79,11 +80,15 @@ static inline int cs_is_joint(cs_u32 sampler)
 }
 
 /* The time's number of a tuple, in [0, 1); the tuple's lens pair may change. key: of the pattern.
- */
+ * has_light: whether the slot of lights is taken; else the time may use its numbers. */
 static inline cs_vfloat cs_draw_time(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
-                                     cs_vuint index, cs_camera_sample *tuple)
+                                     cs_vuint index, int has_light, cs_camera_sample *tuple)
 {
-    cs_pair beside = cs_draw_extra(pattern, table, cs_key(key, CS_KEY_TIME), index, CS_SLOT_LIGHT);
+    cs_pair beside;
+    if (has_light)
+        beside = cs_draw_padding(pattern, table, cs_key(key, CS_KEY_TIME), index, CS_SLOT_LIGHT);
+    else
+        beside = cs_draw_extra(pattern, table, key, index, CS_SLOT_LIGHT);
     if (!cs_is_joint(pattern->sampler)) return beside.x;
     cs_vfloat time = tuple->u;
     tuple->u = tuple->v;

@@ -43,6 +43,8 @@ static inline cs_shape cs_shape_of(CS_GLOBAL const cs_triangle *triangle,
     return shape;
 }
 
+typedef const cs_shape *cs_shape_pointer;
+
 #define CS_SHAPE_AT(scene, index) \
     cs_shape_of((scene)->triangles + (index), (scene)->triangle_steps + (index), (scene)->time)
 
@@ -52,6 +54,7 @@ static inline cs_shape cs_shape_of(CS_GLOBAL const cs_triangle *triangle,
 typedef cs_f32 cs_shape_number;
 
 typedef cs_triangle cs_shape;
+typedef CS_GLOBAL const cs_triangle *cs_shape_pointer;
 
 #define CS_SHAPE_AT(scene, index) (scene)->triangles[index]
 

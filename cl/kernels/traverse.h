@@ -19,6 +19,11 @@ typedef struct cs_walk {
     cs_vfloat inverse[3]; /* of the direction */
     cs_vfloat offset[3];  /* -origin * inverse: slab tests are one multiply-add a plane */
     cs_vint active;       /* lanes of the octant that is walked */
+#if CS_HAS(MOVING)
+    CS_GLOBAL const cs_node_step *node_steps;
+    CS_GLOBAL const cs_triangle_step *triangle_steps;
+    cs_vfloat time;
+#endif
 } cs_walk;
 
 /* A plane of a box. */
@@ -30,20 +35,20 @@ typedef struct cs_walk {
 
 /* Distances at which the lanes enter the box of child `side`; lanes that miss it are cleared in
  * `hit`. */
-static inline cs_vfloat cs_enter_box(const cs_scene_buffers *scene, cs_u32 index, int side,
+static inline cs_vfloat cs_enter_box(CS_GLOBAL const cs_node *nodes, cs_u32 index, int side,
                                      const cs_walk *walk, const int *negative, cs_vfloat limit,
                                      cs_vint *hit)
 {
-    CS_GLOBAL const cs_node *node = scene->nodes + index;
+    CS_GLOBAL const cs_node *node = nodes + index;
     CS_GLOBAL const cs_f32 *x = node->bounds[side][0];
     CS_GLOBAL const cs_f32 *y = node->bounds[side][1];
     CS_GLOBAL const cs_f32 *z = node->bounds[side][2];
 #if CS_HAS(MOVING)
-    CS_GLOBAL const cs_node_step *step = scene->node_steps + index;
+    CS_GLOBAL const cs_node_step *step = walk->node_steps + index;
     CS_GLOBAL const cs_f32 *x_step = step->bounds[side][0];
     CS_GLOBAL const cs_f32 *y_step = step->bounds[side][1];
     CS_GLOBAL const cs_f32 *z_step = step->bounds[side][2];
-    cs_vfloat time = scene->time;
+    cs_vfloat time = walk->time;
 #endif
     cs_vfloat near_x = fma(CS_PLANE_OF(x, negative[0]), walk->inverse[0], walk->offset[0]);
     cs_vfloat near_y = fma(CS_PLANE_OF(y, negative[1]), walk->inverse[1], walk->offset[1]);
@@ -59,23 +64,17 @@ static inline cs_vfloat cs_enter_box(const cs_scene_buffers *scene, cs_u32 index
 
 /* Asks for what a node's child refers to, which is wanted once the boxes are tested: 6 to 8 % of
  * the frame with 250 000 triangles and more. */
-static inline void cs_prefetch_child(const cs_scene_buffers *scene, cs_u32 child)
+static inline void cs_prefetch_child(CS_GLOBAL const cs_node *nodes,
+                                     CS_GLOBAL const cs_triangle *triangles, cs_u32 child)
 {
     cs_u32 first = child & ((1u << CS_LEAF_SHIFT) - 1u);
-    CS_PREFETCH(child & CS_LEAF ? (size_t)(scene->triangles + first)
-                                : (size_t)(scene->nodes + child));
+    CS_PREFETCH(child & CS_LEAF ? (size_t)(triangles + first) : (size_t)(nodes + child));
 }
 
 /* Test by scaled barycentrics (Möller & Trumbore 1997 with a stored normal). */
-static inline void cs_hit_triangle(const cs_scene_buffers *scene, cs_i32 index, const cs_ray *ray,
+static inline void cs_hit_triangle(cs_shape_pointer triangle, cs_i32 index, const cs_ray *ray,
                                    cs_vint active, const int any_hit, cs_hit *hit)
 {
-#if CS_HAS(MOVING)
-    const cs_shape moved = CS_SHAPE_AT(scene, index);
-    const cs_shape *triangle = &moved;
-#else
-    CS_GLOBAL const cs_triangle *triangle = scene->triangles + index;
-#endif
     cs_vfloat to_x = triangle->corner[0] - ray->origin[0];
     cs_vfloat to_y = triangle->corner[1] - ray->origin[1];
     cs_vfloat to_z = triangle->corner[2] - ray->origin[2];
@@ -108,7 +107,8 @@ static inline void cs_hit_triangle(const cs_scene_buffers *scene, cs_i32 index, 
  *
  * Works on copies: through the caller's pointers every update of the hit might change the ray, and
  * the compiler would fetch it anew at each step. */
-static inline cs_hit cs_walk_octant(const cs_scene_buffers *scene, const cs_ray ray,
+static inline cs_hit cs_walk_octant(CS_GLOBAL const cs_node *nodes,
+                                    CS_GLOBAL const cs_triangle *triangles, const cs_ray ray,
                                     const cs_walk walk, int octant, const int any_hit, cs_hit hit)
 {
     const int negative[3] = {octant & 1, octant >> 1 & 1, octant >> 2 & 1};
@@ -119,14 +119,14 @@ static inline cs_hit cs_walk_octant(const cs_scene_buffers *scene, const cs_ray 
     for (;;) {
         int descend = 0;
         if (!(current & CS_LEAF)) {
-            CS_GLOBAL const cs_node *node = scene->nodes + current;
-            cs_prefetch_child(scene, node->child[0]);
-            cs_prefetch_child(scene, node->child[1]);
+            CS_GLOBAL const cs_node *node = nodes + current;
+            cs_prefetch_child(nodes, triangles, node->child[0]);
+            cs_prefetch_child(nodes, triangles, node->child[1]);
             cs_vint hit0, hit1;
             cs_vfloat enter0 =
-                cs_enter_box(scene, current, 0, &walk, negative, hit.distance, &hit0);
+                cs_enter_box(nodes, current, 0, &walk, negative, hit.distance, &hit0);
             cs_vfloat enter1 =
-                cs_enter_box(scene, current, 1, &walk, negative, hit.distance, &hit1);
+                cs_enter_box(nodes, current, 1, &walk, negative, hit.distance, &hit1);
             int any0 = cs_any(hit0), any1 = cs_any(hit1);
             descend = any0 | any1;
             current = any0 ? node->child[0] : node->child[1];
@@ -143,8 +143,15 @@ static inline cs_hit cs_walk_octant(const cs_scene_buffers *scene, const cs_ray 
         } else {
             cs_u32 first = current & ((1u << CS_LEAF_SHIFT) - 1u);
             cs_u32 last = first + (current >> CS_LEAF_SHIFT & 7u);
-            for (cs_u32 i = first; i <= last; i++)
-                cs_hit_triangle(scene, (cs_i32)i, &ray, walk.active, any_hit, &hit);
+            for (cs_u32 i = first; i <= last; i++) {
+#if CS_HAS(MOVING)
+                const cs_shape moved =
+                    cs_shape_of(triangles + i, walk.triangle_steps + i, walk.time);
+                cs_hit_triangle(&moved, (cs_i32)i, &ray, walk.active, any_hit, &hit);
+#else
+                cs_hit_triangle(triangles + i, (cs_i32)i, &ray, walk.active, any_hit, &hit);
+#endif
+            }
             if (any_hit && !cs_any(hit.distance >= 0.0f)) return hit;
         }
         while (!descend) {
@@ -164,6 +171,11 @@ static inline void cs_traverse(const cs_scene_buffers *scene, const cs_ray *ray,
 {
     cs_walk walk;
     cs_vint octants = (cs_vint)(0);
+#if CS_HAS(MOVING)
+    walk.node_steps = scene->node_steps;
+    walk.triangle_steps = scene->triangle_steps;
+    walk.time = scene->time;
+#endif
     for (int axis = 0; axis < 3; axis++) {
         cs_vfloat d = ray->direction[axis];
         cs_vfloat safe = fabs(d) < 1e-18f ? (cs_vfloat)(1e-18f) : d;
@@ -178,7 +190,7 @@ static inline void cs_traverse(const cs_scene_buffers *scene, const cs_ray *ray,
         if (!cs_any(walk.active)) continue;
         cs_vfloat others = hit->distance;
         hit->distance = walk.active ? hit->distance : (cs_vfloat)(-1.0f);
-        *hit = cs_walk_octant(scene, *ray, walk, octant, any_hit, *hit);
+        *hit = cs_walk_octant(scene->nodes, scene->triangles, *ray, walk, octant, any_hit, *hit);
         hit->distance = walk.active ? hit->distance : others;
     }
 }

@@ -151,7 +151,10 @@ static cs_tone tone_of(const clshear_film *film)
     cs_tone tone = {.exposure = cs_film_float(film, "clshear.exposure")};
     cs_film_int(film, "clshear.autoExposure", &tone.is_auto);
     const char *curve = cs_film_text(film, "clshear.tone");
-    if (curve != NULL && strcmp(curve, "filmic") == 0) tone.curve = CLSHEAR_TONE_FILMIC;
+#define CS_TONE_NAMED(identifier, number, name, meaning) \
+    if (curve != NULL && strcmp(curve, name) == 0) tone.curve = CLSHEAR_TONE_##identifier;
+    CLSHEAR_TONE_LIST(CS_TONE_NAMED)
+#undef CS_TONE_NAMED
     return tone;
 }
 

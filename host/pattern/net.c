@@ -43,21 +43,21 @@ static void set_place(cs_table *table, cs_u32 row, cs_u32 x_reversed, cs_u32 y_r
     table->place[1][row] = cs_reverse_bits(y_reversed);
 }
 
-static int fill_net_table(cs_table *table, const generator *matrices)
+static int fill_net_table(cs_table *table, const generator *matrices, cs_u32 dimensions)
 {
     for (cs_u32 row = 0; row < table->pattern->grid.count; row++) {
         const cs_u32 element = table->pattern->first + row;
-        for (cs_u32 d = 0; d < CS_MAIN_DIMENSIONS; d++)
+        for (cs_u32 d = 0; d < dimensions; d++)
             table->word[d][row] = product(&matrices[d], element);
         set_place(table, row, table->word[0][row], table->word[1][row]);
     }
-    table->words = CS_MAIN_DIMENSIONS;
+    table->words = dimensions;
     cut_binary(table);
     return 1;
 }
 
 /* Sobol' 1967 from primitive polynomials and initial numbers m of Joe & Kuo 2008 (their dimensions
- * 1 to 4): v_c = v_{c-s} ^ v_{c-s} >> s ^ a_1 v_{c-1} ^ ... with v_c = m_c 2^(31-c). */
+ * 1 to 6): v_c = v_{c-s} ^ v_{c-s} >> s ^ a_1 v_{c-1} ^ ... with v_c = m_c 2^(31-c). */
 static void sobol_matrix(cs_u32 degree, cs_u32 coefficients, const cs_u32 *initial,
                          generator *matrix)
 {
@@ -76,15 +76,19 @@ static void sobol_matrix(cs_u32 degree, cs_u32 coefficients, const cs_u32 *initi
 
 int cs_table_sobol(cs_table *table)
 {
-    static const cs_u32 initial[CS_MAIN_DIMENSIONS][3] = {{1, 1, 1}, {1}, {1, 3}, {1, 3, 1}};
-    static const cs_u32 degree[CS_MAIN_DIMENSIONS] = {0, 1, 2, 3},
-                        coefficients[CS_MAIN_DIMENSIONS] = {0, 0, 1, 1};
-    generator matrices[CS_MAIN_DIMENSIONS];
+    enum {
+        DIMENSIONS = CS_END_LIGHT + 1
+    };
+    static const cs_u32 initial[DIMENSIONS][4] = {{1, 1, 1}, {1},       {1, 3},
+                                                  {1, 3, 1}, {1, 1, 1}, {1, 1, 3, 3}};
+    static const cs_u32 degree[DIMENSIONS] = {0, 1, 2, 3, 3, 4},
+                        coefficients[DIMENSIONS] = {0, 0, 1, 1, 2, 1};
+    generator matrices[DIMENSIONS];
     for (int c = 0; c < BITS; c++)
         matrices[0].column[c] = 1u << c;
-    for (int d = 1; d < CS_MAIN_DIMENSIONS; d++)
+    for (int d = 1; d < DIMENSIONS; d++)
         sobol_matrix(degree[d], coefficients[d], initial[d], &matrices[d]);
-    return fill_net_table(table, matrices);
+    return fill_net_table(table, matrices, DIMENSIONS);
 }
 
 /* The (0,4)-sequence in base 4 of Faure and Niederreiter over the field of four elements. Entry (i,
@@ -116,7 +120,7 @@ int cs_table_sz(cs_table *table)
     generator matrices[CS_MAIN_DIMENSIONS];
     for (cs_u32 d = 0; d < CS_MAIN_DIMENSIONS; d++)
         sz_matrix(d, &matrices[d]);
-    return fill_net_table(table, matrices);
+    return fill_net_table(table, matrices, CS_MAIN_DIMENSIONS);
 }
 
 int cs_table_index(cs_table *table)

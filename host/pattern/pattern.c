@@ -173,7 +173,7 @@ typedef struct sampler {
     int progressive;
 } sampler;
 
-#define CS_SAMPLER_ENTRY(identifier, name, draw, extra, shape, table, progressive, about) \
+#define CS_SAMPLER_ENTRY(identifier, name, draw, light, extra, shape, table, progressive, about) \
     {name, about, &shape_rules_##shape, cs_table_##table, progressive},
 
 static const sampler samplers[CS_SAMPLER_COUNT] = {CS_SAMPLER_LIST(CS_SAMPLER_ENTRY)};

@@ -92,6 +92,16 @@ static clshear_status check_counts(cs_job *job, cs_error *error)
     return cs_settings_set(&job->settings, CLSHEAR_REPLICATES, &resolved, 1, error);
 }
 
+/* Without a sampler's name: `sobol` where lights have a size or something moves, because its six
+ * dimensions include theirs or the time; elsewhere the sampler that is best in four. */
+static clshear_status choose_sampler(cs_job *job, cs_error *error)
+{
+    const double of_six = CS_SAMPLER_SOBOL;
+    if (cs_is_set(&job->settings, SAMPLER) || (cs_area_lights(job) == 0 && !job->moves))
+        return CLSHEAR_OK;
+    return cs_settings_set(&job->settings, CLSHEAR_SAMPLER, &of_six, 1, error);
+}
+
 /* The pattern of a replicate; more samples than asked for where the sampler has no such number. */
 static clshear_status choose_pattern(cs_job *job, cs_error *error)
 {
@@ -186,5 +196,6 @@ done:
 clshear_status cs_job_choose_samples(cs_job *job, cs_error *error)
 {
     clshear_status status = check_counts(job, error);
+    if (status == CLSHEAR_OK) status = choose_sampler(job, error);
     return status == CLSHEAR_OK ? choose_pattern(job, error) : status;
 }

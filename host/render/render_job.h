@@ -5,6 +5,7 @@
 #include "film/film.h"
 #include "kernels/launch.h"
 #include "optics/optics.h"
+#include "oracle/oracle.h"
 #include "render/lighting.h"
 #include "render/pass.h"
 #include "render/stop.h"
@@ -95,6 +96,13 @@ clshear_status cs_job_choose_samples(cs_job *job, cs_error *error);
 /* Depths, shears, batches and buffers. When it is cancelled, the job can still be resolved. */
 clshear_status cs_job_plan(cs_job *job, cs_error *error);
 void cs_job_free(cs_job *job);
+
+/* The oracle's shear by a rule for pixel `index` of the window, row by row, whose depths are known.
+ */
+cs_f32 cs_job_shear(const cs_job *job, size_t index, cs_rule rule);
+
+/* How many of the lights are sampled by a pair of the tuple. */
+cs_u32 cs_area_lights(const cs_job *job);
 
 /* A pass over the job's window with its camera, seed and shear. */
 cs_pass cs_job_pass(const cs_job *job);

@@ -109,6 +109,7 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
             film->info.shadow_rays += slice[i].shadow_rays;
             if (slice[i].patterns < fewest) fewest = slice[i].patterns;
         }
+        cs_pixels_release(&job->pixels, first + count); /* the film takes its place */
     }
     for (size_t i = 0; i < job->pixel_count; i++) {
         all->depth[0][i] = job->depth[i].centre;
@@ -116,7 +117,7 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
         all->depth[2][i] = job->depth[i].far;
         all->shear[i] = job->shear_px[i];
         all->rule[i] = (float)job->rule[i];
-        all->blur[i] = fabsf(cs_oracle_shear(&job->camera, &job->depth[i], CS_RULE_CENTRE));
+        all->blur[i] = fabsf(cs_job_shear(job, i, CS_RULE_CENTRE));
     }
     if (fewest < 2) drop_variance(film);
 done:

@@ -5,6 +5,11 @@
 #include "render/resume.h"
 #include "render/rounds.h"
 
+cs_u32 cs_area_lights(const cs_job *job)
+{
+    return job->lighting.area_count + (cs_u32)job->scene->device_scene.needs.textured_emission;
+}
+
 cs_pass cs_job_pass(const cs_job *job)
 {
     const cs_lighting *lighting = &job->lighting;
@@ -21,7 +26,7 @@ cs_pass cs_job_pass(const cs_job *job)
                    .crop_height = (cs_u32)(job->window[3] - job->window[2]),
                    .shear_mode = cs_shear_mode(job->shear_kind),
                    .lights = lighting->count,
-                   .area_lights = lighting->area_count + (cs_u32)needs->textured_emission,
+                   .area_lights = cs_area_lights(job),
                    .see_through = (cs_u32)needs->see_through,
                    .bounces = (cs_u32)cs_integer(&job->settings, BOUNCES),
                    .clamp = (float)cs_number(&job->settings, CLAMP)},

@@ -94,6 +94,7 @@ static const int alternatives[][2] = {
     {CS_INDEX_EYE, CS_INDEX_ORBIT},
     {CS_INDEX_TARGET, CS_INDEX_ORBIT},
     {CS_INDEX_CAMERA, CS_INDEX_ORBIT},
+    {CS_INDEX_FOV, CS_INDEX_ORTHOGRAPHIC},
 };
 
 /* Unsets the alternatives of a setting that was just set. Setting the blades chooses the

@@ -279,6 +279,8 @@ typedef struct clshear_scene_info {
     int file_camera;     /* 1 if the file has a camera */
     double load_s;       /* time spent reading the file */
     double build_s;      /* time spent building the hierarchy */
+    double low[3];       /* corners of the bounding box, in coordinates of the file */
+    double high[3];
 } clshear_scene_info;
 
 /* Reads OBJ, glTF 2.0, PLY, STL or another format that Assimp supports, and completes the scene. Of
@@ -330,18 +332,21 @@ CLSHEAR_API const char *clshear_scene_message(const clshear_scene *scene);
 CLSHEAR_API void clshear_scene_free(clshear_scene *scene);
 
 /* ------------------------------------------------------------------------------------------------
- * Camera: the settings of a pinhole camera with a thin lens
+ * Camera: the settings of a perspective or orthographic camera with a thin lens
  * --------------------------------------------------------------------------------------------- */
 
 /* Sets every camera setting that is not set yet; a render does the same on its own copy of the
  * settings.
- * - Eye, target, up and field of view: from the scene file's camera, the one that
- *   CLSHEAR_CAMERA names or else the first. Without one, the bounding box
- *   fills the picture as seen from the front (looking down -Z).
- * - Focal distance: from CLSHEAR_FOCUS_PIXEL, or from the middle pixel. If that pixel's ray hits
- *   nothing, from the centre of the bounding box.
- * - Lens radius: from CLSHEAR_F_STOP. Without it, a point at infinity blurs over 3 % of the shorter
- *   image axis. */
+ * - Eye, target, up, and field of view or CLSHEAR_ORTHOGRAPHIC: from the scene file's camera, the
+ *   one that CLSHEAR_CAMERA names or else the first. Without one, the scene fills the picture as
+ *   seen from the front and slightly above, or from where CLSHEAR_ORBIT says. CLSHEAR_ORTHOGRAPHIC
+ * 0 becomes the width that shows all of it.
+ * - Focal distance: the focal plane, with its CLSHEAR_TILT, goes through what CLSHEAR_FOCUS_PIXEL
+ *   sees, through CLSHEAR_FOCUS_POINT, or through what the middle pixel sees. If that is nothing,
+ *   the distance is that of the centre of the bounding box.
+ * - Lens radius: from CLSHEAR_F_STOP or CLSHEAR_BLUR. Without them, a point at infinity, or with
+ *   parallel lines of sight the most blurred corner of the bounding box, blurs over 3 % of the
+ *   shorter image axis. */
 CLSHEAR_API clshear_status clshear_camera_complete(const clshear_scene *scene,
                                                    clshear_settings *settings);
 

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 static volatile sig_atomic_t interrupted;
@@ -68,6 +69,20 @@ progress_line progress_start(int quiet)
         .quiet = quiet, .on_terminal = isatty(STDERR_FILENO), .last_percent = -1};
 }
 
+/* Writes the line over the one before, as far as the terminal has columns: a line that wraps would
+ * stay. */
+static void write_over(const char *line)
+{
+    enum {
+        LONGEST = 44
+    };
+    struct winsize size;
+    int columns = LONGEST;
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 && size.ws_col <= LONGEST)
+        columns = size.ws_col - 1;
+    fprintf(stderr, "\r%-*.*s", columns, columns, line);
+}
+
 int progress_report(void *user, const clshear_progress *progress)
 {
     progress_line *state = user;
@@ -83,13 +98,16 @@ int progress_report(void *user, const clshear_progress *progress)
     if (state->quiet || (percent / step == state->last_percent / step && state->last_percent >= 0))
         return interrupting_signal();
     state->last_percent = percent;
-    fprintf(stderr, "%s%3d %%  %.2f Msamples/s",
-            state->on_terminal ? "\r" : "clshear: ", percent / step * step,
-            1e-6 * progress->samples_per_s);
+    char line[128];
+    int used = snprintf(line, sizeof line, "%3d %%  %.2f Msamples/s", percent / step * step,
+                        1e-6 * progress->samples_per_s);
     if (progress->fraction > 0.0) /* else a pilot, which does not know what is left */
-        fprintf(stderr, "  %ld:%02ld:%02ld left", left_s / 3600, left_s / 60 % 60, left_s % 60);
-    if (progress->noise > 0.0) fprintf(stderr, "  noise %.3g %%", 100.0 * progress->noise);
-    fputs(state->on_terminal ? "   " : "\n", stderr);
+        snprintf(line + used, sizeof line - (size_t)used, "  %ld:%02ld:%02ld left", left_s / 3600,
+                 left_s / 60 % 60, left_s % 60);
+    if (state->on_terminal)
+        write_over(line);
+    else
+        fprintf(stderr, "clshear: %s\n", line);
     return interrupting_signal();
 }
 

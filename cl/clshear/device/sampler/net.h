@@ -71,8 +71,20 @@ static inline cs_pair cs_extra_net_pair(const cs_pattern *pattern, cs_sample_tab
     return cs_shuffled_pair(cs_sample_word(pattern, table, 0u, index), key, slot);
 }
 
-/* Four dimensions of one net: `sobol` and `sz`. The table's four words are the coordinates,
- * reversed; the first of them is the element number. */
+/* The light's pair as two more dimensions of the net that the film and lens coordinates are from.
+ * The table has a word for each dimension. */
+static inline cs_pair cs_extra_net_words(const cs_pattern *pattern, cs_sample_table table,
+                                         cs_u32 key, cs_vuint index, cs_u32 slot)
+{
+    cs_u32 first = cs_slot_place(slot);
+    cs_pair point;
+    point.x = cs_scrambled(cs_sample_word(pattern, table, first, index), key, first);
+    point.y = cs_scrambled(cs_sample_word(pattern, table, first + 1u, index), key, first + 1u);
+    return point;
+}
+
+/* Four dimensions of one net: `sobol` and `sz`. The table's first four words are the
+ * coordinates, reversed; the first of them is the element number. */
 CS_DEFINE_DRAW_WORDS(cs_draw_net, cs_scrambled)
 
 /* Pairs of (0,2)-sequences, each shuffled by itself (Kollig & Keller 2002, section 3; the shuffling

@@ -12,7 +12,7 @@
 #include "../fp_contract_off.h"
 
 enum {
-    CS_MOST_WORDS = CS_MAIN_DIMENSIONS /* words that a part of a sample table has for a sample */
+    CS_MOST_WORDS = CS_END_LIGHT + 1 /* words that a part of a sample table has for a sample */
 };
 
 /* Families of keys: each random choice in a pattern has a key of its own, cs_key(key, number). */

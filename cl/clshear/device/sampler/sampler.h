@@ -41,9 +41,9 @@ static inline cs_vuint cs_index_at(const cs_pattern *pattern, cs_u32 key, cs_vui
 static inline void cs_draw(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
                            cs_vuint index, cs_vfloat *tuple)
 {
-#define CS_DRAW_CASE(identifier, name, draw, extra, shape, words, progressive, about) \
-    case CS_SAMPLER_##identifier:                                                     \
-        cs_draw_##draw(pattern, table, key, index, tuple);                            \
+#define CS_DRAW_CASE(identifier, name, draw, light, extra, shape, words, progressive, about) \
+    case CS_SAMPLER_##identifier:                                                            \
+        cs_draw_##draw(pattern, table, key, index, tuple);                                   \
         break;
     switch (pattern->sampler) {
         CS_SAMPLER_LIST(CS_DRAW_CASE)
@@ -51,22 +51,43 @@ static inline void cs_draw(const cs_pattern *pattern, cs_sample_table table, cs_
 #undef CS_DRAW_CASE
 }
 
-/* The coordinates, in [0, 1), of slot `slot` of samples `index`: CS_SLOT_LIGHT or a later slot. The
- * preconditions are those of cs_draw. A slot of one coordinate has it in x. */
-static inline cs_pair cs_draw_extra(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
-                                    cs_vuint index, cs_u32 slot)
+/* A pair in [0, 1) for samples `index` that is combined with all others at random (padding: Kollig
+ * & Keller 2002, section 3), with the keys of slot `slot`. The preconditions are those of cs_draw.
+ */
+static inline cs_pair cs_draw_padding(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
+                                      cs_vuint index, cs_u32 slot)
 {
     cs_pair point;
     point.x = (cs_vfloat)(0.0f);
     point.y = (cs_vfloat)(0.0f);
-#define CS_EXTRA_CASE(identifier, name, draw, extra, shape, words, progressive, about) \
-    case CS_SAMPLER_##identifier:                                                      \
-        point = cs_extra_##extra(pattern, table, key, index, slot);                    \
+#define CS_EXTRA_CASE(identifier, name, draw, light, extra, shape, words, progressive, about) \
+    case CS_SAMPLER_##identifier:                                                             \
+        point = cs_extra_##extra(pattern, table, key, index, slot);                           \
         break;
     switch (pattern->sampler) {
         CS_SAMPLER_LIST(CS_EXTRA_CASE)
     }
 #undef CS_EXTRA_CASE
+    return point;
+}
+
+/* The coordinates, in [0, 1), of slot `slot` of samples `index`: CS_SLOT_LIGHT or a later slot. The
+ * preconditions are those of cs_draw. A slot of one coordinate has it in x. */
+static inline cs_pair cs_draw_extra(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
+                                    cs_vuint index, cs_u32 slot)
+{
+    if (slot != (cs_u32)CS_SLOT_LIGHT) return cs_draw_padding(pattern, table, key, index, slot);
+    cs_pair point;
+    point.x = (cs_vfloat)(0.0f);
+    point.y = (cs_vfloat)(0.0f);
+#define CS_LIGHT_CASE(identifier, name, draw, light, extra, shape, words, progressive, about) \
+    case CS_SAMPLER_##identifier:                                                             \
+        point = cs_extra_##light(pattern, table, key, index, slot);                           \
+        break;
+    switch (pattern->sampler) {
+        CS_SAMPLER_LIST(CS_LIGHT_CASE)
+    }
+#undef CS_LIGHT_CASE
     return point;
 }
 
