@@ -49,7 +49,7 @@ typedef struct cs_launch {
     cs_u32 planes;      /* of AOVs that are kept: a set of CS_PLANE_ numbers */
     cs_u32 goes_on;     /* 1: more samples follow the pattern's last, so it is not finished */
 } cs_launch;
-CS_SHARED_WORDS(cs_launch, 89);
+CS_SHARED_WORDS(cs_launch, 92);
 
 /* How many pixels a work-item draws, so that their packets make CS_TOGETHER.
  * blocks: of a pixel's pattern in the launch. packet: lanes. */

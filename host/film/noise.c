@@ -44,8 +44,8 @@ static double shown(float linear)
                                 : 1.055 * pow((double)linear, 1.0 / 2.4) - 0.055;
 }
 
-/* The error of a pixel on a screen. `tone` has no automatic part any more. */
-static float error_at(const cs_estimate *estimate, const cs_tone *tone, int x, int y)
+/* The error of a pixel on a screen. scale: as of cs_tone_apply. */
+static float error_at(const cs_estimate *estimate, const cs_tone *tone, float scale, int x, int y)
 {
     const size_t pixel = (size_t)y * (size_t)estimate->width + (size_t)x;
     float ends[6]; /* one standard error below the mean, and above */
@@ -56,7 +56,7 @@ static float error_at(const cs_estimate *estimate, const cs_tone *tone, int x, i
         ends[c] = estimate->mean[c][pixel] - deviation;
         ends[3 + c] = estimate->mean[c][pixel] + deviation;
     }
-    cs_tone_apply(tone, ends, 2);
+    cs_tone_apply(tone, scale, ends, 2);
     for (int c = 0; c < 3; c++) {
         const double half = 0.5 * (shown(ends[3 + c]) - shown(ends[c]));
         sum += half * half;
@@ -74,16 +74,12 @@ clshear_status cs_noise_of_pixels(const cs_estimate *estimate, const cs_tone *to
                                   cs_error *error)
 {
     const size_t pixels = pixels_of(estimate);
-    float *memory = malloc(3 * pixels * sizeof *memory);
+    float *memory = malloc(pixels * sizeof *memory);
     if (memory == NULL)
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", pixels);
-    cs_tone fixed = *tone;
-    fixed.is_auto = 0;
-    for (size_t i = 0; i < 3 * pixels; i++)
-        memory[i] = estimate->mean[i % 3][i / 3];
-    if (tone->is_auto) fixed.exposure += log2f(cs_tone_auto_scale(memory, pixels));
+    const float scale = cs_tone_scale(tone, estimate->mean, pixels);
     for (size_t i = 0; i < pixels; i++)
-        memory[i] = error_at(estimate, &fixed, (int)(i % (size_t)estimate->width),
+        memory[i] = error_at(estimate, tone, scale, (int)(i % (size_t)estimate->width),
                              (int)(i / (size_t)estimate->width));
     qsort(memory, pixels, sizeof *memory, by_size);
     *noise = (double)memory[(size_t)(0.95 * (double)(pixels - 1))];

@@ -115,6 +115,9 @@ static clshear_status add_camera(gltf_reader *reader, long long index, const jso
     }
     if (strcmp(gltf_text(json, "type", "perspective"), "perspective") == 0)
         camera->fov = gltf_number(json_object_get(json, "perspective"), "yfov", 0.0);
+    else
+        camera->height =
+            2.0 * fabs(gltf_number(json_object_get(json, "orthographic"), "ymag", 0.0));
     return CLSHEAR_OK;
 }
 

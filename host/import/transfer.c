@@ -185,7 +185,8 @@ static int cameras_are_sound(cs_scene *scene)
         good &= are_within(view->eye, 3, -FLT_MAX, FLT_MAX) &&
                 are_within(view->target, 3, -FLT_MAX, FLT_MAX) &&
                 are_within(view->up, 3, -FLT_MAX, FLT_MAX) &&
-                are_within(&view->fov_deg, 1, 0.0f, 180.0f);
+                are_within(&view->fov_deg, 1, 0.0f, 180.0f) &&
+                are_within(&view->orthographic, 1, 0.0f, FLT_MAX);
     }
     return good;
 }

@@ -4,7 +4,8 @@
 
 #include "clshear/device/lens.h"
 
-cs_f32 cs_oracle_shear(const cs_camera *camera, const cs_depth *depth, cs_rule rule)
+cs_f32 cs_oracle_shear(const cs_camera *camera, cs_f32 x, cs_f32 y, const cs_depth *depth,
+                       cs_rule rule)
 {
     cs_f32 z = INFINITY;
     if (rule == CS_RULE_CENTRE || rule == CS_RULE_LENS)
@@ -12,7 +13,7 @@ cs_f32 cs_oracle_shear(const cs_camera *camera, const cs_depth *depth, cs_rule r
     if (rule == CS_RULE_MEDIAN) z = depth->median;
     if (rule == CS_RULE_NEAR) z = depth->near;
     if (rule == CS_RULE_FAR) z = depth->far;
-    return isfinite(z) ? cs_shear_of_depth(*camera, z) : 0.0f;
+    return isfinite(z) ? cs_shear_at(*camera, x, y, z) : 0.0f;
 }
 
 int cs_rule_has_velocity(cs_rule rule)

@@ -24,10 +24,11 @@ typedef enum cs_rule {
 /* The rule of an oracle. The pilot starts from the centre. */
 cs_rule cs_rule_of(clshear_oracle oracle);
 
-/* The shear for a rule: the signed circle of confusion of the rule's depth, in pixels. If the
- * centre ray hits nothing, the centre rule takes the median depth. Returns 0 for an infinite
- * depth. */
-cs_f32 cs_oracle_shear(const cs_camera *camera, const cs_depth *depth, cs_rule rule);
+/* The shear for a rule: the signed circle of confusion of the rule's depth, in pixels, at raster
+ * position (x, y), which is the middle of the pixel. If the centre ray hits nothing, the centre
+ * rule takes the median depth. Returns 0 for an infinite depth. */
+cs_f32 cs_oracle_shear(const cs_camera *camera, cs_f32 x, cs_f32 y, const cs_depth *depth,
+                       cs_rule rule);
 
 /* Whether the rule shears by the velocity, too, where there is motion. */
 int cs_rule_has_velocity(cs_rule rule);

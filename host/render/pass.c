@@ -180,6 +180,11 @@ static cs_u32 blocks_at(const cs_batch *batch, double part)
     return blocks < batch->pattern.blocks ? blocks : batch->pattern.blocks;
 }
 
+int cs_pass_is_fresh(const cs_pass *pass)
+{
+    return !(pass->place.next > 0.0);
+}
+
 clshear_status cs_pass_replicate(cs_pass *pass, const cs_batch *batches, size_t batch_count,
                                  cs_u32 replicate, cs_error *error)
 {

@@ -58,6 +58,9 @@ clshear_status cs_batch_set_pattern(clshear_context *context, const cs_pattern *
                                     cs_batch *batch, cs_error *error);
 void cs_batch_free(cs_batch *batch);
 
+/* Whether the next replicate of the pass starts from its beginning. */
+int cs_pass_is_fresh(const cs_pass *pass);
+
 /* Draws one replicate of every batch's patterns from pass->place on: of all of them a part, then
  * the next part, so that an interrupted picture is even. How the work is cut does not change a bit
  * of the result. At the end the place is that of a new beginning. */

@@ -206,7 +206,7 @@ clshear_status cs_pilot_shears(cs_job *job, cs_error *error)
                "out of memory for the pilot of %zu pixels", job->pixel_count);
     for (int r = 0; r < CS_RULE_COUNT; r++)
         for (size_t i = 0; i < job->pixel_count; i++)
-            c.shears[r][i] = cs_oracle_shear(&job->camera, &job->depth[i], (cs_rule)r);
+            c.shears[r][i] = cs_job_shear(job, i, (cs_rule)r);
     const double part = affordable_part(job, &c);
     CS_TRY(try_rules(job, &c, part, error));
     for (int r = 0; r < CS_RULE_COUNT; r++)

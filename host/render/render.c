@@ -1,5 +1,6 @@
 #include "render/render.h"
 
+#include "render/checkpoint.h"
 #include "render/resume.h"
 #include "render/rounds.h"
 
@@ -14,6 +15,7 @@ clshear_status cs_render(clshear_scene *scene, const clshear_settings *settings,
     CS_TRY(cs_job_choose_samples(&job, error));
     CS_TRY(cs_resume_check(&job, error));
     CS_TRY(cs_rounds_check(&job, error));
+    CS_TRY(cs_checkpoint_check(&job, error));
     passes = cs_job_plan(&job, error);
     if (passes == CLSHEAR_OK) passes = cs_job_run_passes(&job, error);
     if (passes != CS_CANCELLED) CS_TRY(passes);

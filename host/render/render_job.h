@@ -5,6 +5,7 @@
 #include "film/film.h"
 #include "kernels/launch.h"
 #include "optics/optics.h"
+#include "oracle/oracle.h"
 #include "render/lighting.h"
 #include "render/pass.h"
 #include "render/stop.h"
@@ -35,6 +36,8 @@ typedef struct cs_job {
     const clshear_film *base;  /* the film that is continued; NULL: none */
     cs_u32 spp;
     cs_u32 replicates;
+    cs_u32 shard;     /* the job draws replicates shard, shard + shards, ... */
+    cs_u32 shards;    /* 1: all of them */
     cs_u32 pilot_spp; /* that pilots are a part of */
     cs_stop stop;
     cs_rounds rounds;
@@ -73,6 +76,9 @@ typedef struct cs_job {
     double *pattern_sums;
     uint32_t patterns_kept;
     uint32_t replicates_begun;
+    int resumes;    /* whether the job goes on from a checkpoint */
+    int save_fails; /* whether the last checkpoint could not be written */
+    double saved_s; /* when the last checkpoint was written */
     double start_s; /* when the render began */
     double prepass_s;
     double pilot_s;
@@ -91,6 +97,10 @@ clshear_status cs_job_choose_samples(cs_job *job, cs_error *error);
 clshear_status cs_job_plan(cs_job *job, cs_error *error);
 void cs_job_free(cs_job *job);
 
+/* The oracle's shear by a rule for pixel `index` of the window, row by row, whose depths are known.
+ */
+cs_f32 cs_job_shear(const cs_job *job, size_t index, cs_rule rule);
+
 /* How many of the lights are sampled by a pair of the tuple. */
 cs_u32 cs_area_lights(const cs_job *job);
 
@@ -100,6 +110,9 @@ cs_pass cs_job_pass(const cs_job *job);
 /* Runs all passes. Each launch takes a fraction of a second, so that progress, cancelling and GPU
  * watchdogs work; how the work is cut into launches does not change the result. */
 clshear_status cs_job_run_passes(cs_job *job, cs_error *error);
+
+/* Patterns that the job draws for a pixel: its shard of the replicates. */
+cs_u32 cs_job_patterns(const cs_job *job);
 
 /* Turns the accumulated pixels into a film with metadata. */
 clshear_status cs_job_resolve(cs_job *job, clshear_film **film, cs_error *error);

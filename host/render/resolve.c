@@ -7,7 +7,7 @@
 #include "oracle/oracle.h"
 #include "render/aov.h"
 #include "render/motion.h"
-#include "render/record.h"
+#include "render/recipe.h"
 #include "render/resume.h"
 #include "render/rounds.h"
 
@@ -109,6 +109,7 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
             film->info.shadow_rays += slice[i].shadow_rays;
             if (slice[i].patterns < fewest) fewest = slice[i].patterns;
         }
+        cs_pixels_release(&job->pixels, first + count); /* the film takes its place */
     }
     for (size_t i = 0; i < job->pixel_count; i++) {
         all->depth[0][i] = job->depth[i].centre;
@@ -116,7 +117,7 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
         all->depth[2][i] = job->depth[i].far;
         all->shear[i] = job->shear_px[i];
         all->rule[i] = (float)job->rule[i];
-        all->blur[i] = fabsf(cs_oracle_shear(&job->camera, &job->depth[i], CS_RULE_CENTRE));
+        all->blur[i] = fabsf(cs_job_shear(job, i, CS_RULE_CENTRE));
     }
     if (fewest < 2) drop_variance(film);
 done:
@@ -160,6 +161,17 @@ done:
     return status;
 }
 
+/* What a merge of shards must know. */
+static clshear_status describe_shard(const cs_job *job, clshear_film *film)
+{
+    char text[CS_RECIPE_SIZE];
+    if (!cs_is_set(&job->settings, SHARD)) return CLSHEAR_OK;
+    cs_recipe_of(job, text, sizeof text);
+    const clshear_status status = cs_film_annotate(film, "clshear.recipe", text);
+    if (status != CLSHEAR_OK) return status;
+    return cs_film_set_int(film, "clshear.patterns", (int32_t)cs_job_patterns(job));
+}
+
 clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
@@ -180,6 +192,7 @@ clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *erro
     CS_TRY(describe(job, film));
     CS_TRY(cs_resume_describe(job, film));
     CS_TRY(cs_rounds_describe(job, film));
+    CS_TRY(describe_shard(job, film));
     film->info.prepass_s = job->prepass_s;
     film->info.pilot_s = job->pilot_s;
     film->info.pilot_samples = (uint64_t)job->pilot_samples;

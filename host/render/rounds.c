@@ -181,8 +181,7 @@ static clshear_status draw_round(cs_job *job, cs_pass *pass, cs_error *error)
     clshear_status status = set_patterns(job, error);
     cs_rounds *rounds = &job->rounds;
     for (; status == CLSHEAR_OK && rounds->replicate < job->replicates; rounds->replicate++) {
-        const int is_new = !(pass->place.next > 0.0);
-        if (is_new) CS_TRY(swap_nets(job, 1, error));
+        if (cs_pass_is_fresh(pass)) CS_TRY(swap_nets(job, 1, error));
         CS_TRY(cs_pass_replicate(pass, job->batches, job->batch_count, rounds->replicate, error));
         CS_TRY(swap_nets(job, 0, error));
     }
@@ -243,7 +242,7 @@ static clshear_status run_patterns(cs_job *job, cs_pass *pass, cs_error *error)
         if (rounds->from == rounds->to) plan(job, pass, work, samples);
         if (rounds->from == rounds->to) break;
         for (; rounds->from < rounds->to; rounds->from++) {
-            CS_TRY(cs_resume_begin(job, rounds->from, error));
+            if (cs_pass_is_fresh(pass)) CS_TRY(cs_resume_begin(job, rounds->from, error));
             CS_TRY(cs_pass_replicate(pass, job->batches, job->batch_count, rounds->from, error));
             CS_TRY(cs_resume_end(job, rounds->from, error));
         }

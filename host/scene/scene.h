@@ -16,7 +16,7 @@ enum {
 /* A camera of the file. */
 typedef struct cs_scene_camera {
     char name[CS_CAMERA_NAME];
-    cs_view view;    /* its fov is vertical until an image size is known */
+    cs_view view;    /* fov and orthographic are vertical until an image size is known */
     int moves;       /* whether it does while the shutter is open */
     float eye_to[3]; /* where it closes, if so */
     float target_to[3];
@@ -105,15 +105,8 @@ clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_erro
 /* The same, appended to the scene. */
 clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error);
 
-/* The emissive triangles (cs_emitter, in `emitters`), with probabilities in proportion to power:
- * area times luminance, whose sum is `total`. */
-clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, double *total,
-                                 cs_error *error);
 
 /* How the triangle moves while the shutter is open. */
 cs_triangle_step cs_scene_step(const cs_scene *scene, size_t triangle);
-
-/* Whether samples of a light find the triangle. */
-int cs_scene_is_emitter(const cs_scene *scene, size_t triangle);
 
 #endif

@@ -225,12 +225,15 @@ CLSHEAR_API clshear_status clshear_predict_variance(const clshear_spectrum *samp
                                                     double mean_square,
                                                     clshear_prediction **prediction);
 
-/* Highest frequencies, in each coordinate, of the sums in clshear_predict_variance_4d. */
+/* Highest frequencies, in each coordinate, of the sums in clshear_predict_variance_4d, and effort.
+ */
 typedef struct clshear_reach {
     size_t struct_size;
     uint32_t axis;  /* for parts of one coordinate: 1 to 65536; should be 4 N */
     uint32_t plane; /* for parts of two coordinates: 1 to 2047 */
     uint32_t block; /* for the block of three or four: 1 to 15 */
+    size_t points;  /* samples of the function for a part, in each of eight grids: a grid has one in
+                       every cell at least; 0: 2^19. Few make the energies noisy, not biased. */
 } clshear_reach;
 
 /* Predicts the variance of the mean of a function at N samples that are shifted at random around
@@ -254,6 +257,12 @@ CLSHEAR_API double clshear_prediction_variance(const clshear_prediction *predict
 /* The predicted variance with the power of each frequency replaced by its ring's mean (Pilleboue et
  * al. 2015). NaN in four dimensions. */
 CLSHEAR_API double clshear_prediction_isotropic(const clshear_prediction *prediction);
+
+/* The predicted variance with the power of each frequency replaced by the mean over its ring within
+ * one of 2^`level` cones of directions, for levels 0 to 8: from the isotropic formula to, in the
+ * limit of many cones, the anisotropic one (Singh & Jarosz 2017). Above 8 the prediction itself;
+ * NaN in four dimensions. */
+CLSHEAR_API double clshear_prediction_in_cones(const clshear_prediction *prediction, size_t level);
 
 /* Variance of the integrand itself. */
 CLSHEAR_API double clshear_prediction_energy(const clshear_prediction *prediction);

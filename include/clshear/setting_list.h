@@ -37,9 +37,14 @@
     X(POLYGON, 2, "polygon", "a regular polygon with its corners at the lens radius") \
     X(IMAGE, 3, "image", "an image whose longer side is twice the lens radius")
 
-#define CLSHEAR_TONE_LIST(X)                                        \
-    X(SRGB, 0, "srgb", "the sRGB curve alone; values are cut at 1") \
-    X(FILMIC, 1, "filmic", "Hable's curve first, which rolls highlights off")
+#define CLSHEAR_EMITTERS_LIST(X)                                           \
+    X(TREE, 0, "tree", "by their light at the point, then by solid angle") \
+    X(POWER, 1, "power", "by power, then by area; none that a texture varies")
+
+#define CLSHEAR_TONE_LIST(X)                                                  \
+    X(SRGB, 0, "srgb", "the sRGB curve alone; values are cut at 1")           \
+    X(FILMIC, 1, "filmic", "Hable's curve first, which rolls highlights off") \
+    X(AGX, 2, "agx", "Sobotka's AgX first, which also takes the colour out of them")
 
 #define CLSHEAR_AOV_LIST(X)                                                          \
     X(ALBEDO, 0, "albedo", "Albedo.R/G/B: base colour of the surface that is seen")  \
@@ -118,7 +123,7 @@
     X(AUTO_EXPOSURE, 26, "auto-exposure", "", SWITCH, 1, 1, "0", 0, 1, none, RECORD, "", \
       "the picture's log-average grey first; not in EXR") \
     X(TONE, 27, "tone", "", CHOICE, 1, 1, "srgb", 0, 0, tone, RECORD, "CURVE", \
-      "srgb or filmic; not in EXR files") \
+      "srgb, filmic or agx; not in EXR files") \
     X(AOV, 30, "aov", "", CHOICE, 1, 8, "", 0, 0, aov, RECORD, "NAME,...", \
       "more channels in the EXR: albedo, normal, depth...") \
     /* Camera */ \
@@ -140,6 +145,8 @@
       "frame the scene from there, degrees; 0,0: its front") \
     X(FOCUS_POINT, 48, "focus-point", "", NUMBER, 3, 1, "", -1e12, 1e12, none, PRIVATE, "X,Y,Z", \
       "focus on the depth of this point") \
+    X(ORTHOGRAPHIC, 49, "orthographic", "", NUMBER, 1, 1, "", 0, 1e12, none, RECIPE, "WIDTH", \
+      "parallel view, WIDTH along the shorter axis; 0: fits") \
     /* Lens */ \
     X(LENS_RADIUS, 50, "lens-radius", "aperture-radius", NUMBER, 1, 1, "", 0, 1e12, none, RECIPE, \
       "R", "lens radius in scene units; 0: pinhole") \
@@ -157,6 +164,8 @@
       "aperture narrower by this ratio") \
     X(BLUR, 57, "blur", "", NUMBER, 1, 1, "", 0, 1e6, none, PRIVATE, "PX", \
       "lens radius by the blur of points at infinity") \
+    X(TILT, 58, "tilt", "", NUMBER, 2, 1, "0,0", -89, 89, none, RECIPE, "AZIMUTH,ELEVATION", \
+      "the focal plane faces there, degrees; 0,0: the camera") \
     /* Light */ \
     X(LIGHT, 60, "light", "", NUMBER, 6, 64, "", -1e15, 1e15, none, PRIVATE, "X,Y,Z,R,G,B", \
       "add a point light; repeatable") \
@@ -174,6 +183,8 @@
       RECIPE, "S", "its radiance is multiplied by this") \
     X(BOUNCES, 66, "bounces", "", INTEGER, 1, 1, "4", 0, 64, none, RECIPE, "N", \
       "surfaces that light meets on its way; 0: direct light") \
+    X(EMITTERS, 69, "emitters", "", CHOICE, 1, 1, "tree", 0, 0, emitters, RECIPE, "CHOICE", \
+      "how emissive triangles are sampled: tree or power") \
     X(CLAMP, 67, "clamp", "", NUMBER, 1, 1, "0", 0, 1e15, none, RECIPE, "L", \
       "most that a bounce adds to a sample (biased); 0: off") \
     /* Scene file */ \
@@ -195,6 +206,14 @@
       "stop when 95 % of pixels err less on a screen") \
     X(TIME, 92, "time", "", NUMBER, 1, 1, "", 0.001, 1e9, none, RECORD, "S", \
       "stop after S seconds") \
+    X(CHECKPOINT, 93, "checkpoint", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "FILE", \
+      "keep what is rendered there, for --resume") \
+    X(EVERY, 94, "every", "", NUMBER, 1, 1, "60", 0, 1e9, none, PRIVATE, "S", \
+      "seconds between two checkpoints") \
+    X(RESUME, 95, "resume", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
+      "go on from the checkpoint, if there is one") \
+    X(SHARD, 96, "shard", "", TEXT, 1, 1, "", 0, 0, none, RECORD, "K/N", \
+      "part K of N: every Nth replicate, for clshear merge") \
     /* Motion */ \
     X(CAMERA_TO, 100, "camera-to", "", NUMBER, 6, 1, "", -1e12, 1e12, none, RECIPE, "EYE,TARGET", \
       "where the camera is when the shutter closes") \

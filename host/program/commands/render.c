@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "commands/commands.h"
 #include "commands/film_files.h"
@@ -54,7 +55,8 @@ const program_command render_command = {
              "       clshear spectrum [flags]    their power spectra\n"
              "       clshear slice SCENE [flags] the integrand of a pixel\n"
              "       clshear predict [flags]     variance expected from spectra\n"
-             "       clshear converge [flags]    variance against samples\n\n"
+             "       clshear converge [flags]    variance against samples\n"
+             "       clshear merge FILES [flags] shards of a render, put together\n\n"
              "Render SCENE (OBJ, glTF, PLY, STL) with depth of field. Each command has its own\n"
              "--help.\n\n"
              "  clshear scenes/cornell.obj --spp 1024 --out img.exr\n",
@@ -82,8 +84,21 @@ static int list_samplers(void)
     return EXIT_DONE;
 }
 
+static int is_preview_wanted(void *user)
+{
+    (void)user;
+    return preview_wanted();
+}
+
+/* Writes the picture so far; what fails is said, and tried again at the end. */
+static void write_preview(void *user, clshear_film *film)
+{
+    const render_job *job = user;
+    film_files_write(&job->files, &job->options, film, "going on");
+}
+
 /* Renders, or goes on with a film. */
-static clshear_status make_film(const render_job *job, clshear_scene *scene, clshear_film **film)
+static clshear_status make_film(render_job *job, clshear_scene *scene, clshear_film **film)
 {
     clshear_film *base = NULL;
     const text_list *extend = &job->files.extend;
@@ -92,6 +107,7 @@ static clshear_status make_film(const render_job *job, clshear_scene *scene, cls
     if (status != CLSHEAR_OK) return status;
     progress_line progress = progress_start(job->options.quiet);
     clshear_settings_set_progress(job->options.settings, progress_report, &progress);
+    clshear_settings_set_preview(job->options.settings, is_preview_wanted, write_preview, job);
     status = base != NULL ? clshear_render_extend(scene, job->options.settings, base, film)
                           : clshear_render(scene, job->options.settings, film);
     progress_end(&progress);
@@ -99,17 +115,28 @@ static clshear_status make_film(const render_job *job, clshear_scene *scene, cls
     return status;
 }
 
-static int render(const render_job *job, const scene_view *view)
+/* The pictures are written: the checkpoint has nothing that is not in them. */
+static void remove_checkpoint(const clshear_settings *settings)
+{
+    char path[4096];
+    if (clshear_settings_is_set(settings, CLSHEAR_CHECKPOINT) &&
+        clshear_settings_get_text(settings, CLSHEAR_CHECKPOINT, path, sizeof path) == CLSHEAR_OK)
+        remove(path);
+}
+
+static int render(render_job *job, const scene_view *view)
 {
     clshear_film *film = NULL;
     clshear_film_info info = {.struct_size = sizeof info};
     if (make_film(job, view->scene, &film) != CLSHEAR_OK) return complain_of_library();
     clshear_film_describe(film, &info);
-    int code = film_files_write(&job->files, &job->options, film);
+    int code = film_files_write(&job->files, &job->options, film, "interrupted");
     if (code == EXIT_DONE && info.complete && !job->options.quiet)
         remark_on_picture(film, job->options.settings, job->has_lens);
     if (code == EXIT_DONE && !job->options.quiet) remark_on_end(film, job->options.settings);
-    if (code == EXIT_DONE && job->stats) report_statistics(view->context, view->scene, film);
+    if (code == EXIT_DONE && info.complete) remove_checkpoint(job->options.settings);
+    if (code == EXIT_DONE && job->stats)
+        report_statistics(view->context, view->scene, job->options.settings, film);
     clshear_film_free(film);
     return code == EXIT_DONE && !info.complete ? EXIT_SIGNAL + interrupting_signal() : code;
 }
@@ -134,6 +161,18 @@ static int check_formats(const render_job *job)
     return EXIT_DONE;
 }
 
+/* Channels that no output has room for are told before the render. */
+static void tell_lost_channels(const render_job *job)
+{
+    if (job->options.quiet || !clshear_settings_is_set(job->options.settings, CLSHEAR_AOV)) return;
+    for (size_t i = 0; i < job->files.out.count; i++) {
+        const char *dot = strrchr(job->files.out.items[i], '.');
+        if (dot != NULL && strcasecmp(dot, ".exr") == 0) return;
+    }
+    fprintf(stderr, "clshear: --aov is for .exr, and no output is one: the channels are lost; "
+                    "add --out FILE.exr\n");
+}
+
 /* A lens that opens, and that was not chosen by the program. */
 static int given_a_lens(const clshear_settings *settings)
 {
@@ -142,6 +181,15 @@ static int given_a_lens(const clshear_settings *settings)
     return clshear_settings_is_set(settings, CLSHEAR_LENS_RADIUS) &&
            clshear_settings_get_number(settings, CLSHEAR_LENS_RADIUS, &radius) == CLSHEAR_OK &&
            radius > 0.0;
+}
+
+static int check_checkpoint(const clshear_settings *settings)
+{
+    char path[4096];
+    const char *const list[] = {path};
+    if (!clshear_settings_is_set(settings, CLSHEAR_CHECKPOINT)) return EXIT_DONE;
+    clshear_settings_get_text(settings, CLSHEAR_CHECKPOINT, path, sizeof path);
+    return check_places("checkpoint", list, 1);
 }
 
 /* Opens the scene, renders and writes. */
@@ -186,6 +234,8 @@ static int render_frames(render_job *job)
         return complain(EXIT_USAGE, "--frames %d,%d: the first is after the last", first, last);
     if (job->files.extend.count > 0)
         return complain(EXIT_USAGE, "--extend goes on with one picture, --frames makes many");
+    if (clshear_settings_is_set(job->options.settings, CLSHEAR_CHECKPOINT))
+        return complain(EXIT_USAGE, "--checkpoint is of one picture, --frames makes many");
     int code = EXIT_DONE;
     for (int frame = first; frame <= last && code == EXIT_DONE; frame++)
         code = render_frame(job, frame);
@@ -212,6 +262,8 @@ static int run(void *user)
     if (code == EXIT_DONE) code = check_formats(job);
     if (code == EXIT_DONE)
         code = check_places("gain", job->files.gain.items, job->files.gain.count);
+    if (code == EXIT_DONE) tell_lost_channels(job);
+    if (code == EXIT_DONE) code = check_checkpoint(options->settings);
     if (code == EXIT_DONE) code = render_frames(job);
     free(name);
     return code;
