@@ -99,6 +99,15 @@ static clshear_status turn(cs_scene *scene, double degrees, cs_error *error)
     return CLSHEAR_OK;
 }
 
+static int anything_moves(const cs_scene *scene)
+{
+    const cs_scene_camera *cameras = scene->cameras.items;
+    int moves = cs_scene_moves(scene);
+    for (size_t i = 0; i < scene->cameras.count; i++)
+        moves |= cameras[i].moves;
+    return moves;
+}
+
 static int is_animated_format(const char *path)
 {
     const char *dot = strrchr(path, '.');
@@ -127,6 +136,9 @@ clshear_status cs_scene_read_motion(clshear_scene *scene, const char *path,
     if (settings != NULL && cs_is_set(settings, TURNTABLE) && cs_number(settings, TURNTABLE) != 0.0)
         CS_TRY(turn(&scene->scene, cs_number(settings, TURNTABLE), error));
     drop_rest(&scene->scene);
+    if (at_end.is_played && !anything_moves(&scene->scene))
+        cs_warn(&scene->context->log, "%s: nothing in it moves from %g to %g s", path, times_s[0],
+                times_s[1]);
 done:
     cs_scene_free(&closing);
     return status;
