@@ -83,7 +83,7 @@ static void make_rays(bench_view *view, cs_error *error)
     cs_array rows = {0};
     cs_depth *depth = bench_allocate(pixels * sizeof *depth);
     ray_planes *rays = &view->rays;
-    must(cs_accel_depth(view->accel, &view->frame, NULL, window, 0, depth, error), error);
+    must(cs_accel_depth(view->accel, NULL, &view->frame, NULL, window, 0, depth, error), error);
     must(cs_sample_table_make(&view->pattern, CS_ORDER_COHERENT, &rows, error), error);
     rays->count = pixels * spp;
     rays->origins = bench_allocate(3 * rays->count * sizeof(float));

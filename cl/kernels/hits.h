@@ -169,16 +169,22 @@ static inline void cs_apply_textures(const cs_scene_buffers *scene,
 #endif
 
 #if CS_HAS(MATERIALS)
-/* From alpha to a chance, and unlit surfaces to emission. */
+/* From alpha to the chance that a ray stops. */
+static inline cs_vfloat cs_covering(CS_GLOBAL const cs_material *material, cs_vfloat alpha)
+{
+    cs_vfloat covers = (cs_vfloat)(1.0f);
+    if (material->flags & CS_MATERIAL_BLEND) covers = alpha;
+    if (material->flags & CS_MATERIAL_MASK)
+        covers = alpha >= material->cutoff ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
+    return covers;
+}
+
+/* Does so, and makes emission of unlit surfaces. */
 static inline void cs_finish_material(CS_GLOBAL const cs_material *material, cs_vint mine,
                                       cs_surface *surface)
 {
-    cs_vfloat covers = (cs_vfloat)(1.0f);
-    if (material->flags & CS_MATERIAL_BLEND) covers = surface->alpha;
-    if (material->flags & CS_MATERIAL_MASK)
-        covers = surface->alpha >= material->cutoff ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
-    surface->alpha = mine ? covers : surface->alpha;
-    if (material->emission_texture > 0u)
+    surface->alpha = mine ? cs_covering(material, surface->alpha) : surface->alpha;
+    if (material->emission_texture > 0u || material->flags != 0u)
         surface->shines_to = mine ? (cs_vint)(CS_SHINES_RAYS) : surface->shines_to;
     if (!(material->flags & CS_MATERIAL_UNLIT)) return;
     surface->shines_to = mine ? (cs_vint)(CS_SHINES_CAMERA) : surface->shines_to;
@@ -210,6 +216,9 @@ static inline void cs_describe_triangle(const cs_scene_buffers *scene, const cs_
         surface->emission[axis] =
             mine ? (cs_vfloat)(material->emission[axis]) : surface->emission[axis];
     }
+#if CS_HAS(EMITTERS)
+    surface->emitter = mine ? (cs_vint)((cs_i32)triangle->emitter) : surface->emitter;
+#endif
 #if CS_HAS(MATERIALS)
     cs_describe_bsdf(material, mine, surface);
     surface->inside = mine ? (cs_vint)(along > 0.0f) : surface->inside;
@@ -261,6 +270,9 @@ static inline cs_surface cs_describe_hits(const cs_scene_buffers *scene, const c
         surface.albedo[axis] = (cs_vfloat)(0.0f);
         surface.emission[axis] = (cs_vfloat)(0.0f);
     }
+#if CS_HAS(EMITTERS)
+    surface.emitter = (cs_vint)(0);
+#endif
 #if CS_HAS(MATERIALS)
     surface.bsdf = (cs_vint)(0);
     for (int i = 0; i < CS_MATERIAL_PARAMETERS; i++)

@@ -21,6 +21,9 @@ typedef struct cs_path {
     cs_vfloat throughput[3]; /* radiance at the lens for one at the end of the ray */
     cs_vfloat density;       /* with which the BSDF drew the ray; of camera rays it is not used */
     cs_vfloat cosine;        /* of the ray at the surface that it left; negative behind it */
+#if CS_HAS(EMITTERS)
+    cs_vantage left; /* the surface behind the path's end */
+#endif
 #if CS_HAS(MATERIALS)
     cs_vfloat squeezed; /* by which solids, that the path is in, lower the throughput */
 #endif
@@ -76,9 +79,16 @@ static inline void cs_path_add_emission(const cs_scene_buffers *scene, cs_u32 li
     if (path->depth > 0u) shines = shines & cs_shines_on_surfaces(surface);
     if (!cs_any(shines)) return;
     cs_vfloat weight = (cs_vfloat)(1.0f);
-    if (path->depth > 0u)
-        weight = cs_power_weight(path->density,
-                                 cs_emitter_density(scene, lights, surface, &path->ray, distance));
+    if (path->depth > 0u) {
+#if CS_HAS(EMITTERS)
+        cs_vfloat density = cs_emitters_density(scene, &path->left, surface);
+        (void)lights;
+        (void)distance;
+#else
+        cs_vfloat density = cs_emitter_density(scene, lights, surface, &path->ray, distance);
+#endif
+        weight = cs_power_weight(path->density, density);
+    }
     cs_path_add(path, path->depth, shines ? weight : (cs_vfloat)(0.0f), surface->emission);
 }
 
@@ -109,18 +119,6 @@ static inline void cs_path_add_escaped(const cs_scene_buffers *scene, const cs_h
     }
 }
 #endif
-
-/* Lanes whose surface lets light through to the other side. */
-static inline cs_vint cs_lets_through(const cs_surface *surface)
-{
-#if CS_HAS(MATERIALS)
-    return (surface->bsdf != (cs_vint)(CS_BSDF_LAMBERT)) &
-           (surface->parameters[CS_PARAMETER_TRANSMISSION] > 0.0f);
-#else
-    (void)surface;
-    return (cs_vint)(0);
-#endif
-}
 
 /* Where rays to the side of `towards` leave the surface: `origin` is off it on the viewer's side.
  */
@@ -335,6 +333,9 @@ static inline void cs_path_scatter(const cs_surface *surface, const cs_vfloat *o
     path->alive = cs_is_open(surface, drawn.in) & (drawn.density > 0.0f);
     cs_leave_towards(surface, origin, drawn.in, path->ray.origin);
     cs_vfloat weight = path->alive ? cosine * drawn.value.scale / drawn.density : (cs_vfloat)(0.0f);
+#if CS_HAS(EMITTERS)
+    path->left = cs_vantage_of(surface);
+#endif
     path->density = drawn.density;
     path->cosine = cs_dot(surface->normal, drawn.in);
     for (int i = 0; i < 3; i++) {
@@ -378,6 +379,7 @@ static inline int cs_path_advance(const cs_scene_buffers *scene, const cs_launch
     cs_vint seen = cs_path_hit(scene, draws, path, &hit, &surface);
 #if CS_HAS(LIGHTS)
     cs_path_add_escaped(scene, &hit, path);
+    if (path->depth == 0u) cs_note_shapes(scene, path->lights, &path->ray, &hit, &path->radiance);
 #endif
     if (!cs_any(seen)) return 0;
 #if CS_HAS(MATERIALS)

@@ -78,6 +78,7 @@ static inline cs_radiance cs_radiance_along(const cs_scene_buffers *scene, cs_u3
 #if CS_HAS(LIGHTS)
     cs_meet_shapes(scene, lights, ray, 0, &hit);
     cs_add_escaped(scene, lights, ray, &hit, active, &radiance);
+    cs_note_shapes(scene, lights, ray, &hit, &radiance);
 #endif
     cs_vint seen = hit.triangle >= 0;
     if (!cs_any(seen)) return radiance;

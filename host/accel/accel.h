@@ -37,12 +37,20 @@ enum {
     CS_MOST_LENS_RAYS = 256 /* upper bound of lens rays per pixel */
 };
 
-/* Computes the depths of the pixels of a window, row by row. `optics` is the table of the camera's
- * lens, `window` is x0, x1, y0, y1 in pixels. Each pixel gets a centre ray and `lens_rays` lens
- * rays, 0 to CS_MOST_LENS_RAYS. With 0 the statistics repeat the centre and `optics` is not used.
+/* Lights that rays can meet, as cs_is_shape says; others are skipped. */
+typedef struct cs_shapes {
+    const cs_light *lights;
+    size_t count;
+} cs_shapes;
+
+/* Computes the depths of the pixels of a window, row by row, of what is there and of `shapes`,
+ * which may be NULL. `optics` is the table of the camera's lens, `window` is x0, x1, y0, y1 in
+ * pixels. Each pixel gets a centre ray and `lens_rays` lens rays, 0 to CS_MOST_LENS_RAYS. With 0
+ * the statistics repeat the centre and `optics` is not used.
  */
-clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const cs_f32 *optics,
-                              const int *window, int lens_rays, cs_depth *depth, cs_error *error);
+clshear_status cs_accel_depth(const cs_accel *accel, const cs_shapes *shapes,
+                              const cs_camera *camera, const cs_f32 *optics, const int *window,
+                              int lens_rays, cs_depth *depth, cs_error *error);
 
 /* Cameras of a shutter: where it opens, in the middle, where it closes. */
 typedef struct cs_shutter_cameras {

@@ -92,13 +92,14 @@ static clshear_status check_counts(cs_job *job, cs_error *error)
     return cs_settings_set(&job->settings, CLSHEAR_REPLICATES, &resolved, 1, error);
 }
 
-/* Without a sampler's name: `sobol` where lights have a size, because its six dimensions include
- * theirs; elsewhere the sampler that is best in four. */
+/* Without a sampler's name: `sobol` where lights have a size or something moves, because its six
+ * dimensions include theirs or the time; elsewhere the sampler that is best in four. */
 static clshear_status choose_sampler(cs_job *job, cs_error *error)
 {
-    const double with_light = CS_SAMPLER_SOBOL;
-    if (cs_is_set(&job->settings, SAMPLER) || cs_area_lights(job) == 0) return CLSHEAR_OK;
-    return cs_settings_set(&job->settings, CLSHEAR_SAMPLER, &with_light, 1, error);
+    const double of_six = CS_SAMPLER_SOBOL;
+    if (cs_is_set(&job->settings, SAMPLER) || (cs_area_lights(job) == 0 && !job->moves))
+        return CLSHEAR_OK;
+    return cs_settings_set(&job->settings, CLSHEAR_SAMPLER, &of_six, 1, error);
 }
 
 /* The pattern of a replicate; more samples than asked for where the sampler has no such number. */

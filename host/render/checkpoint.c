@@ -20,6 +20,7 @@ typedef struct tape {
     FILE *stream;
     int writes;
     int is_good;
+    int reason;   /* errno where it is not */
     uint64_t sum; /* of all bytes so far: Fowler, Noll and Vo's FNV-1a */
 } tape;
 
@@ -32,14 +33,16 @@ static void add_to_sum(tape *tape, const void *data, size_t size)
 
 static tape tape_of(FILE *stream, int writes)
 {
-    return (tape){stream, writes, 1, 0xcbf29ce484222325u};
+    return (tape){stream, writes, 1, 0, 0xcbf29ce484222325u};
 }
 
 static void move(tape *tape, void *data, size_t size)
 {
     if (!tape->is_good || size == 0) return;
+    errno = 0;
     tape->is_good = (tape->writes ? fwrite(data, 1, size, tape->stream)
                                   : fread(data, 1, size, tape->stream)) == size;
+    if (!tape->is_good) tape->reason = errno != 0 ? errno : EIO;
     add_to_sum(tape, data, size);
 }
 
@@ -189,11 +192,12 @@ clshear_status cs_checkpoint_save(cs_job *job, cs_pass *pass, int at_once, cs_er
         if (tape.is_good && status == CLSHEAR_OK && fflush(file.stream) == 0)
             fsync(fileno(file.stream)); /* so that the name never comes before the bytes */
         reason = cs_output_end(&file, tape.is_good && status == CLSHEAR_OK);
-        if (reason == 0 && !tape.is_good) reason = EIO;
+        if (!tape.is_good) reason = tape.reason;
     }
-    if (reason != 0)
+    if (reason != 0 && !job->save_fails) /* said once */
         cs_warn(&job->scene->context->log,
                 "checkpoint %s: cannot be written: %s; the render goes on", path, strerror(reason));
+    job->save_fails = reason != 0;
     job->saved_s = cs_now_s();
     return status;
 }

@@ -2,6 +2,7 @@
 #include "kernels/bsdf/bsdf.h"
 #include "render/objects.h"
 #include "scene/albedo.h"
+#include "scene/emitters.h"
 
 static clshear_status upload(cs_device_scene *world, cs_device *device, cs_scene_buffer which,
                              const cs_array *array, cs_error *error)
@@ -41,16 +42,17 @@ done:
 
 /* How emitters move; nothing where they do not. */
 static clshear_status upload_emitter_steps(cs_device_scene *world, cs_device *device,
-                                           const cs_scene *scene, cs_error *error)
+                                           const cs_scene *scene, const cs_array *table,
+                                           cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_array steps = {.item_size = sizeof(cs_triangle_step)};
-    for (size_t i = 0; i < scene->indices.count && cs_scene_moves(scene); i++) {
-        if (!cs_scene_is_emitter(scene, i)) continue;
-        cs_triangle_step *step = cs_array_extend(&steps, 1);
-        CS_REQUIRE(step != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for moving lights");
-        *step = cs_scene_step(scene, i);
-    }
+    const size_t count = cs_scene_moves(scene) ? table->count : 0;
+    cs_triangle_step *step = cs_array_extend(&steps, count);
+    CS_REQUIRE(count == 0 || step != NULL, CLSHEAR_OUT_OF_MEMORY,
+               "out of memory for moving lights");
+    for (size_t i = 0; i < count; i++)
+        step[i] = cs_scene_step(scene, ((const cs_emitter *)table->items)[i].face);
     CS_TRY(upload(world, device, CS_SCENE_EMITTER_STEPS, &steps, error));
 done:
     cs_array_free(&steps);
@@ -88,16 +90,21 @@ done:
 }
 
 clshear_status cs_scene_upload_emitters(cs_device_scene *world, cs_device *device,
-                                        const cs_scene *scene, cs_error *error)
+                                        const cs_scene *scene, cs_flat_bvh *bvh, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_array emitters = {.item_size = sizeof(cs_emitter)};
-    CS_TRY(cs_scene_emitters(scene, &emitters, &world->emitted_power, error));
-    CS_TRY(upload(world, device, CS_SCENE_EMITTERS, &emitters, error));
-    world->emitters = (uint32_t)emitters.count;
-    CS_TRY(upload_emitter_steps(world, device, scene, error));
+    cs_emitters emitters = {0};
+    CS_TRY(cs_emitters_make(scene, &emitters, error));
+    CS_TRY(upload(world, device, CS_SCENE_EMITTERS, &emitters.table, error));
+    CS_TRY(upload(world, device, CS_SCENE_EMITTER_NODES, &emitters.nodes, error));
+    CS_TRY(upload_emitter_steps(world, device, scene, &emitters.table, error));
+    cs_emitters_number(&emitters, bvh->triangles.items, bvh->triangles.count);
+    world->emitters = (uint32_t)emitters.table.count;
+    world->even_emitters = emitters.even;
+    world->emitted_power = emitters.power;
+    world->emitted_light = emitters.light;
 done:
-    cs_array_free(&emitters);
+    cs_emitters_free(&emitters);
     return status;
 }
 

@@ -59,7 +59,7 @@ static clshear_status point_at(const clshear_scene *scene, const clshear_setting
     CS_REQUIRE(x >= 0 && y >= 0 && x < width && y < height, CLSHEAR_BAD_ARGUMENT,
                "pixel %d,%d is outside the %d x %d image", x, y, width, height);
     CS_TRY(frame_pinhole(scene, settings, &camera, error));
-    CS_TRY(cs_accel_depth(scene->accel, &camera, NULL, window, 0, &found, error));
+    CS_TRY(cs_accel_depth(scene->accel, NULL, &camera, NULL, window, 0, &found, error));
     const float spread = camera.orthographic ? 1.0f : found.centre / camera.focal_distance;
     point[0] = ((float)x + 0.5f - camera.centre_px[0]) * camera.pixel_width * spread;
     point[1] = ((float)y + 0.5f - camera.centre_px[1]) * camera.pixel_width * spread;

@@ -63,13 +63,14 @@ static clshear_status find_depths(cs_job *job, cs_error *error)
     const size_t rows = rays_at_once / (width * (size_t)(lens_rays + 1)) + 1;
     int band[4] = {job->window[0], job->window[1], job->window[2], job->window[2]};
     cs_depth *depth = job->depth;
+    const cs_shapes shapes = cs_lighting_shapes(&job->lighting);
     while (band[3] < job->window[3]) {
         const size_t left = (size_t)(job->window[3] - band[3]);
         band[2] = band[3];
         band[3] += (int)(left < rows ? left : rows);
         clshear_status status =
-            cs_accel_depth(job->scene->accel, &job->cameras.middle, job->optics.table.items, band,
-                           lens_rays, depth, error);
+            cs_accel_depth(job->scene->accel, &shapes, &job->cameras.middle,
+                           job->optics.table.items, band, lens_rays, depth, error);
         if (status == CLSHEAR_OK) status = cs_pass_ask(&job->settings, error);
         if (status != CLSHEAR_OK) return status;
         depth += width * (size_t)(band[3] - band[2]);

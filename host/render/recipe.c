@@ -45,6 +45,9 @@ void cs_recipe_of(const cs_job *job, char *text, size_t size)
     add_lights(&light, &job->settings);
     add_array(&world, &scene->positions);
     add_array(&world, &scene->vertices);
+    add_array(&world, &scene->positions_to);
+    add_array(&world, &scene->normals_to);
+    add_array(&world, &scene->colours);
     add_array(&world, &scene->indices);
     add_array(&world, &scene->triangle_materials);
     add_array(&world, &scene->triangle_flags);

@@ -77,6 +77,7 @@ typedef struct cs_job {
     uint32_t patterns_kept;
     uint32_t replicates_begun;
     int resumes;    /* whether the job goes on from a checkpoint */
+    int save_fails; /* whether the last checkpoint could not be written */
     double saved_s; /* when the last checkpoint was written */
     double start_s; /* when the render began */
     double prepass_s;

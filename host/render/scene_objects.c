@@ -91,8 +91,9 @@ clshear_status cs_scene_complete(clshear_scene *scene, cs_error *error)
     const double compiled_s = cs_now_s();
     CS_TRY(cs_accel_create(&scene->scene, context->threads, &scene->accel, error));
     CS_TRY(cs_accel_build_bvh(scene->accel, &bvh, error));
+    CS_TRY(cs_scene_upload_emitters(&scene->device_scene, context->device, &scene->scene, &bvh,
+                                    error));
     CS_TRY(cs_scene_upload(&scene->device_scene, context->device, &scene->scene, &bvh, error));
-    CS_TRY(cs_scene_upload_emitters(&scene->device_scene, context->device, &scene->scene, error));
     info->triangles = cs_scene_triangle_count(&scene->scene);
     info->degenerate = scene->scene.degenerate;
     info->nodes = bvh.nodes.count;

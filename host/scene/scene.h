@@ -105,15 +105,8 @@ clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_erro
 /* The same, appended to the scene. */
 clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error);
 
-/* The emissive triangles (cs_emitter, in `emitters`), with probabilities in proportion to power:
- * area times luminance, whose sum is `total`. */
-clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, double *total,
-                                 cs_error *error);
 
 /* How the triangle moves while the shutter is open. */
 cs_triangle_step cs_scene_step(const cs_scene *scene, size_t triangle);
-
-/* Whether samples of a light find the triangle. */
-int cs_scene_is_emitter(const cs_scene *scene, size_t triangle);
 
 #endif

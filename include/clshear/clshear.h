@@ -279,6 +279,8 @@ typedef struct clshear_scene_info {
     int file_camera;     /* 1 if the file has a camera */
     double load_s;       /* time spent reading the file */
     double build_s;      /* time spent building the hierarchy */
+    double low[3];       /* corners of the bounding box, in coordinates of the file */
+    double high[3];
 } clshear_scene_info;
 
 /* Reads OBJ, glTF 2.0, PLY, STL or another format that Assimp supports, and completes the scene. Of
@@ -337,8 +339,8 @@ CLSHEAR_API void clshear_scene_free(clshear_scene *scene);
  * settings.
  * - Eye, target, up, and field of view or CLSHEAR_ORTHOGRAPHIC: from the scene file's camera, the
  *   one that CLSHEAR_CAMERA names or else the first. Without one, the scene fills the picture as
- *   seen from the front and slightly above, or from where CLSHEAR_ORBIT says. CLSHEAR_ORTHOGRAPHIC 0
- *   becomes the width that shows all of it.
+ *   seen from the front and slightly above, or from where CLSHEAR_ORBIT says. CLSHEAR_ORTHOGRAPHIC
+ * 0 becomes the width that shows all of it.
  * - Focal distance: the focal plane, with its CLSHEAR_TILT, goes through what CLSHEAR_FOCUS_PIXEL
  *   sees, through CLSHEAR_FOCUS_POINT, or through what the middle pixel sees. If that is nothing,
  *   the distance is that of the centre of the bounding box.

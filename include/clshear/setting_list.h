@@ -37,6 +37,10 @@
     X(POLYGON, 2, "polygon", "a regular polygon with its corners at the lens radius") \
     X(IMAGE, 3, "image", "an image whose longer side is twice the lens radius")
 
+#define CLSHEAR_EMITTERS_LIST(X)                                           \
+    X(TREE, 0, "tree", "by their light at the point, then by solid angle") \
+    X(POWER, 1, "power", "by power, then by area; none that a texture varies")
+
 #define CLSHEAR_TONE_LIST(X)                                                  \
     X(SRGB, 0, "srgb", "the sRGB curve alone; values are cut at 1")           \
     X(FILMIC, 1, "filmic", "Hable's curve first, which rolls highlights off") \
@@ -84,7 +88,7 @@
     X(SEED, 3, "seed", "", INTEGER, 1, 1, "0", 0, 4294967295.0, none, RECIPE, "N", \
       "another seed, another noise") \
     X(SAMPLER, 4, "sampler", "", CHOICE, 1, 1, "sz", 0, 0, sampler, RECIPE, "NAME", \
-      "point set; sobol where lights have a size, else sz") \
+      "point set; sobol with light of a size or motion") \
     X(SHEAR, 5, "shear", "", CHOICE, 1, 1, "equal-area", 0, 0, shear, RECIPE, "KIND", \
       "equal-area, toroidal or none") \
     X(ORACLE, 6, "oracle", "", CHOICE, 1, 1, "pilot", 0, 0, oracle, RECIPE, "RULE", \
@@ -179,6 +183,8 @@
       RECIPE, "S", "its radiance is multiplied by this") \
     X(BOUNCES, 66, "bounces", "", INTEGER, 1, 1, "4", 0, 64, none, RECIPE, "N", \
       "surfaces that light meets on its way; 0: direct light") \
+    X(EMITTERS, 69, "emitters", "", CHOICE, 1, 1, "tree", 0, 0, emitters, RECIPE, "CHOICE", \
+      "how emissive triangles are sampled: tree or power") \
     X(CLAMP, 67, "clamp", "", NUMBER, 1, 1, "0", 0, 1e15, none, RECIPE, "L", \
       "most that a bounce adds to a sample (biased); 0: off") \
     /* Scene file */ \

@@ -109,6 +109,22 @@ static inline cs_vfloat cs_clamp(cs_vfloat value, cs_vfloat low, cs_vfloat high)
     return cs_min(cs_max(value, low), high);
 }
 
+/* Unions give the lanes one by one. */
+typedef union cs_float_lanes {
+    cs_vfloat all;
+    cs_f32 lane[CS_PACKET];
+} cs_float_lanes;
+
+typedef union cs_int_lanes {
+    cs_vint all;
+    cs_i32 lane[CS_PACKET];
+} cs_int_lanes;
+
+typedef union cs_uint_lanes {
+    cs_vuint all;
+    cs_u32 lane[CS_PACKET];
+} cs_uint_lanes;
+
 #ifdef CS_DEVICE
 
 /* Compiled for the processor itself: translators of SPIR know no reductions. */
@@ -131,22 +147,6 @@ static inline cs_vfloat cs_clamp(cs_vfloat value, cs_vfloat low, cs_vfloat high)
 #ifndef CS_PREFETCH
 #define CS_PREFETCH(address) (void)(address)
 #endif
-
-/* Unions give the lanes one by one. They exist on devices only. */
-typedef union cs_float_lanes {
-    cs_vfloat all;
-    cs_f32 lane[CS_PACKET];
-} cs_float_lanes;
-
-typedef union cs_int_lanes {
-    cs_vint all;
-    cs_i32 lane[CS_PACKET];
-} cs_int_lanes;
-
-typedef union cs_uint_lanes {
-    cs_vuint all;
-    cs_u32 lane[CS_PACKET];
-} cs_uint_lanes;
 
 /* Whether any lane of a mask is true. Compilers with the reduction test a mask register, or move a
  * mask, by one instruction; narrowing does for others what any() makes a chain of extracts of. */

@@ -6,6 +6,7 @@
 #include "kernels/light/light.h"
 #include "kernels/light/shapes.h"
 
+#if !CS_HAS(EMITTERS)
 /* Density, per steradian, with which the light of emissive triangles draws the point that a ray
  * hit: cs_scene_emitters makes it proportional to luminance. */
 static inline cs_vfloat cs_emitter_density(const cs_scene_buffers *scene, cs_u32 lights,
@@ -25,6 +26,7 @@ static inline cs_vfloat cs_emitter_density(const cs_scene_buffers *scene, cs_u32
 #endif
     return density;
 }
+#endif
 
 /* Light that comes from no surface of the scene. */
 typedef struct cs_escaped {

@@ -1,8 +1,11 @@
-/* All emissive triangles together, as one area light. Device only. */
+/* All emissive triangles together, as one area light: one is chosen by power, wherever it is, and a
+ * point of its area. The feature EMITTERS takes its place (emitters.h). Device only. */
 #ifndef CS_LIGHT_TRIANGLES_H
 #define CS_LIGHT_TRIANGLES_H
 
 #include "kernels/light/sample.h"
+
+#if !CS_HAS(EMITTERS)
 
 /* First emitter whose cumulative probability exceeds `target`. */
 static inline cs_u32 cs_pick_emitter(CS_GLOBAL const cs_emitter *emitters, cs_u32 count,
@@ -110,5 +113,7 @@ static inline cs_light_sample cs_sample_light_triangles(const cs_scene_buffers *
     sample.reach = 0.9999f;
     return sample;
 }
+
+#endif
 
 #endif

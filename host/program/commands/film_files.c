@@ -20,6 +20,17 @@ char *film_files_default_name(const char *scene)
     return path;
 }
 
+char *film_files_numbered_name(const char *path, int number)
+{
+    const char *slash = strrchr(path, '/');
+    const char *dot = strrchr(slash != NULL ? slash : path, '.');
+    const size_t length = dot != NULL ? (size_t)(dot - path) : strlen(path);
+    const size_t size = strlen(path) + sizeof ".999999";
+    char *name = malloc(size);
+    if (name != NULL) snprintf(name, size, "%.*s.%04d%s", (int)length, path, number, path + length);
+    return name;
+}
+
 /* Writes a word as a shell reads it. */
 static void write_word(FILE *stream, const char *word)
 {

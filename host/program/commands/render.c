@@ -19,6 +19,7 @@ typedef struct render_job {
     program_options options;
     film_files files;
     text_list reference;
+    number_list frames; /* first and last */
     int stats;
     int version;
     int list_devices;
@@ -35,6 +36,8 @@ static const program_flag flags[] = {
               PICTURES),
     TEXT_FLAG("extend", "FILE", "go on from FILE up to --spp; other flags the same", "",
               AT(files.extend), ""),
+    WHOLE_FLAG("frames", "A,B", "frames A to B of the animation, in numbered files", "", AT(frames),
+               2, 1, 0, 999999),
     SWITCH_FLAG("stats", "print sizes, times and rays per second", AT(stats)),
     SWITCH_FLAG("list-samplers", "list the samplers and stop", AT(list_samplers)),
     SWITCH_FLAG("list-devices", "list the OpenCL devices and stop", AT(list_devices)),
@@ -132,7 +135,8 @@ static int render(render_job *job, const scene_view *view)
         remark_on_picture(film, job->options.settings, job->has_lens);
     if (code == EXIT_DONE && !job->options.quiet) remark_on_end(film, job->options.settings);
     if (code == EXIT_DONE && info.complete) remove_checkpoint(job->options.settings);
-    if (code == EXIT_DONE && job->stats) report_statistics(view->context, view->scene, film);
+    if (code == EXIT_DONE && job->stats)
+        report_statistics(view->context, view->scene, job->options.settings, film);
     clshear_film_free(film);
     return code == EXIT_DONE && !info.complete ? EXIT_SIGNAL + interrupting_signal() : code;
 }
@@ -188,11 +192,60 @@ static int check_checkpoint(const clshear_settings *settings)
     return check_places("checkpoint", list, 1);
 }
 
+/* Opens the scene, renders and writes. */
+static int render_scene(render_job *job)
+{
+    scene_view view = {0};
+    int code = scene_view_open(&job->options, &view);
+    if (code == EXIT_DONE) code = render(job, &view);
+    scene_view_close(&view);
+    return code;
+}
+
+/* One frame, with settings of its own: those that the scene completes differ from frame to frame.
+ * The outputs have the frame's number before their endings. */
+static int render_frame(const render_job *job, int frame)
+{
+    render_job one = *job;
+    int code = EXIT_DONE;
+    one.options.settings = NULL;
+    one.files.out.count = 0;
+    for (size_t i = 0; i < job->files.out.count && code == EXIT_DONE; i++) {
+        char *name = film_files_numbered_name(job->files.out.items[i], frame);
+        if (name == NULL) code = complain(EXIT_FAILED, "out of memory");
+        if (name != NULL) one.files.out.items[one.files.out.count++] = name;
+    }
+    if (code == EXIT_DONE &&
+        (clshear_settings_copy(job->options.settings, &one.options.settings) != CLSHEAR_OK ||
+         clshear_settings_set_integer(one.options.settings, CLSHEAR_FRAME, frame) != CLSHEAR_OK))
+        code = complain_of_library();
+    if (code == EXIT_DONE) code = render_scene(&one);
+    for (size_t i = 0; i < one.files.out.count; i++)
+        free((char *)one.files.out.items[i]);
+    clshear_settings_free(one.options.settings);
+    return code;
+}
+
+static int render_frames(render_job *job)
+{
+    if (job->frames.count == 0) return render_scene(job);
+    const int first = (int)job->frames.items[0], last = (int)job->frames.items[1];
+    if (first > last)
+        return complain(EXIT_USAGE, "--frames %d,%d: the first is after the last", first, last);
+    if (job->files.extend.count > 0)
+        return complain(EXIT_USAGE, "--extend goes on with one picture, --frames makes many");
+    if (clshear_settings_is_set(job->options.settings, CLSHEAR_CHECKPOINT))
+        return complain(EXIT_USAGE, "--checkpoint is of one picture, --frames makes many");
+    int code = EXIT_DONE;
+    for (int frame = first; frame <= last && code == EXIT_DONE; frame++)
+        code = render_frame(job, frame);
+    return code;
+}
+
 static int run(void *user)
 {
     render_job *job = user;
     program_options *options = &job->options;
-    scene_view view = {0};
     if (job->version) printf("clshear %s\n", clshear_version());
     if (job->version) return EXIT_DONE;
     if (job->list_devices) return exit_status_of(clshear_list_devices(print_device, NULL));
@@ -211,9 +264,7 @@ static int run(void *user)
         code = check_places("gain", job->files.gain.items, job->files.gain.count);
     if (code == EXIT_DONE) tell_lost_channels(job);
     if (code == EXIT_DONE) code = check_checkpoint(options->settings);
-    if (code == EXIT_DONE) code = scene_view_open(options, &view);
-    if (code == EXIT_DONE) code = render(job, &view);
-    scene_view_close(&view);
+    if (code == EXIT_DONE) code = render_frames(job);
     free(name);
     return code;
 }
