@@ -143,7 +143,8 @@ static void sun_behind_an_edge(void **state)
  * equal-area shear gives these two the four dimensions of `sz` and leaves the place along the fibre
  * to padding. The variance without the shear, which pads the light, is 5.6 times that with it. Both
  * are means over 16 pixels with 240 degrees of freedom: the ratio has a standard error of 13 %, and
- * the limit is 6 of them below (false alarms 1e-9). If the light were padded, it would be near 1. */
+ * the limit is 6 of them below (false alarms 1e-9). If the light were padded, it would be near 1.
+ */
 static void light_is_paired_with_the_fibre(void **state)
 {
     clshear_scene *scene = floor_and_half_plane(*state);
