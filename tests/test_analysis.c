@@ -288,6 +288,35 @@ static void threads_share_the_planner(void **state)
     }
 }
 
+/* N-rooks are good along the axes alone. On a step along one, the isotropic formula is far too
+ * high; more cones of directions bring the sum down to the prediction, which knows every frequency.
+ */
+static void many_cones_are_the_anisotropic_sum(void **state)
+{
+    (void)state;
+    const clshear_integrand step = {
+        .struct_size = sizeof step, .kind = CLSHEAR_INTEGRAND_STEP, .extent = 0.137};
+    float *cells = malloc((size_t)SIDE * SIDE * sizeof *cells);
+    clshear_points *points = drawn("nrooks", 64, 100, "xy");
+    clshear_spectrum *spectrum = measured(points, 255, 255);
+    clshear_prediction *p = NULL;
+    double mean_square;
+    test_ok(clshear_integrand_tabulate(&step, SIDE, cells, &mean_square));
+    test_ok(clshear_predict_variance(spectrum, cells, SIDE, mean_square, &p));
+    const double variance = clshear_prediction_variance(p);
+    assert_true(clshear_prediction_in_cones(p, 0) == clshear_prediction_isotropic(p));
+    assert_true(clshear_prediction_in_cones(p, 9) == variance);
+    assert_above(clshear_prediction_in_cones(p, 0), 10.0 * variance);
+    for (size_t level = 2; level <= 8; level++)
+        assert_below(clshear_prediction_in_cones(p, level),
+                     clshear_prediction_in_cones(p, level - 1));
+    assert_near(clshear_prediction_in_cones(p, 8), variance, 0.15 * variance);
+    clshear_prediction_free(p);
+    clshear_spectrum_free(spectrum);
+    clshear_points_free(points);
+    free(cells);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -295,6 +324,7 @@ int main(void)
         cmocka_unit_test(spectra_match_closed_forms),
         cmocka_unit_test(rings_and_directions_are_read_off),
         cmocka_unit_test(prediction_equals_measurement),
+        cmocka_unit_test(many_cones_are_the_anisotropic_sum),
         cmocka_unit_test(slopes_are_fitted),
         cmocka_unit_test(threads_share_the_planner),
     };

@@ -176,6 +176,43 @@ static void lambert_stays_lambert(void **state)
     }
 }
 
+#define VOLUME(text)                                                                              \
+    "{'pbrMetallicRoughness':{'metallicFactor':0},'extensions':{'KHR_materials_ior':{'ior':1.3}," \
+    "'KHR_materials_transmission':{'transmissionFactor':0.9},'KHR_materials_volume':{" text "}}}"
+
+/* A thickness makes what is transparent a solid, of the material's index, which absorbs -ln(colour)
+ * / distance per unit; without a distance nothing, and without a thickness the wall stays thin.
+ * What is opaque has no inside. */
+static void volumes_are_solids(void **state)
+{
+    static const struct {
+        const char *text;
+        int is_solid;
+        double absorption[3];
+    } all[] = {
+        {VOLUME("'thicknessFactor':1"), 1, {0, 0, 0}},
+        {VOLUME("'thicknessFactor':1,'attenuationDistance':2,'attenuationColor':[0.5,1,0.25]"),
+         1,
+         {0.34657359, 0.0, 0.69314718}},
+        {VOLUME("'thicknessFactor':1,'attenuationColor':[0.5,1,0.25]"), 1, {0, 0, 0}},
+        {VOLUME("'thicknessFactor':0,'attenuationDistance':2"), 0, {0, 0, 0}},
+        {VOLUME("'attenuationDistance':2"), 0, {0, 0, 0}},
+        {EXTENSION("volume", "'thicknessFactor':1"), 0, {0, 0, 0}},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        cs_scene scene = load_gltf(all[i].text);
+        const cs_material *material = first_of(&scene);
+        assert_int_equal(material->bsdf, all[i].is_solid ? CS_BSDF_GLASS : CS_BSDF_STANDARD);
+        if (all[i].is_solid) assert_near(material->parameters[CS_PARAMETER_INDEX], 1.3, 1e-6);
+        for (int c = 0; c < 3 && all[i].is_solid; c++)
+            assert_near(material->parameters[CS_PARAMETER_ABSORPTION + c], all[i].absorption[c],
+                        1e-6);
+        assert_string_equal(warnings, "");
+        cs_scene_free(&scene);
+    }
+}
+
 static void flags_of_materials(void **state)
 {
     static const struct {
@@ -368,10 +405,15 @@ static void unsound_materials_are_found(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_of_gltf),        cmocka_unit_test(numbers_of_mtl),
-        cmocka_unit_test(lambert_stays_lambert),  cmocka_unit_test(flags_of_materials),
-        cmocka_unit_test(maps_of_gltf),           cmocka_unit_test(maps_of_mtl),
-        cmocka_unit_test(heights_become_normals), cmocka_unit_test(unsound_materials_are_found),
+        cmocka_unit_test(numbers_of_gltf),
+        cmocka_unit_test(numbers_of_mtl),
+        cmocka_unit_test(volumes_are_solids),
+        cmocka_unit_test(lambert_stays_lambert),
+        cmocka_unit_test(flags_of_materials),
+        cmocka_unit_test(maps_of_gltf),
+        cmocka_unit_test(maps_of_mtl),
+        cmocka_unit_test(heights_become_normals),
+        cmocka_unit_test(unsound_materials_are_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

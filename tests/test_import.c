@@ -310,6 +310,9 @@ static void vertex_colours_of_obj(void **state)
     expect_close(position_of(&scene, 1, 2), -1, 1, 0);
     const uint8_t *flags = scene.triangle_flags.items;
     assert_int_equal(flags[0], CS_FACE_COLOURED);
+    const cs_material *materials = scene.materials.items;
+    const uint32_t *numbers = scene.triangle_materials.items;
+    expect_close(materials[numbers[0]].diffuse, 1, 1, 1); /* what the colours multiply */
     cs_scene_free(&scene);
 }
 

@@ -1,8 +1,10 @@
 /* Spots, suns and environments against closed forms. */
 #include "support.h"
 
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
+#include <sys/stat.h>
 
 #include "clshear/device/hash.h"
 #include "image/image_io.h"
@@ -93,6 +95,36 @@ static void spot_over_a_floor(void **state)
         assert_near(found.mean, truth, 1e-3 * 0.32);
     }
     clshear_scene_free(scene);
+}
+
+/* A cone of 0.5 degrees fades from its axis on: at half its angle, 3/4 of the root of the light are
+ * left. A cone of 40 degrees with an edge of 0.001 is full 0.05 inside it and dark 0.05 outside. */
+static void spots_may_be_narrow_or_sharp(void **state)
+{
+    static const struct {
+        float inner_deg, outer_deg;
+        double at_deg, part;
+    } cases[] = {{0.0f, 0.5f, 0.0, 1.0},
+                 {0.0f, 0.5f, 0.25, 0.5625},
+                 {39.999f, 40.0f, 39.95, 1.0},
+                 {39.999f, 40.0f, 40.05, 0.0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        clshear_scene *scene = test_floor(*state, 100.0f, 0.5f);
+        const clshear_light light = {.kind = CLSHEAR_LIGHT_SPOT,
+                                     .position = {0, 2, 0},
+                                     .direction = {0, -3, 0},
+                                     .colour = {8, 8, 8},
+                                     .inner_deg = cases[i].inner_deg,
+                                     .outer_deg = cases[i].outer_deg};
+        test_add_light(scene, &light);
+        const double angle = cases[i].at_deg * pi / 180.0;
+        const double truth = 0.5 / pi * 8.0 * pow(cos(angle), 3.0) / 4.0 * cases[i].part;
+        const estimate found = render(scene, looking_down_at(2.0 * tan(angle), 64));
+        print_message("spot of %g to %g degrees at %g: %.5f of %.5f\n", (double)light.inner_deg,
+                      (double)light.outer_deg, cases[i].at_deg, found.mean, truth);
+        assert_near(found.mean, truth, 2e-3 * 0.32);
+        clshear_scene_free(scene);
+    }
 }
 
 /* A floor, and a half plane x < 0 at a height of 10: seen from (0, 0, 0), it hides half of a sun in
@@ -225,7 +257,8 @@ static cs_environment made_environment(double rotation_deg)
     cs_environment made = {0};
     const cs_environment_view view = {.rotation_deg = rotation_deg, .strength = 1.0};
     fill_image(texels);
-    assert_int_equal(cs_environment_make(texels, WIDTH, HEIGHT, &view, &made, &error), CLSHEAR_OK);
+    assert_int_equal(cs_environment_make(texels, WIDTH, HEIGHT, &made, &error), CLSHEAR_OK);
+    cs_environment_show(&view, &made.light);
     return made;
 }
 
@@ -308,6 +341,63 @@ static void directions_follow_their_density(void **state)
     assert_above(boxes, 100);
     assert_below(square, boxes + 5.0 * sqrt(2.0 * boxes));
     cs_environment_free(&made);
+}
+
+/* Writes an image of one colour around everything. Its size in the file is always the same. */
+static void write_even_image(const char *path, float value)
+{
+    static float plane[WIDTH * HEIGHT];
+    const char *const names[3] = {"R", "G", "B"};
+    const float *const list[3] = {plane, plane, plane};
+    const cs_picture picture = {.width = WIDTH,
+                                .height = HEIGHT,
+                                .full_width = WIDTH,
+                                .full_height = HEIGHT,
+                                .channel_count = 3,
+                                .names = names,
+                                .planes = list};
+    cs_error error;
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        plane[i] = value;
+    assert_int_equal(cs_image_write(path, &picture, &error), CLSHEAR_OK);
+}
+
+static double sky_of(clshear_scene *scene, const char *path, double strength)
+{
+    clshear_settings *settings = looking_down_at(0.0, 16);
+    test_set(settings, CLSHEAR_TARGET, "0,2,0");
+    test_set(settings, CLSHEAR_ENVIRONMENT, "%s", path);
+    test_set_number(settings, CLSHEAR_ENVIRONMENT_STRENGTH, strength);
+    return render(scene, settings).mean;
+}
+
+/* A file that is gone is an error, and one that has changed is read again; one that cannot be told
+ * from what was read, since its times and its size were put back, is not. */
+static void environment_files_are_kept(void **state)
+{
+    const char *path = test_path("kept.exr");
+    struct stat before;
+    FILE *file;
+    clshear_scene *scene = test_floor(*state, 1.0f, 0.5f);
+    write_even_image(path, 0.25f);
+    assert_near(sky_of(scene, path, 1.0), 0.25, 1e-6);
+    assert_int_equal(stat(path, &before), 0);
+    file = fopen(path, "r+");
+    assert_non_null(file);
+    assert_int_equal(fputs("no image", file) < 0, 0);
+    assert_int_equal(fclose(file), 0);
+    const struct timespec times[2] = {before.st_atim, before.st_mtim};
+    assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
+    assert_near(sky_of(scene, path, 2.0), 0.5, 1e-6);
+    write_even_image(path, 0.75f);
+    assert_near(sky_of(scene, path, 1.0), 0.75, 1e-6);
+    assert_int_equal(remove(path), 0);
+    clshear_settings *settings = looking_down_at(0.0, 16);
+    clshear_film *film = NULL;
+    test_set(settings, CLSHEAR_ENVIRONMENT, "%s", path);
+    test_refused(clshear_render(scene, settings, &film), CLSHEAR_BAD_FILE, "kept.exr");
+    clshear_settings_free(settings);
+    clshear_scene_free(scene);
 }
 
 /* The image as a file around a floor: the reflected radiance is albedo / pi times its irradiance,
@@ -439,6 +529,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spot_over_a_floor),
+        cmocka_unit_test(spots_may_be_narrow_or_sharp),
         cmocka_unit_test(sun_behind_an_edge),
         cmocka_unit_test(light_is_paired_with_the_fibre),
         cmocka_unit_test(sun_from_the_side),
@@ -446,6 +537,7 @@ int main(void)
         cmocka_unit_test(texels_are_where_they_should_be),
         cmocka_unit_test(directions_follow_their_density),
         cmocka_unit_test(image_around_a_floor),
+        cmocka_unit_test(environment_files_are_kept),
         cmocka_unit_test(studio_lights_what_has_no_light),
         cmocka_unit_test(studio_lights_the_inside),
         cmocka_unit_test(wrong_lights_are_refused),

@@ -201,7 +201,7 @@ static void far_scenes_look_alike(void **state)
 
 static void cameras_are_chosen(void **state)
 {
-    double eye[3];
+    double eye[3], width = 0.0;
     size_t count = 0;
     clshear_settings *settings = NULL;
     (void)state;
@@ -210,8 +210,9 @@ static void cameras_are_chosen(void **state)
                    "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0},{\"camera\":0,"
                    "\"translation\":[0,0,5]},{\"camera\":1,\"translation\":[0,0,9]}],"
                    "\"cameras\":[{\"name\":\"near\",\"type\":\"perspective\",\"perspective\":"
-                   "{\"yfov\":0.5}},{\"name\":\"far\",\"type\":\"perspective\",\"perspective\":"
-                   "{\"yfov\":0.5}}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}"
+                   "{\"yfov\":0.5}},{\"name\":\"far\",\"type\":\"orthographic\",\"orthographic\":"
+                   "{\"xmag\":2,\"ymag\":1.5}}],\"meshes\":[{\"primitives\":[{\"attributes\":{"
+                   "\"POSITION\":0}"
                    "}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5121,\"count\":3,"
                    "\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":12,"
                    "\"byteStride\":4}],\"buffers\":[{\"byteLength\":12,"
@@ -221,15 +222,21 @@ static void cameras_are_chosen(void **state)
     assert_null(clshear_scene_camera(scene, 2));
     static const struct {
         const char *name;
-        double z;
-    } cases[] = {{NULL, 5}, {"far", 9}, {"0", 5}, {"1", 9}};
+        double z, width; /* 0: in perspective. The picture is twice as high as wide */
+    } cases[] = {{NULL, 5, 0}, {"far", 9, 1.5}, {"0", 5, 0}, {"1", 9, 1.5}};
     for (int i = 0; i < 4; i++) {
         ok(clshear_settings_create(&settings));
         if (cases[i].name != NULL)
             ok(clshear_settings_set_text(settings, CLSHEAR_CAMERA, cases[i].name));
+        ok(clshear_settings_set_integer(settings, CLSHEAR_WIDTH, 256));
         ok(clshear_camera_complete(scene, settings));
         ok(clshear_settings_get_numbers(settings, CLSHEAR_EYE, eye, 3, &count));
         assert_true(eye[2] == cases[i].z);
+        const int parallel = clshear_settings_is_set(settings, CLSHEAR_ORTHOGRAPHIC);
+        assert_int_equal(clshear_settings_is_set(settings, CLSHEAR_FOV), !parallel);
+        width = 0.0;
+        if (parallel) ok(clshear_settings_get_number(settings, CLSHEAR_ORTHOGRAPHIC, &width));
+        assert_true(width == cases[i].width);
         clshear_settings_free(settings);
     }
     ok(clshear_settings_create(&settings));

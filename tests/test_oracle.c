@@ -19,8 +19,9 @@ static void depth_becomes_shear(void **state)
     for (int i = 0; i < 5; i++) {
         const cs_depth depth = {z[i], z[i], z[i], z[i], isfinite(z[i]) ? 0.0f : 1.0f};
         for (int rule = CS_RULE_CENTRE; rule <= CS_RULE_FAR; rule++)
-            assert_near(cs_oracle_shear(&camera, &depth, (cs_rule)rule), expected[i], 1e-4f);
-        assert_near(cs_oracle_shear(&camera, &depth, CS_RULE_NONE), 0.0f, 0);
+            assert_near(cs_oracle_shear(&camera, 0.0f, 0.0f, &depth, (cs_rule)rule), expected[i],
+                        1e-4f);
+        assert_near(cs_oracle_shear(&camera, 0.0f, 0.0f, &depth, CS_RULE_NONE), 0.0f, 0);
     }
 }
 
@@ -30,13 +31,14 @@ static void rules_take_their_depths(void **state)
     (void)state;
     const cs_camera camera = {.focal_distance = 4.0f, .pixel_width = 0.01f, .aperture_width = 0.2f};
     cs_depth depth = {2.0f, 1.0f, 4.0f, 8.0f, 0.5f};
-    const float expected[CS_RULE_COUNT] = {20.0f, 0.0f, 60.0f, -10.0f, 0.0f};
+    const float expected[CS_RULE_COUNT] = {20.0f, 0.0f, 60.0f, -10.0f, 0.0f, 20.0f, 0.0f};
     for (int rule = 0; rule < CS_RULE_COUNT; rule++)
-        assert_near(cs_oracle_shear(&camera, &depth, (cs_rule)rule), expected[rule], 1e-4f);
+        assert_near(cs_oracle_shear(&camera, 0.0f, 0.0f, &depth, (cs_rule)rule), expected[rule],
+                    1e-4f);
     depth.centre = INFINITY;
-    assert_near(cs_oracle_shear(&camera, &depth, CS_RULE_CENTRE), 0.0f, 0);
+    assert_near(cs_oracle_shear(&camera, 0.0f, 0.0f, &depth, CS_RULE_CENTRE), 0.0f, 0);
     depth.median = 1.0f;
-    assert_near(cs_oracle_shear(&camera, &depth, CS_RULE_CENTRE), 60.0f, 1e-4f);
+    assert_near(cs_oracle_shear(&camera, 0.0f, 0.0f, &depth, CS_RULE_CENTRE), 60.0f, 1e-4f);
 }
 
 enum {

@@ -54,7 +54,7 @@ static clshear_status sum_of_waves(void *user, const float *points, size_t count
 static void energies_are_in_their_parts(void **state)
 {
     (void)state;
-    const clshear_reach reach = {sizeof reach, 128, 15, 4};
+    const clshear_reach reach = {sizeof reach, 128, 15, 4, 0};
     clshear_context *context = test_context();
     clshear_points *points = drawn("random", 64, 2000, 1);
     clshear_prediction *p = NULL;
@@ -92,7 +92,7 @@ static clshear_status failing(void *user, const float *points, size_t count, flo
 static void wrong_arguments_are_refused(void **state)
 {
     (void)state;
-    const clshear_reach reach = {sizeof reach, 16, 4, 2}, too_far = {sizeof reach, 16, 4, 16};
+    const clshear_reach reach = {sizeof reach, 16, 4, 2, 0}, too_far = {sizeof reach, 16, 4, 16, 0};
     clshear_context *context = test_context();
     clshear_points *points = drawn("random", 4, 2, 1);
     clshear_prediction *p = NULL;
@@ -153,7 +153,7 @@ static double measured(pixel *p, const char *sampler, size_t count, size_t sets)
 static void pixels_are_predicted(void **state)
 {
     static const int places[3][2] = {{242, 488}, {302, 130}, {154, 213}};
-    const clshear_reach reach = {sizeof reach, 1024, 127, 8};
+    const clshear_reach reach = {sizeof reach, 1024, 127, 8, 0};
     pixel p = {.made = *state};
     p.settings = test_settings(p.made->settings, 512, 512, 256);
     p.rgb = malloc((size_t)3 * MOST * sizeof *p.rgb);

@@ -161,6 +161,60 @@ static void camera_sees_shapes(void **state)
     clshear_scene_free(scene);
 }
 
+static double channel_at(const clshear_film *film, const char *name, int pixel)
+{
+    const float *plane = clshear_film_channel(film, name);
+    if (plane == NULL) fail_msg("no channel %s", name);
+    return (double)plane[pixel];
+}
+
+/* A sphere of radius 1 from 4 away, and a quad beside it from 6: their depths, those of the prepass
+ * and those of the samples, where they are, which way they face, and that they reflect nothing. The
+ * circle of confusion, as wide as a square of its area, is that of a surface of this depth: a point
+ * of depth z moves by (1/z - 1/3.5) 0.1 for the lens's radius, in units of the image at distance 1.
+ */
+static void channels_know_shapes(void **state)
+{
+    static const double corner[3] = {1.5, 3, -2}, right[3] = {4, 0, 0}, up[3] = {0, 4, 0};
+    clshear_scene *scene = test_floor(*state, 0.01f, 0.5f);
+    for (int bounces = 0; bounces < 2; bounces++) {
+        clshear_settings *settings = test_settings(NULL, 33, 33, 64);
+        test_set(settings, CLSHEAR_EYE, "0,5,4");
+        test_set(settings, CLSHEAR_TARGET, "0,5,0");
+        test_set_number(settings, CLSHEAR_FOV, 60.0);
+        test_set_number(settings, CLSHEAR_LENS_RADIUS, 0.1);
+        test_set_number(settings, CLSHEAR_FOCAL_DISTANCE, 3.5);
+        test_set_number(settings, CLSHEAR_BOUNCES, bounces);
+        test_set(settings, CLSHEAR_SPHERE, "0,5,0,1,3,2,1");
+        test_set(settings, CLSHEAR_AOV, "albedo,normal,position,depth,coverage,emission");
+        add_quad(settings, corner, right, up);
+        clshear_film *film = test_render(scene, settings);
+        const int middle = 16 * 33 + 16, side = 16 * 33 + 27, sky = 16 * 33 + 2;
+        assert_near(channel_at(film, "Z", middle), 3.0, 1e-3);
+        assert_near(channel_at(film, "Z", side), 6.0, 1e-3);
+        assert_int_equal(isfinite(channel_at(film, "Z", sky)) ? 1 : 0, 0);
+        assert_near(channel_at(film, "Depth.Z", middle), 3.0, 0.01);
+        assert_near(channel_at(film, "Depth.Z", side), 6.0, 1e-3);
+        assert_near(channel_at(film, "P.Z", middle), 1.0, 0.01);
+        assert_near(channel_at(film, "P.Z", side), -2.0, 1e-3);
+        assert_near(channel_at(film, "N.Z", middle), 1.0, 0.01);
+        assert_near(channel_at(film, "N.Z", side), 1.0, 1e-5);
+        assert_near(channel_at(film, "Coverage.A", side), 1.0, 0.0);
+        assert_near(channel_at(film, "Coverage.A", sky), 0.0, 0.0);
+        assert_near(channel_at(film, "Albedo.G", middle), 0.0, 0.0);
+        assert_near(channel_at(film, "Emission.G", middle), 2.0, 1e-5);
+        const double unit = 33.0 / (2.0 * tan(pi / 6.0)); /* px */
+        for (int k = 0; k < 2; k++) {
+            const double z = k ? 6.0 : 3.0, moved = 0.1 * (1.0 / z - 1.0 / 3.5) * unit;
+            assert_near(channel_at(film, "CoC", k ? side : middle), sqrt(pi) * fabs(moved), 0.005);
+            assert_above(fabs(channel_at(film, "Shear", k ? side : middle)), 0.1);
+        }
+        clshear_film_free(film);
+        clshear_settings_free(settings);
+    }
+    clshear_scene_free(scene);
+}
+
 static void quads_have_a_dark_side(void **state)
 {
     static const double corner[3] = {-9, -9, 0}, right[3] = {18, 0, 0}, up[3] = {0, 18, 0};
@@ -215,9 +269,10 @@ static void wrong_shapes_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sphere_over_a_floor), cmocka_unit_test(quad_over_a_floor),
-        cmocka_unit_test(camera_sees_shapes),  cmocka_unit_test(quads_have_a_dark_side),
-        cmocka_unit_test(shapes_cast_shadows), cmocka_unit_test(wrong_shapes_are_refused),
+        cmocka_unit_test(sphere_over_a_floor),      cmocka_unit_test(quad_over_a_floor),
+        cmocka_unit_test(camera_sees_shapes),       cmocka_unit_test(channels_know_shapes),
+        cmocka_unit_test(quads_have_a_dark_side),   cmocka_unit_test(shapes_cast_shadows),
+        cmocka_unit_test(wrong_shapes_are_refused),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

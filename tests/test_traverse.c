@@ -165,7 +165,7 @@ static void hits_equal_embree(void **state)
         fixture made;
         cs_u32 wrong = 0, seen = 0;
         build(&made, meshes[k], 60000);
-        assert_int_equal(cs_accel_depth(made.accel, &camera, NULL, window, 0, depth, &error),
+        assert_int_equal(cs_accel_depth(made.accel, NULL, &camera, NULL, window, 0, depth, &error),
                          CLSHEAR_OK);
         for (cs_u32 i = 0; i < RAYS; i++) {
             const float direction[3] = {((cs_f32)(i % 256) + 0.5f - 128.0f) * camera.pixel_width,

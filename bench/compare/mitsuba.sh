@@ -3,7 +3,9 @@
 # the pictures agree, samples per second, and the time to the same noise. Installs Mitsuba into
 # build/mitsuba and LLVM 19 from Debian, which Mitsuba loads. Takes a quarter of an hour, in which
 # build/ must stay as it is.
-# bench/compare/mitsuba.sh [FLAGS of bench/compare/mitsuba.py]
+# Another script than bench/compare/mitsuba.py may be named instead; MITSUBA_PYTHON names another
+# Python, which has Mitsuba.
+# bench/compare/mitsuba.sh [SCRIPT.py] [FLAGS of the script]
 set -eu
 cd "$(dirname "$0")/../.."
 environment=build/mitsuba
@@ -17,10 +19,18 @@ if ! ldconfig -p | grep -q 'libLLVM.*19' || ! python3 -c 'import ensurepip' 2>/d
     apt-get update -qq
     apt-get install -y -qq libllvm19 python3-venv
 fi
-if ! $environment/bin/python -c 'import mitsuba' 2>/dev/null; then
+python=${MITSUBA_PYTHON:-$environment/bin/python}
+if ! "$python" -c 'import mitsuba' 2>/dev/null; then
+    python=$environment/bin/python
     python3 -m venv $environment
     $environment/bin/pip install -q mitsuba numpy
 fi
 DRJIT_LIBLLVM_PATH=$(ldconfig -p | awk '/libLLVM.*19/ { print $NF; exit }')
 export DRJIT_LIBLLVM_PATH
-exec $environment/bin/python bench/compare/mitsuba.py "$@"
+script=bench/compare/mitsuba.py
+case ${1:-} in *.py)
+    script=$1
+    shift
+    ;;
+esac
+exec "$python" "$script" "$@"

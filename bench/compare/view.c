@@ -83,7 +83,7 @@ static void make_rays(bench_view *view, cs_error *error)
     cs_array rows = {0};
     cs_depth *depth = bench_allocate(pixels * sizeof *depth);
     ray_planes *rays = &view->rays;
-    must(cs_accel_depth(view->accel, &view->frame, NULL, window, 0, depth, error), error);
+    must(cs_accel_depth(view->accel, NULL, &view->frame, NULL, window, 0, depth, error), error);
     must(cs_sample_table_make(&view->pattern, CS_ORDER_COHERENT, &rows, error), error);
     rays->count = pixels * spp;
     rays->origins = bench_allocate(3 * rays->count * sizeof(float));
@@ -92,7 +92,8 @@ static void make_rays(bench_view *view, cs_error *error)
     for (size_t i = 0; i < rays->count; i++) {
         const cs_u32 pixel =
             cs_tiled_pixel((cs_u32)(i / spp), (cs_u32)view->size, (cs_u32)view->size);
-        const float shear_px = cs_oracle_shear(&view->frame, &depth[pixel], CS_RULE_CENTRE);
+        const float shear_px =
+            cs_oracle_shear(&view->frame, 0.0f, 0.0f, &depth[pixel], CS_RULE_CENTRE);
         const cs_ray ray = ray_at(view, rows.items, pixel, (cs_u32)(i % spp), shear_px);
         for (size_t axis = 0; axis < 3; axis++) {
             rays->origins[axis * rays->count + i] = ray.origin[axis];

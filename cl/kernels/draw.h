@@ -4,6 +4,7 @@
 #define CS_KERNELS_DRAW_H
 
 #include "clshear/device/shear.h"
+#include "kernels/motion.h"
 #include "launch.h"
 
 typedef struct cs_place {
@@ -12,6 +13,9 @@ typedef struct cs_place {
     cs_u32 state; /* index in the buffer of pixels */
     cs_u32 key;   /* of the pixel's current pattern */
     cs_f32 shear; /* of its tuples, pixels */
+#if CS_HAS(MOTION)
+    cs_velocity velocity; /* of what it sees on the film */
+#endif
 } cs_place;
 
 /* Pixel `number` of the crop, row by row, which is the launch's pixel `index`. */
@@ -36,6 +40,9 @@ typedef struct cs_drawn {
     cs_f32 shear[CS_TOGETHER];
     cs_vint active[CS_TOGETHER]; /* lanes that are samples of the pattern */
     cs_camera_sample point[CS_TOGETHER];
+#if CS_HAS(MOTION)
+    cs_vfloat time[CS_TOGETHER]; /* of the shutter, 0 to 1 */
+#endif
     cs_pair light[CS_TOGETHER]; /* the tuple's slot, if there are area lights */
 #if CS_HAS(PATHS)
     cs_vuint index[CS_TOGETHER]; /* in the pattern */
@@ -83,8 +90,18 @@ static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sampl
     drawn->place[k] = number;
     drawn->shear[k] = place->shear;
     drawn->active[k] = active;
+#if CS_HAS(MOTION)
+    cs_vfloat time = cs_draw_time(&launch->pattern, sample_table, place->key, index,
+                                  launch->area_lights > 0u, &point);
+    cs_moving_sample moving =
+        cs_shear_moving(point, time, launch->shear_mode, &launch->camera.optics, lens_table,
+                        place->shear, place->velocity);
+    drawn->point[k] = moving.point;
+    drawn->time[k] = moving.time;
+#else
     drawn->point[k] =
         cs_shear_alone(point, launch->shear_mode, &launch->camera.optics, lens_table, place->shear);
+#endif
 #if CS_HAS(PATHS)
     drawn->index[k] = index;
 #endif
@@ -100,8 +117,10 @@ static inline void cs_draw_packets(const cs_launch *launch, cs_sample_table samp
     for (int number = 0; number < count; number++)
         for (cs_u32 at = start; drawn->count < CS_TOGETHER && at < end; at += (cs_u32)CS_PACKET)
             cs_draw_packet(launch, sample_table, lens_table, places, number, at, end, drawn);
+#if !CS_HAS(MOTION)
     cs_shear_together(drawn->point, drawn->shear, drawn->count, launch->shear_mode,
                       &launch->camera.optics);
+#endif
 }
 
 #endif

@@ -2,8 +2,8 @@
 #ifndef CS_KERNELS_FOUND_H
 #define CS_KERNELS_FOUND_H
 
-#include "clshear/device/camera.h"
 #include "kernels/aov.h"
+#include "kernels/motion.h"
 #include "kernels/surface.h"
 #include "kernels/vector.h"
 
@@ -40,16 +40,20 @@ static inline void cs_radiance_add(cs_radiance *found, cs_u32 met, int colour, c
 #endif
 }
 
-/* Keeps what the planes tell of the surfaces that are seen first. */
+/* Keeps what the planes tell of the surfaces that are seen first; other lanes stay. */
 static inline void cs_note_surface(const cs_surface *surface, cs_radiance *found)
 {
 #if CS_HAS(AOVS)
     for (int i = 0; i < 3; i++) {
-        found->plane[CS_PLANE_ALBEDO + i] = surface->hit ? surface->albedo[i] : (cs_vfloat)(0.0f);
-        found->plane[CS_PLANE_NORMAL + i] = surface->hit ? surface->normal[i] : (cs_vfloat)(0.0f);
-        found->plane[CS_PLANE_POSITION + i] = surface->hit ? surface->point[i] : (cs_vfloat)(0.0f);
+        found->plane[CS_PLANE_ALBEDO + i] =
+            surface->hit ? surface->albedo[i] : found->plane[CS_PLANE_ALBEDO + i];
+        found->plane[CS_PLANE_NORMAL + i] =
+            surface->hit ? surface->normal[i] : found->plane[CS_PLANE_NORMAL + i];
+        found->plane[CS_PLANE_POSITION + i] =
+            surface->hit ? surface->point[i] : found->plane[CS_PLANE_POSITION + i];
     }
-    found->plane[CS_PLANE_COVERAGE] = surface->hit ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
+    found->plane[CS_PLANE_COVERAGE] =
+        surface->hit ? (cs_vfloat)(1.0f) : found->plane[CS_PLANE_COVERAGE];
 #else
     (void)surface;
     (void)found;
@@ -57,7 +61,7 @@ static inline void cs_note_surface(const cs_surface *surface, cs_radiance *found
 }
 
 /* Camera depth of the noted surfaces. */
-static inline void cs_note_depth(const cs_camera *camera, cs_radiance *found)
+static inline void cs_note_depth(const cs_eye *camera, cs_radiance *found)
 {
 #if CS_HAS(AOVS)
     cs_vfloat covered = found->plane[CS_PLANE_COVERAGE], depth = (cs_vfloat)(0.0f);

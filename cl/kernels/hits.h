@@ -3,6 +3,7 @@
 #define CS_HITS_H
 
 #include "kernels/bsdf/list.h"
+#include "kernels/shape.h"
 #include "kernels/surface.h"
 #include "kernels/texture.h"
 #include "kernels/traverse.h"
@@ -39,18 +40,30 @@ static inline void cs_apply_colour(const cs_scene_buffers *scene, CS_GLOBAL cons
 }
 #endif
 
+/* A coordinate of a vertex's normal. */
+static inline cs_shape_number cs_vertex_normal(const cs_scene_buffers *scene, cs_u32 vertex,
+                                               int axis)
+{
+#if CS_HAS(MOVING)
+    return cs_moved(scene->vertices[vertex].normal[axis], scene->normal_steps[vertex].normal[axis],
+                    scene->time);
+#else
+    return scene->vertices[vertex].normal[axis];
+#endif
+}
+
 /* Interpolates the vertex normals over the lanes in `mine`, turned to the viewer's side. */
 static inline void cs_apply_smooth_normal(const cs_scene_buffers *scene,
                                           CS_GLOBAL const cs_face *face, cs_vfloat b1, cs_vfloat b2,
                                           cs_vint mine, cs_surface *surface)
 {
-    CS_GLOBAL const cs_vertex *v0 = scene->vertices + face->vertex[0];
-    CS_GLOBAL const cs_vertex *v1 = scene->vertices + face->vertex[1];
-    CS_GLOBAL const cs_vertex *v2 = scene->vertices + face->vertex[2];
     cs_vfloat normal[3];
-    for (int axis = 0; axis < 3; axis++)
-        normal[axis] = v0->normal[axis] + b1 * (v1->normal[axis] - v0->normal[axis]) +
-                       b2 * (v2->normal[axis] - v0->normal[axis]);
+    for (int axis = 0; axis < 3; axis++) {
+        cs_shape_number n0 = cs_vertex_normal(scene, face->vertex[0], axis);
+        cs_shape_number n1 = cs_vertex_normal(scene, face->vertex[1], axis);
+        cs_shape_number n2 = cs_vertex_normal(scene, face->vertex[2], axis);
+        normal[axis] = n0 + b1 * (n1 - n0) + b2 * (n2 - n0);
+    }
     cs_vfloat square = cs_dot(normal, normal);
     cs_vfloat scale = 1.0f / sqrt(square);
     scale = cs_dot(normal, surface->outward) < 0.0f ? -scale : scale;
@@ -87,8 +100,7 @@ static inline void cs_map_at(const cs_scene_buffers *scene, cs_u32 number, cs_vf
 
 /* Bends the normal of the lanes in `mine` as a normal map says, whose axes are those of the texture
  * on the triangle (glTF 2.0, material.normalTexture). The normal stays on the viewer's side. */
-static inline void cs_apply_normal_map(const cs_scene_buffers *scene,
-                                       CS_GLOBAL const cs_triangle *triangle,
+static inline void cs_apply_normal_map(const cs_scene_buffers *scene, const cs_shape *shape,
                                        CS_GLOBAL const cs_face *face, const cs_float_lanes *map,
                                        cs_f32 scale, cs_vint mine, cs_surface *surface)
 {
@@ -101,7 +113,7 @@ static inline void cs_apply_normal_map(const cs_scene_buffers *scene,
     cs_vfloat z = 2.0f * map[2].all - 1.0f, along[3], up[3], bent[3];
     const cs_vfloat *n = surface->normal;
     for (int i = 0; i < 3; i++)
-        along[i] = (cs_vfloat)(sign * (triangle->edge1[i] * u2 - triangle->edge2[i] * u1));
+        along[i] = (cs_vfloat)(sign * (shape->edge1[i] * u2 - shape->edge2[i] * u1));
     cs_vfloat off = cs_dot(along, n);
     for (int i = 0; i < 3; i++)
         along[i] -= off * n[i];
@@ -109,9 +121,9 @@ static inline void cs_apply_normal_map(const cs_scene_buffers *scene,
     cs_vint usable = mine & (square > 1e-30f);
     cs_vfloat inverse = 1.0f / sqrt(cs_max(square, (cs_vfloat)(1e-30f)));
     /* Seen from behind, the whole bent normal is reversed; z goes with the normal already. */
-    cs_vfloat facing = surface->outward[0] * triangle->normal[0] +
-                       surface->outward[1] * triangle->normal[1] +
-                       surface->outward[2] * triangle->normal[2];
+    cs_vfloat facing = surface->outward[0] * shape->normal[0] +
+                       surface->outward[1] * shape->normal[1] +
+                       surface->outward[2] * shape->normal[2];
     facing = facing < 0.0f ? (cs_vfloat)(-1.0f) : (cs_vfloat)(1.0f);
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -126,8 +138,7 @@ static inline void cs_apply_normal_map(const cs_scene_buffers *scene,
 
 /* Everything that the material's textures say of the lanes in `mine`. */
 static inline void cs_apply_textures(const cs_scene_buffers *scene,
-                                     CS_GLOBAL const cs_material *material,
-                                     CS_GLOBAL const cs_triangle *triangle,
+                                     CS_GLOBAL const cs_material *material, const cs_shape *shape,
                                      CS_GLOBAL const cs_face *face, cs_vfloat b1, cs_vfloat b2,
                                      cs_vint mine, cs_surface *surface)
 {
@@ -150,24 +161,30 @@ static inline void cs_apply_textures(const cs_scene_buffers *scene,
         mine ? p[CS_PARAMETER_METALLIC] * map[2].all : p[CS_PARAMETER_METALLIC];
     if (material->normal_texture == 0u) return;
     cs_map_at(scene, material->normal_texture, s, t, mine, map);
-    cs_apply_normal_map(scene, triangle, face, map, material->normal_scale, mine, surface);
+    cs_apply_normal_map(scene, shape, face, map, material->normal_scale, mine, surface);
 #else
-    (void)triangle;
+    (void)shape;
 #endif
 }
 #endif
 
 #if CS_HAS(MATERIALS)
-/* From alpha to a chance, and unlit surfaces to emission. */
+/* From alpha to the chance that a ray stops. */
+static inline cs_vfloat cs_covering(CS_GLOBAL const cs_material *material, cs_vfloat alpha)
+{
+    cs_vfloat covers = (cs_vfloat)(1.0f);
+    if (material->flags & CS_MATERIAL_BLEND) covers = alpha;
+    if (material->flags & CS_MATERIAL_MASK)
+        covers = alpha >= material->cutoff ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
+    return covers;
+}
+
+/* Does so, and makes emission of unlit surfaces. */
 static inline void cs_finish_material(CS_GLOBAL const cs_material *material, cs_vint mine,
                                       cs_surface *surface)
 {
-    cs_vfloat covers = (cs_vfloat)(1.0f);
-    if (material->flags & CS_MATERIAL_BLEND) covers = surface->alpha;
-    if (material->flags & CS_MATERIAL_MASK)
-        covers = surface->alpha >= material->cutoff ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
-    surface->alpha = mine ? covers : surface->alpha;
-    if (material->emission_texture > 0u)
+    surface->alpha = mine ? cs_covering(material, surface->alpha) : surface->alpha;
+    if (material->emission_texture > 0u || material->flags != 0u)
         surface->shines_to = mine ? (cs_vint)(CS_SHINES_RAYS) : surface->shines_to;
     if (!(material->flags & CS_MATERIAL_UNLIT)) return;
     surface->shines_to = mine ? (cs_vint)(CS_SHINES_CAMERA) : surface->shines_to;
@@ -185,9 +202,10 @@ static inline void cs_describe_triangle(const cs_scene_buffers *scene, const cs_
 {
     CS_GLOBAL const cs_triangle *triangle = scene->triangles + index;
     CS_GLOBAL const cs_material *material = scene->materials + triangle->material;
-    CS_GLOBAL const cs_f32 *n = triangle->normal;
-    cs_f32 square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-    cs_f32 scale = 1.0f / sqrt(square);
+    const cs_shape shape = CS_SHAPE_AT(scene, index);
+    const cs_shape_number *n = shape.normal;
+    cs_shape_number square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    cs_shape_number scale = 1.0f / sqrt(square);
     cs_vfloat along = fma((cs_vfloat)(n[0]), ray->direction[0],
                           fma((cs_vfloat)(n[1]), ray->direction[1], n[2] * ray->direction[2]));
     cs_vfloat towards = along > 0.0f ? (cs_vfloat)(-scale) : (cs_vfloat)(scale);
@@ -198,6 +216,9 @@ static inline void cs_describe_triangle(const cs_scene_buffers *scene, const cs_
         surface->emission[axis] =
             mine ? (cs_vfloat)(material->emission[axis]) : surface->emission[axis];
     }
+#if CS_HAS(EMITTERS)
+    surface->emitter = mine ? (cs_vint)((cs_i32)triangle->emitter) : surface->emitter;
+#endif
 #if CS_HAS(MATERIALS)
     cs_describe_bsdf(material, mine, surface);
     surface->inside = mine ? (cs_vint)(along > 0.0f) : surface->inside;
@@ -209,12 +230,12 @@ static inline void cs_describe_triangle(const cs_scene_buffers *scene, const cs_
         return;
     }
 
-    cs_vfloat x = surface->point[0] - triangle->corner[0];
-    cs_vfloat y = surface->point[1] - triangle->corner[1];
-    cs_vfloat z = surface->point[2] - triangle->corner[2];
-    cs_f32 inverse = 1.0f / square;
-    CS_GLOBAL const cs_f32 *e1 = triangle->edge1;
-    CS_GLOBAL const cs_f32 *e2 = triangle->edge2;
+    cs_vfloat x = surface->point[0] - shape.corner[0];
+    cs_vfloat y = surface->point[1] - shape.corner[1];
+    cs_vfloat z = surface->point[2] - shape.corner[2];
+    cs_shape_number inverse = 1.0f / square;
+    const cs_shape_number *e1 = shape.edge1;
+    const cs_shape_number *e2 = shape.edge2;
     cs_vfloat b1 = (x * (e2[1] * n[2] - e2[2] * n[1]) + y * (e2[2] * n[0] - e2[0] * n[2]) +
                     z * (e2[0] * n[1] - e2[1] * n[0])) *
                    inverse;
@@ -226,7 +247,7 @@ static inline void cs_describe_triangle(const cs_scene_buffers *scene, const cs_
         cs_apply_smooth_normal(scene, face, b1, b2, mine, surface);
 #if CS_HAS(TEXTURES)
     if (triangle->flags & CS_FACE_TEXTURED)
-        cs_apply_textures(scene, material, triangle, face, b1, b2, mine, surface);
+        cs_apply_textures(scene, material, &shape, face, b1, b2, mine, surface);
 #endif
 #if CS_HAS(COLOURS)
     if (triangle->flags & CS_FACE_COLOURED) cs_apply_colour(scene, face, b1, b2, mine, surface);
@@ -249,6 +270,9 @@ static inline cs_surface cs_describe_hits(const cs_scene_buffers *scene, const c
         surface.albedo[axis] = (cs_vfloat)(0.0f);
         surface.emission[axis] = (cs_vfloat)(0.0f);
     }
+#if CS_HAS(EMITTERS)
+    surface.emitter = (cs_vint)(0);
+#endif
 #if CS_HAS(MATERIALS)
     surface.bsdf = (cs_vint)(0);
     for (int i = 0; i < CS_MATERIAL_PARAMETERS; i++)

@@ -11,8 +11,20 @@ enum {
     CS_POINT_VALUES = CS_DIMENSIONS + CS_MAIN_DIMENSIONS
 };
 
+/* How the camera moves while the shutter is open: eye, line of sight and up direction change
+ * linearly, the rest of the camera does not. */
+typedef struct cs_camera_motion {
+    cs_f32 eye_step[3]; /* from open to closed, units of the scene */
+    cs_f32 sight[3];    /* from eye to target where it opens; any length */
+    cs_f32 sight_step[3];
+    cs_f32 up[3];
+    cs_f32 up_step[3];
+} cs_camera_motion;
+CS_SHARED_WORDS(cs_camera_motion, 15);
+
 typedef struct cs_launch {
-    cs_camera camera;
+    cs_camera camera;        /* where the shutter opens */
+    cs_camera_motion motion; /* with the feature MOTION */
     cs_pattern pattern;
     cs_u32 seed;
     cs_u32 replicate;
@@ -35,8 +47,9 @@ typedef struct cs_launch {
     cs_u32 see_through; /* whether some surfaces let rays pass: alpha */
     cs_f32 clamp;       /* most that a bounce adds to a channel; 0: no limit */
     cs_u32 planes;      /* of AOVs that are kept: a set of CS_PLANE_ numbers */
+    cs_u32 goes_on;     /* 1: more samples follow the pattern's last, so it is not finished */
 } cs_launch;
-CS_SHARED_WORDS(cs_launch, 73);
+CS_SHARED_WORDS(cs_launch, 92);
 
 /* How many pixels a work-item draws, so that their packets make CS_TOGETHER.
  * blocks: of a pixel's pattern in the launch. packet: lanes. */

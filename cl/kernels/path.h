@@ -21,6 +21,9 @@ typedef struct cs_path {
     cs_vfloat throughput[3]; /* radiance at the lens for one at the end of the ray */
     cs_vfloat density;       /* with which the BSDF drew the ray; of camera rays it is not used */
     cs_vfloat cosine;        /* of the ray at the surface that it left; negative behind it */
+#if CS_HAS(EMITTERS)
+    cs_vantage left; /* the surface behind the path's end */
+#endif
 #if CS_HAS(MATERIALS)
     cs_vfloat squeezed; /* by which solids, that the path is in, lower the throughput */
 #endif
@@ -56,17 +59,36 @@ static inline void cs_path_add(cs_path *path, cs_u32 met, cs_vfloat weight, cons
                         weight > 0.0f ? added[c] * scale : (cs_vfloat)(0.0f));
 }
 
+/* Lanes whose emission reaches more than the camera. */
+static inline cs_vint cs_shines_on_surfaces(const cs_surface *surface)
+{
+#if CS_HAS(MATERIALS)
+    return surface->shines_to != (cs_vint)(CS_SHINES_CAMERA);
+#else
+    (void)surface;
+    return (cs_vint)(-1);
+#endif
+}
+
 /* Adds what surfaces emit towards the path. */
 static inline void cs_path_add_emission(const cs_scene_buffers *scene, cs_u32 lights,
                                         const cs_surface *surface, cs_vfloat distance,
                                         cs_path *path)
 {
     cs_vint shines = surface->hit & (cs_luminance(surface->emission) > 0.0f);
+    if (path->depth > 0u) shines = shines & cs_shines_on_surfaces(surface);
     if (!cs_any(shines)) return;
     cs_vfloat weight = (cs_vfloat)(1.0f);
-    if (path->depth > 0u)
-        weight = cs_power_weight(path->density,
-                                 cs_emitter_density(scene, lights, surface, &path->ray, distance));
+    if (path->depth > 0u) {
+#if CS_HAS(EMITTERS)
+        cs_vfloat density = cs_emitters_density(scene, &path->left, surface);
+        (void)lights;
+        (void)distance;
+#else
+        cs_vfloat density = cs_emitter_density(scene, lights, surface, &path->ray, distance);
+#endif
+        weight = cs_power_weight(path->density, density);
+    }
     cs_path_add(path, path->depth, shines ? weight : (cs_vfloat)(0.0f), surface->emission);
 }
 
@@ -98,18 +120,6 @@ static inline void cs_path_add_escaped(const cs_scene_buffers *scene, const cs_h
 }
 #endif
 
-/* Lanes whose surface lets light through to the other side. */
-static inline cs_vint cs_lets_through(const cs_surface *surface)
-{
-#if CS_HAS(MATERIALS)
-    return (surface->bsdf != (cs_vint)(CS_BSDF_LAMBERT)) &
-           (surface->parameters[CS_PARAMETER_TRANSMISSION] > 0.0f);
-#else
-    (void)surface;
-    return (cs_vint)(0);
-#endif
-}
-
 /* Where rays to the side of `towards` leave the surface: `origin` is off it on the viewer's side.
  */
 static inline void cs_leave_towards(const cs_surface *surface, const cs_vfloat *origin,
@@ -134,7 +144,7 @@ static inline cs_vint cs_is_open(const cs_surface *surface, const cs_vfloat *tow
 static inline cs_vint cs_find_surfaces(const cs_scene_buffers *scene, cs_u32 lights,
                                        const cs_ray *ray, cs_hit *hit, cs_surface *surface)
 {
-    cs_traverse(scene->nodes, scene->triangles, ray, 0, hit);
+    cs_traverse(scene, ray, 0, hit);
 #if CS_HAS(LIGHTS)
     cs_meet_shapes(scene, lights, ray, 0, hit);
 #else
@@ -166,24 +176,29 @@ static inline cs_u32 cs_passing_key(cs_u32 depth, cs_u32 ray, cs_u32 passed)
 }
 #endif
 
-/* The path's next surfaces, as cs_find_surfaces; those that it passes move the ray's origin on. */
+/* The path's next surfaces, as cs_find_surfaces, but for those that it passes. The ray stays as it
+ * was, so that distances are from the surface that it left. */
 static inline cs_vint cs_path_hit(const cs_scene_buffers *scene, const cs_draws *draws,
                                   cs_path *path, cs_hit *hit, cs_surface *surface)
 {
     cs_vint seen = cs_find_surfaces(scene, path->lights, &path->ray, hit, surface);
 #if CS_HAS(MATERIALS)
     cs_vint passes = seen; /* lanes that stopped once have stopped */
+    cs_vfloat passed = (cs_vfloat)(0.0f);
+    cs_ray ray = path->ray;
     for (cs_u32 n = 0u; cs_any(seen) && n < (cs_u32)CS_MOST_PASSED; n++) {
         passes = passes & cs_passes(surface, draws, cs_passing_key(path->depth, 0u, n));
         if (!cs_any(passes)) break;
         cs_vfloat origin[3], from[3];
         cs_leave_surface(surface, hit->distance, origin);
-        cs_leave_towards(surface, origin, path->ray.direction, from);
+        cs_leave_towards(surface, origin, ray.direction, from);
         for (int i = 0; i < 3; i++)
-            path->ray.origin[i] = passes ? from[i] : path->ray.origin[i];
+            ray.origin[i] = passes ? from[i] : ray.origin[i];
+        passed += passes ? hit->distance : (cs_vfloat)(0.0f);
         hit->distance = path->alive ? (cs_vfloat)(INFINITY) : (cs_vfloat)(-1.0f);
-        seen = cs_find_surfaces(scene, path->lights, &path->ray, hit, surface);
+        seen = cs_find_surfaces(scene, path->lights, &ray, hit, surface);
     }
+    hit->distance += passed;
 #else
     (void)draws;
 #endif
@@ -228,7 +243,7 @@ static inline void cs_path_shadow(const cs_scene_buffers *scene, cs_ray *ray, co
     }
 #endif
     (void)draws;
-    cs_traverse(scene->nodes, scene->triangles, ray, 1, hit);
+    cs_traverse(scene, ray, 1, hit);
 #if CS_HAS(LIGHTS)
     cs_meet_shapes(scene, path->lights, ray, 1, hit);
 #else
@@ -318,6 +333,9 @@ static inline void cs_path_scatter(const cs_surface *surface, const cs_vfloat *o
     path->alive = cs_is_open(surface, drawn.in) & (drawn.density > 0.0f);
     cs_leave_towards(surface, origin, drawn.in, path->ray.origin);
     cs_vfloat weight = path->alive ? cosine * drawn.value.scale / drawn.density : (cs_vfloat)(0.0f);
+#if CS_HAS(EMITTERS)
+    path->left = cs_vantage_of(surface);
+#endif
     path->density = drawn.density;
     path->cosine = cs_dot(surface->normal, drawn.in);
     for (int i = 0; i < 3; i++) {
@@ -361,6 +379,7 @@ static inline int cs_path_advance(const cs_scene_buffers *scene, const cs_launch
     cs_vint seen = cs_path_hit(scene, draws, path, &hit, &surface);
 #if CS_HAS(LIGHTS)
     cs_path_add_escaped(scene, &hit, path);
+    if (path->depth == 0u) cs_note_shapes(scene, path->lights, &path->ray, &hit, &path->radiance);
 #endif
     if (!cs_any(seen)) return 0;
 #if CS_HAS(MATERIALS)

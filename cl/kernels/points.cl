@@ -43,6 +43,10 @@ __kernel void cs_draw_sum(const cs_launch launch, const float shear,
     place.y = 0u;
     place.key = cs_pattern_key(launch.seed, (cs_u32)get_global_id(0), launch.replicate);
     place.shear = shear;
+#if CS_HAS(MOTION)
+    place.velocity.x = 0.0f;
+    place.velocity.y = 0.0f;
+#endif
     cs_vfloat sum = (cs_vfloat)(0.0f);
     cs_u32 end = launch.pattern.blocks * (cs_u32)CS_BLOCK;
     for (cs_u32 start = 0u; start < end; start += (cs_u32)(CS_TOGETHER * CS_PACKET)) {

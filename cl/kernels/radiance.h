@@ -28,7 +28,7 @@ static inline void cs_add_light(const cs_scene_buffers *scene, cs_u32 lights,
     }
     cs_hit blocked;
     blocked.distance = facing ? (cs_vfloat)(light->reach) : (cs_vfloat)(-1.0f);
-    cs_traverse(scene->nodes, scene->triangles, &shadow, 1, &blocked);
+    cs_traverse(scene, &shadow, 1, &blocked);
 #if CS_HAS(LIGHTS)
     cs_meet_shapes(scene, lights, &shadow, 1, &blocked);
 #else
@@ -73,11 +73,12 @@ static inline cs_radiance cs_radiance_along(const cs_scene_buffers *scene, cs_u3
 {
     cs_hit hit;
     hit.distance = active ? (cs_vfloat)(INFINITY) : (cs_vfloat)(-1.0f);
-    cs_traverse(scene->nodes, scene->triangles, ray, 0, &hit);
+    cs_traverse(scene, ray, 0, &hit);
     cs_radiance radiance = cs_radiance_begin();
 #if CS_HAS(LIGHTS)
     cs_meet_shapes(scene, lights, ray, 0, &hit);
     cs_add_escaped(scene, lights, ray, &hit, active, &radiance);
+    cs_note_shapes(scene, lights, ray, &hit, &radiance);
 #endif
     cs_vint seen = hit.triangle >= 0;
     if (!cs_any(seen)) return radiance;

@@ -9,9 +9,21 @@ static inline void cs_trace_packet(const cs_launch *launch, const cs_scene_buffe
                                    cs_sample_table sample_table, const cs_place *place,
                                    const cs_drawn *drawn, int packet, cs_radiance *radiance)
 {
+#if CS_HAS(MOVING)
+    cs_scene_buffers moved = *scene;
+    moved.time = drawn->time[packet];
+    scene = &moved;
+#endif
     cs_camera_sample point = drawn->point[packet];
+#if CS_HAS(MOTION)
+    const cs_eye eye = cs_eye_at(launch, drawn->time[packet]);
+    cs_ray ray = cs_eye_ray(launch, &eye, point.x + (cs_f32)place->x, point.y + (cs_f32)place->y,
+                            point.u, point.v);
+#else
+    const cs_eye eye = launch->camera;
     cs_ray ray = cs_lens_ray(launch->camera, point.x + (cs_f32)place->x, point.y + (cs_f32)place->y,
                              point.u, point.v);
+#endif
 #if CS_HAS(PATHS)
     cs_draws draws = {&launch->pattern, sample_table, place->key, drawn->index[packet]};
     *radiance =
@@ -21,7 +33,7 @@ static inline void cs_trace_packet(const cs_launch *launch, const cs_scene_buffe
     *radiance =
         cs_radiance_along(scene, launch->lights, &ray, drawn->light[packet], drawn->active[packet]);
 #endif
-    cs_note_depth(&launch->camera, radiance);
+    cs_note_depth(&eye, radiance);
 }
 
 /* Samples at places `start` to `end` of the order of a few pixels, gathered and merged into them.
@@ -68,11 +80,14 @@ static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *sc
  * pixels: one cs_pixel for each pixel of the crop from launch.page_first on, or each that is drawn,
  * zero at first. aovs: for each of them the sums of the planes in launch.planes; not used without
  * the feature AOVS. order: the crop's pixels (row by row) in the order in which they are drawn.
- * shears: the oracle's answer for each pixel of the crop, in pixels. sample_table: the pattern's.
+ * shears: the oracle's answer for each pixel of the crop, in pixels. velocities: two floats for
+ * each, in pixels while the shutter is open; not used without the feature MOTION. sample_table: the
+ * pattern's.
  * lens_table: the optics'. The others: the scene, see cs_scene_buffers. */
 __kernel void cs_render(const cs_launch launch, __global cs_pixel *pixels,
                         __global cs_exact_sum *aovs, __global const uint *order,
-                        __global const float *shears, __global const uint *sample_table,
+                        __global const float *shears, __global const float *velocities,
+                        __global const uint *sample_table,
                         __global const float *lens_table CS_SCENE_PARAMETERS)
 {
     cs_u32 begin = (cs_u32)get_global_id(0) * launch.pixels_each;
@@ -83,13 +98,19 @@ __kernel void cs_render(const cs_launch launch, __global cs_pixel *pixels,
     for (int i = 0; i < count; i++) {
         cs_u32 number = order[launch.first_pixel + begin + (cs_u32)i];
         places[i] = cs_place_of(&launch, begin + (cs_u32)i, number, shears[number]);
+#if CS_HAS(MOTION)
+        places[i].velocity.x = velocities[2u * (size_t)number];
+        places[i].velocity.y = velocities[2u * (size_t)number + 1u];
+#else
+        (void)velocities;
+#endif
     }
     for (cs_u32 block = launch.first_block; block < launch.last_block; block += CS_FLUSH_BLOCKS) {
         cs_u32 end = min(block + (cs_u32)CS_FLUSH_BLOCKS, launch.last_block) * (cs_u32)CS_BLOCK;
         cs_sample(&launch, &scene, sample_table, lens_table, places, count,
                   block * (cs_u32)CS_BLOCK, end, pixels, aovs);
     }
-    if (launch.last_block != launch.pattern.blocks) return;
+    if (launch.last_block != launch.pattern.blocks || launch.goes_on != 0u) return;
     for (int i = 0; i < count; i++)
         cs_finish_pattern(pixels + places[i].state);
 }

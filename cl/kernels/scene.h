@@ -19,19 +19,24 @@ enum {
 
 /* The buffers of a scene, in the order of kernels' arguments: X(identifier, name, type of the
  * elements). Structs, kernel parameters and the host's arrays are made from it. */
-#define CS_SCENE_BUFFER_LIST(X)          \
-    X(NODES, nodes, cs_node)             \
-    X(TRIANGLES, triangles, cs_triangle) \
-    X(FACES, faces, cs_face)             \
-    X(VERTICES, vertices, cs_vertex)     \
-    X(COLOURS, colours, cs_colour)       \
-    X(MATERIALS, materials, cs_material) \
-    X(TEXTURES, textures, cs_texture)    \
-    X(TEXELS, texels, half)              \
-    X(LIGHTS, lights, cs_light)          \
-    X(EMITTERS, emitters, cs_emitter)    \
-    X(ENVIRONMENT, environment, cs_f32)  \
-    X(ALBEDOS, albedos, cs_f32)
+#define CS_SCENE_BUFFER_LIST(X)                         \
+    X(NODES, nodes, cs_node)                            \
+    X(TRIANGLES, triangles, cs_triangle)                \
+    X(FACES, faces, cs_face)                            \
+    X(VERTICES, vertices, cs_vertex)                    \
+    X(COLOURS, colours, cs_colour)                      \
+    X(MATERIALS, materials, cs_material)                \
+    X(TEXTURES, textures, cs_texture)                   \
+    X(TEXELS, texels, half)                             \
+    X(LIGHTS, lights, cs_light)                         \
+    X(EMITTERS, emitters, cs_emitter)                   \
+    X(EMITTER_NODES, emitter_nodes, cs_emitter_node)    \
+    X(ENVIRONMENT, environment, cs_f32)                 \
+    X(ALBEDOS, albedos, cs_f32)                         \
+    X(NODE_STEPS, node_steps, cs_node_step)             \
+    X(TRIANGLE_STEPS, triangle_steps, cs_triangle_step) \
+    X(NORMAL_STEPS, normal_steps, cs_normal_step)       \
+    X(EMITTER_STEPS, emitter_steps, cs_triangle_step)
 
 #define CS_SCENE_IDENTIFIER(identifier, name, type) CS_SCENE_##identifier,
 
@@ -57,9 +62,34 @@ typedef struct cs_triangle {
     cs_f32 edge2[3];
     cs_u32 flags;     /* CS_FACE_ bits */
     cs_f32 normal[3]; /* cross(edge1, edge2), not normalised */
-    cs_u32 padding;
+    cs_u32 emitter;   /* index into the array of cs_emitter, from 1 on; 0: none */
 } cs_triangle;
 CS_SHARED_WORDS(cs_triangle, 16);
+
+/* The steps: how what moves changes from where the shutter opens to where it closes, linearly in
+ * between. As many as there are nodes, triangles, vertices and emitters; none where nothing moves.
+ */
+
+/* Of the boxes of a node's children, which hold the children at every time. */
+typedef struct cs_node_step {
+    cs_f32 bounds[2][3][2]; /* child, axis, low and high */
+} cs_node_step;
+CS_SHARED_WORDS(cs_node_step, 12);
+
+/* Of a triangle, or of an emitter. */
+typedef struct cs_triangle_step {
+    cs_f32 corner[3];
+    cs_f32 edge1[3];
+    cs_f32 edge2[3];
+    cs_f32 padding[3];
+} cs_triangle_step;
+CS_SHARED_WORDS(cs_triangle_step, 12);
+
+/* Of a vertex. */
+typedef struct cs_normal_step {
+    cs_f32 normal[3];
+} cs_normal_step;
+CS_SHARED_WORDS(cs_normal_step, 3);
 
 enum {
     CS_FACE_SMOOTH = 1,   /* its vertices have normals */
@@ -155,17 +185,43 @@ typedef struct cs_light {
 } cs_light;
 CS_SHARED_WORDS(cs_light, 16);
 
-/* An emissive triangle in the table from which area-light samples are drawn. */
+/* An emissive triangle from which area-light samples are drawn. */
 typedef struct cs_emitter {
     cs_f32 corner[3];
-    cs_f32 cumulative; /* probability of this emitter and all before it */
+    cs_f32 cumulative; /* in the choice by power: probability of this emitter and all before it */
     cs_f32 edge1[3];
-    cs_f32 probability;
+    cs_f32 probability; /* in that choice; 0 where the radiance varies */
     cs_f32 edge2[3];
     cs_f32 area;
-    cs_f32 radiance[3];
-    cs_f32 padding;
+    cs_f32 radiance[3]; /* without what varies */
+    cs_f32 luminance;   /* of the mean radiance */
+    cs_u32 node;        /* its leaf in the array of cs_emitter_node */
+    cs_u32 face;        /* index into the array of cs_face */
+    cs_u32 material;
+    cs_u32 varies; /* CS_EMITTER_ bits */
 } cs_emitter;
-CS_SHARED_WORDS(cs_emitter, 16);
+CS_SHARED_WORDS(cs_emitter, 20);
+
+enum {
+    CS_EMITTER_COVERS = 1,  /* multiplied by alpha */
+    CS_EMITTER_TEXTURED = 2 /* multiplied by textures */
+};
+
+enum {
+    CS_EMITTER_ROOT = 1 /* node 0 is not used: both children of a node stand at 2 k and 2 k + 1 */
+};
+
+/* A node of the tree of emitters: what bounds the light of all triangles below it. */
+typedef struct cs_emitter_node {
+    cs_f32 centre[3]; /* of a sphere around them */
+    cs_f32 radius;
+    cs_f32 axis[3]; /* unit; of a cone with their normals, or the opposite ones */
+    cs_f32 cosine;  /* of the cone's half angle, 0 to 1 */
+    cs_f32 power;   /* areas times luminances */
+    cs_u32 child;   /* the first of two nodes, or CS_LEAF | index of an emitter */
+    cs_u32 parent;
+    cs_u32 padding;
+} cs_emitter_node;
+CS_SHARED_WORDS(cs_emitter_node, 12);
 
 #endif

@@ -9,7 +9,7 @@
 /* Who finds what a surface emits. */
 enum {
     CS_SHINES_SAMPLED, /* the samples of its light, and rays */
-    CS_SHINES_RAYS,    /* rays that happen to hit it */
+    CS_SHINES_RAYS,    /* rays that happen to hit it; with the feature EMITTERS samples too */
     CS_SHINES_CAMERA   /* rays of the camera */
 };
 
@@ -20,6 +20,9 @@ typedef struct cs_surface {
     cs_vfloat normal[3];  /* unit shading normal on the viewer's side */
     cs_vfloat albedo[3];
     cs_vfloat emission[3];
+#if CS_HAS(EMITTERS)
+    cs_vint emitter; /* number from 1 on, or 0 */
+#endif
 #if CS_HAS(MATERIALS)
     cs_vint bsdf;                                 /* CS_BSDF_ kind */
     cs_vfloat parameters[CS_MATERIAL_PARAMETERS]; /* of the material, for its BSDF */

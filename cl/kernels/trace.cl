@@ -13,6 +13,9 @@ __kernel void cs_trace(const uint rays, const int any_hit, __global const float 
 {
     size_t first = get_global_id(0) * CS_PACKET;
     if (first >= rays) return;
+    cs_scene_buffers scene; /* the others are not looked at */
+    scene.nodes = nodes;
+    scene.triangles = triangles;
     cs_ray ray;
     for (int axis = 0; axis < 3; axis++) {
         ray.origin[axis] = *(__global const cs_vfloat *)(origins + (size_t)axis * rays + first);
@@ -22,9 +25,9 @@ __kernel void cs_trace(const uint rays, const int any_hit, __global const float 
     cs_hit hit;
     hit.distance = *(__global const cs_vfloat *)(distances + first);
     if (any_hit) {
-        cs_traverse(nodes, triangles, &ray, 1, &hit);
+        cs_traverse(&scene, &ray, 1, &hit);
     } else {
-        cs_traverse(nodes, triangles, &ray, 0, &hit);
+        cs_traverse(&scene, &ray, 0, &hit);
         cs_int_lanes index;
         index.all = hit.triangle;
         for (int lane = 0; lane < CS_PACKET; lane++)

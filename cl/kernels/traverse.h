@@ -8,7 +8,7 @@
 
 #include "clshear/device/lens.h"
 #include "clshear/device/packet.h"
-#include "kernels/scene.h"
+#include "kernels/shape.h"
 
 typedef struct cs_hit {
     cs_vfloat distance; /* in units of the ray's direction */
@@ -19,22 +19,43 @@ typedef struct cs_walk {
     cs_vfloat inverse[3]; /* of the direction */
     cs_vfloat offset[3];  /* -origin * inverse: slab tests are one multiply-add a plane */
     cs_vint active;       /* lanes of the octant that is walked */
+#if CS_HAS(MOVING)
+    CS_GLOBAL const cs_node_step *node_steps;
+    CS_GLOBAL const cs_triangle_step *triangle_steps;
+    cs_vfloat time;
+#endif
 } cs_walk;
+
+/* A plane of a box. */
+#if CS_HAS(MOVING)
+#define CS_PLANE_OF(axis, end) cs_moved(axis[end], axis##_step[end], time)
+#else
+#define CS_PLANE_OF(axis, end) ((cs_vfloat)(axis[end]))
+#endif
 
 /* Distances at which the lanes enter the box of child `side`; lanes that miss it are cleared in
  * `hit`. */
-static inline cs_vfloat cs_enter_box(CS_GLOBAL const cs_node *node, int side, const cs_walk *walk,
-                                     const int *negative, cs_vfloat limit, cs_vint *hit)
+static inline cs_vfloat cs_enter_box(CS_GLOBAL const cs_node *nodes, cs_u32 index, int side,
+                                     const cs_walk *walk, const int *negative, cs_vfloat limit,
+                                     cs_vint *hit)
 {
+    CS_GLOBAL const cs_node *node = nodes + index;
     CS_GLOBAL const cs_f32 *x = node->bounds[side][0];
     CS_GLOBAL const cs_f32 *y = node->bounds[side][1];
     CS_GLOBAL const cs_f32 *z = node->bounds[side][2];
-    cs_vfloat near_x = fma((cs_vfloat)(x[negative[0]]), walk->inverse[0], walk->offset[0]);
-    cs_vfloat near_y = fma((cs_vfloat)(y[negative[1]]), walk->inverse[1], walk->offset[1]);
-    cs_vfloat near_z = fma((cs_vfloat)(z[negative[2]]), walk->inverse[2], walk->offset[2]);
-    cs_vfloat far_x = fma((cs_vfloat)(x[1 - negative[0]]), walk->inverse[0], walk->offset[0]);
-    cs_vfloat far_y = fma((cs_vfloat)(y[1 - negative[1]]), walk->inverse[1], walk->offset[1]);
-    cs_vfloat far_z = fma((cs_vfloat)(z[1 - negative[2]]), walk->inverse[2], walk->offset[2]);
+#if CS_HAS(MOVING)
+    CS_GLOBAL const cs_node_step *step = walk->node_steps + index;
+    CS_GLOBAL const cs_f32 *x_step = step->bounds[side][0];
+    CS_GLOBAL const cs_f32 *y_step = step->bounds[side][1];
+    CS_GLOBAL const cs_f32 *z_step = step->bounds[side][2];
+    cs_vfloat time = walk->time;
+#endif
+    cs_vfloat near_x = fma(CS_PLANE_OF(x, negative[0]), walk->inverse[0], walk->offset[0]);
+    cs_vfloat near_y = fma(CS_PLANE_OF(y, negative[1]), walk->inverse[1], walk->offset[1]);
+    cs_vfloat near_z = fma(CS_PLANE_OF(z, negative[2]), walk->inverse[2], walk->offset[2]);
+    cs_vfloat far_x = fma(CS_PLANE_OF(x, 1 - negative[0]), walk->inverse[0], walk->offset[0]);
+    cs_vfloat far_y = fma(CS_PLANE_OF(y, 1 - negative[1]), walk->inverse[1], walk->offset[1]);
+    cs_vfloat far_z = fma(CS_PLANE_OF(z, 1 - negative[2]), walk->inverse[2], walk->offset[2]);
     cs_vfloat enter = cs_max(cs_max(near_x, near_y), cs_max(near_z, (cs_vfloat)(0.0f)));
     cs_vfloat leave = cs_min(cs_min(far_x, far_y), cs_min(far_z, limit));
     *hit = enter <= leave;
@@ -51,9 +72,8 @@ static inline void cs_prefetch_child(CS_GLOBAL const cs_node *nodes,
 }
 
 /* Test by scaled barycentrics (Möller & Trumbore 1997 with a stored normal). */
-static inline void cs_hit_triangle(CS_GLOBAL const cs_triangle *triangle, cs_i32 index,
-                                   const cs_ray *ray, cs_vint active, const int any_hit,
-                                   cs_hit *hit)
+static inline void cs_hit_triangle(cs_shape_pointer triangle, cs_i32 index, const cs_ray *ray,
+                                   cs_vint active, const int any_hit, cs_hit *hit)
 {
     cs_vfloat to_x = triangle->corner[0] - ray->origin[0];
     cs_vfloat to_y = triangle->corner[1] - ray->origin[1];
@@ -103,8 +123,10 @@ static inline cs_hit cs_walk_octant(CS_GLOBAL const cs_node *nodes,
             cs_prefetch_child(nodes, triangles, node->child[0]);
             cs_prefetch_child(nodes, triangles, node->child[1]);
             cs_vint hit0, hit1;
-            cs_vfloat enter0 = cs_enter_box(node, 0, &walk, negative, hit.distance, &hit0);
-            cs_vfloat enter1 = cs_enter_box(node, 1, &walk, negative, hit.distance, &hit1);
+            cs_vfloat enter0 =
+                cs_enter_box(nodes, current, 0, &walk, negative, hit.distance, &hit0);
+            cs_vfloat enter1 =
+                cs_enter_box(nodes, current, 1, &walk, negative, hit.distance, &hit1);
             int any0 = cs_any(hit0), any1 = cs_any(hit1);
             descend = any0 | any1;
             current = any0 ? node->child[0] : node->child[1];
@@ -121,8 +143,15 @@ static inline cs_hit cs_walk_octant(CS_GLOBAL const cs_node *nodes,
         } else {
             cs_u32 first = current & ((1u << CS_LEAF_SHIFT) - 1u);
             cs_u32 last = first + (current >> CS_LEAF_SHIFT & 7u);
-            for (cs_u32 i = first; i <= last; i++)
+            for (cs_u32 i = first; i <= last; i++) {
+#if CS_HAS(MOVING)
+                const cs_shape moved =
+                    cs_shape_of(triangles + i, walk.triangle_steps + i, walk.time);
+                cs_hit_triangle(&moved, (cs_i32)i, &ray, walk.active, any_hit, &hit);
+#else
                 cs_hit_triangle(triangles + i, (cs_i32)i, &ray, walk.active, any_hit, &hit);
+#endif
+            }
             if (any_hit && !cs_any(hit.distance >= 0.0f)) return hit;
         }
         while (!descend) {
@@ -137,12 +166,16 @@ static inline cs_hit cs_walk_octant(CS_GLOBAL const cs_node *nodes,
 /* Traces the lanes whose hit->distance is positive, up to that distance. Closest hit: `hit` gets
  * the nearest triangle and its distance. Any hit: the distance of a lane that is blocked becomes
  * negative. `any_hit` must be a literal. */
-static inline void cs_traverse(CS_GLOBAL const cs_node *nodes,
-                               CS_GLOBAL const cs_triangle *triangles, const cs_ray *ray,
-                               const int any_hit, cs_hit *hit)
+static inline void cs_traverse(const cs_scene_buffers *scene, const cs_ray *ray, const int any_hit,
+                               cs_hit *hit)
 {
     cs_walk walk;
     cs_vint octants = (cs_vint)(0);
+#if CS_HAS(MOVING)
+    walk.node_steps = scene->node_steps;
+    walk.triangle_steps = scene->triangle_steps;
+    walk.time = scene->time;
+#endif
     for (int axis = 0; axis < 3; axis++) {
         cs_vfloat d = ray->direction[axis];
         cs_vfloat safe = fabs(d) < 1e-18f ? (cs_vfloat)(1e-18f) : d;
@@ -157,7 +190,7 @@ static inline void cs_traverse(CS_GLOBAL const cs_node *nodes,
         if (!cs_any(walk.active)) continue;
         cs_vfloat others = hit->distance;
         hit->distance = walk.active ? hit->distance : (cs_vfloat)(-1.0f);
-        *hit = cs_walk_octant(nodes, triangles, *ray, walk, octant, any_hit, *hit);
+        *hit = cs_walk_octant(scene->nodes, scene->triangles, *ray, walk, octant, any_hit, *hit);
         hit->distance = walk.active ? hit->distance : others;
     }
 }

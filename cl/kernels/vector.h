@@ -1,12 +1,18 @@
-/* Products of vectors of lanes. Device only. */
+/* Products of vectors of lanes. Shared. */
 #ifndef CS_KERNELS_VECTOR_H
 #define CS_KERNELS_VECTOR_H
 
 #include "clshear/device/packet.h"
 
+#ifdef CS_DEVICE
+#define cs_fma(a, b, c) fma(a, b, c)
+#else
+#define cs_fma(a, b, c) fmaf(a, b, c)
+#endif
+
 static inline cs_vfloat cs_dot(const cs_vfloat *a, const cs_vfloat *b)
 {
-    return fma(a[0], b[0], fma(a[1], b[1], a[2] * b[2]));
+    return cs_fma(a[0], b[0], cs_fma(a[1], b[1], a[2] * b[2]));
 }
 
 /* Of a linear Rec.709 colour. */

@@ -127,8 +127,11 @@ static void describe_primitives(const cs_scene *scene, struct RTCBuildPrimitive 
 {
     for (uint32_t i = 0; i < scene->indices.count; i++) {
         struct RTCBounds box = empty_box();
-        for (int k = 0; k < 3; k++)
-            grow(&box, corner_of(scene, i, k));
+        for (int k = 0; k < 3; k++) {
+            float place[3];
+            cs_scene_corner(scene, i, k, 0.5f, place);
+            grow(&box, place);
+        }
         primitives[i] = (struct RTCBuildPrimitive){.lower_x = box.lower_x,
                                                    .lower_y = box.lower_y,
                                                    .lower_z = box.lower_z,
@@ -273,6 +276,8 @@ void cs_flat_bvh_free(cs_flat_bvh *bvh)
 {
     cs_array_free(&bvh->nodes);
     cs_array_free(&bvh->triangles);
+    cs_array_free(&bvh->node_steps);
+    cs_array_free(&bvh->triangle_steps);
 }
 
 clshear_status cs_accel_build_bvh(const cs_accel *accel, cs_flat_bvh *bvh, cs_error *error)
@@ -280,7 +285,7 @@ clshear_status cs_accel_build_bvh(const cs_accel *accel, cs_flat_bvh *bvh, cs_er
     clshear_status status = CLSHEAR_OK;
     const cs_scene *scene = accel->scene;
     const size_t count = scene->indices.count;
-    const int split = count <= MOST_SPLIT;
+    const int split = count <= MOST_SPLIT && !cs_scene_moves(scene);
     const size_t capacity = split ? 2 * count + 64 : count;
     RTCBVH builder = rtcNewBVH(accel->device);
     struct RTCBuildPrimitive *primitives = aligned_alloc(32, capacity * sizeof *primitives);
@@ -311,6 +316,7 @@ clshear_status cs_accel_build_bvh(const cs_accel *accel, cs_flat_bvh *bvh, cs_er
     build_node *root = rtcBuildBVH(&arguments);
     CS_REQUIRE(root != NULL, CLSHEAR_OUT_OF_MEMORY, "Embree cannot build the hierarchy");
     CS_TRY(flatten_tree(scene, root, primitives, bvh, error));
+    if (cs_scene_moves(scene)) CS_TRY(cs_flat_bvh_refit(scene, bvh, error));
 done:
     free(primitives);
     if (builder != NULL) rtcReleaseBVH(builder);

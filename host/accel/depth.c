@@ -7,6 +7,7 @@
 #include "clshear/device/lens.h"
 #include "clshear/device/sampler/sampler.h"
 #include "clshear/device/shear.h"
+#include "kernels/light/shape_distance.h"
 #include "pattern/pattern.h"
 
 enum {
@@ -16,6 +17,7 @@ enum {
 
 typedef struct prepass {
     const cs_accel *accel;
+    const cs_shapes *shapes;
     const cs_camera *camera;
     const int *window;
     const cs_camera_sample *sets; /* SETS sets of `lens_rays` samples */
@@ -37,9 +39,22 @@ static void aim(const cs_camera *camera, cs_f32 x, cs_f32 y, const cs_camera_sam
     query->ray.dir_z[lane] = ray.direction[2];
 }
 
+/* The distance to the nearest of the shapes along the lane's ray; infinite where it meets none. */
+static cs_f32 shape_ahead(const cs_shapes *shapes, const struct RTCRayHit16 *query, int lane)
+{
+    const cs_ray ray = {{query->ray.org_x[lane], query->ray.org_y[lane], query->ray.org_z[lane]},
+                        {query->ray.dir_x[lane], query->ray.dir_y[lane], query->ray.dir_z[lane]}};
+    cs_f32 nearest = INFINITY;
+    for (size_t i = 0; i < shapes->count; i++)
+        if (cs_is_shape(&shapes->lights[i]))
+            nearest = fminf(nearest, cs_shape_distance(&shapes->lights[i], &ray));
+    return nearest;
+}
+
 /* Traces the first `count` rays. Distances are depths, because directions have a forward component
  * of 1. */
-static void trace(const cs_accel *accel, struct RTCRayHit16 *query, int count, cs_f32 *depth)
+static void trace(const cs_accel *accel, const cs_shapes *shapes, struct RTCRayHit16 *query,
+                  int count, cs_f32 *depth)
 {
     struct RTCIntersectContext context;
     int valid[WIDTH] __attribute__((aligned(64)));
@@ -55,6 +70,8 @@ static void trace(const cs_accel *accel, struct RTCRayHit16 *query, int count, c
     for (int lane = 0; lane < count; lane++)
         depth[lane] =
             query->hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID ? INFINITY : query->ray.tfar[lane];
+    for (int lane = 0; lane < count && shapes != NULL; lane++)
+        depth[lane] = fminf(depth[lane], shape_ahead(shapes, query, lane));
 }
 
 /* Insertion sort: there are usually 16 values, many of them equal. */
@@ -92,7 +109,7 @@ static void depths_of_pixel(const prepass *work, cs_u32 x, cs_u32 y, struct RTCR
         const cs_u32 left = work->lens_rays - first, count = left < WIDTH ? left : WIDTH;
         for (cs_u32 lane = 0; lane < count; lane++)
             aim(work->camera, (cs_f32)x, (cs_f32)y, &points[first + lane], (int)lane, query);
-        trace(work->accel, query, (int)count, all + first);
+        trace(work->accel, work->shapes, query, (int)count, all + first);
     }
     if (work->lens_rays > 0) {
         summarise(all, work->lens_rays, depth);
@@ -113,7 +130,7 @@ static void depths_of_range(void *user, size_t begin, size_t end)
     const size_t width = (size_t)(work->window[1] - work->window[0]);
     struct RTCRayHit16 query = {0};
     for (int lane = 0; lane < WIDTH; lane++)
-        query.ray.mask[lane] = ~0u;
+        query.ray.mask[lane] = ~0u, query.ray.time[lane] = 0.5f;
     for (size_t first = begin; first < end; first += WIDTH) {
         const int count = end - first < WIDTH ? (int)(end - first) : WIDTH;
         cs_f32 centre[WIDTH];
@@ -123,7 +140,7 @@ static void depths_of_range(void *user, size_t begin, size_t end)
             y[i] = (cs_u32)work->window[2] + (cs_u32)((first + (size_t)i) / width);
             aim(work->camera, (cs_f32)x[i], (cs_f32)y[i], &middle, i, &query);
         }
-        trace(work->accel, &query, count, centre);
+        trace(work->accel, work->shapes, &query, count, centre);
         for (int i = 0; i < count; i++) {
             cs_depth *depth = &work->depth[first + (size_t)i];
             depth->centre = centre[i];
@@ -152,8 +169,9 @@ done:
     return status;
 }
 
-clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, const cs_f32 *optics,
-                              const int *window, int lens_rays, cs_depth *depth, cs_error *error)
+clshear_status cs_accel_depth(const cs_accel *accel, const cs_shapes *shapes,
+                              const cs_camera *camera, const cs_f32 *optics, const int *window,
+                              int lens_rays, cs_depth *depth, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_camera_sample *sets = NULL;
@@ -163,6 +181,7 @@ clshear_status cs_accel_depth(const cs_accel *accel, const cs_camera *camera, co
                CS_MOST_LENS_RAYS);
     if (lens_rays > 0) CS_TRY(make_sets(camera, optics, (cs_u32)lens_rays, &sets, error));
     prepass work = {.accel = accel,
+                    .shapes = shapes,
                     .camera = camera,
                     .window = window,
                     .sets = sets,

@@ -4,7 +4,7 @@
 #include "accel/embree.h"
 
 float cs_accel_distance(const cs_accel *accel, const float *origin, const float *direction,
-                        float near, float far, uint32_t *triangle)
+                        float near, float far, float time, uint32_t *triangle)
 {
     struct RTCIntersectContext context;
     struct RTCRayHit query = {.ray = {.org_x = origin[0],
@@ -15,6 +15,7 @@ float cs_accel_distance(const cs_accel *accel, const float *origin, const float 
                                       .dir_y = direction[1],
                                       .dir_z = direction[2],
                                       .tfar = far,
+                                      .time = time,
                                       .mask = ~0u},
                               .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;

@@ -25,6 +25,12 @@ static clshear_status attach_triangles(cs_accel *accel, cs_error *error)
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                scene->positions.items, 0, 3 * sizeof(float),
                                scene->positions.count);
+    if (cs_scene_moves(scene)) {
+        rtcSetGeometryTimeStepCount(geometry, 2);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 1, RTC_FORMAT_FLOAT3,
+                                   scene->positions_to.items, 0, 3 * sizeof(float),
+                                   scene->positions.count);
+    }
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                scene->indices.items, 0, 3 * sizeof(uint32_t), scene->indices.count);
     rtcCommitGeometry(geometry);

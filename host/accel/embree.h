@@ -15,4 +15,8 @@ struct cs_accel {
     int failed;
 };
 
+/* Gives the nodes the bounds of their triangles where the shutter opens, and fills in the steps of
+ * nodes and triangles. */
+clshear_status cs_flat_bvh_refit(const cs_scene *scene, cs_flat_bvh *bvh, cs_error *error);
+
 #endif

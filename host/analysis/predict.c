@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "analysis/fourier.h"
 #include "analysis/predict.h"
@@ -15,13 +16,13 @@ static const char *const part_names[CS_CONES + 1] = {"cone 0",    "cone 22.5",  
                                                      "cone 67.5", "cone 90",    "cone 112.5",
                                                      "cone 135",  "cone 157.5", "tail"};
 
-/* Index of a frequency's cone. f and -f share one. */
-static int cone_of(double x, double y)
+/* Index of a frequency's cone among `cones` in a half turn. f and -f share one. */
+static size_t cone_of(double x, double y, size_t cones)
 {
     double angle = atan2(y, x) / pi; /* in half turns */
     angle -= floor(angle);
-    const int cone = (int)(angle * CS_CONES);
-    return cone < CS_CONES ? cone : 0;
+    const size_t cone = (size_t)(angle * (double)cones);
+    return cone < cones ? cone : 0;
 }
 
 /* Energy of the integrand at (x, y), from FFTW's half plane of columns. The attenuation by averages
@@ -54,21 +55,39 @@ static frequency frequency_of(const clshear_spectrum *samples, size_t index)
     return f;
 }
 
-/* Computes the mean power of each ring. `counts` is scratch memory for as many entries. */
-static void ring_means(const clshear_spectrum *samples, double *means, double *counts, size_t rings)
+/* Index of a frequency's part of a ring. */
+static size_t part_of(const frequency *f, size_t cones)
 {
+    return f->radius * cones + cone_of((double)f->x, (double)f->y, cones);
+}
+
+/* The variance of the frequencies other than 0 with the power of each replaced by its mean over the
+ * part of its ring in one of `cones` cones. `means` and `counts` are scratch memory for `entries`
+ * entries. */
+static double sum_in_cones(const clshear_spectrum *samples, const fftw_complex *transform,
+                           size_t side, size_t cones, double *means, double *counts, size_t entries)
+{
+    double sum = 0.0;
+    memset(means, 0, entries * sizeof *means);
+    memset(counts, 0, entries * sizeof *counts);
     for (size_t i = 0; i < samples->width * samples->height; i++) {
         const frequency f = frequency_of(samples, i);
-        means[f.radius] += (double)samples->power[i];
-        counts[f.radius] += 1.0;
+        if (f.radius == 0) continue;
+        means[part_of(&f, cones)] += (double)samples->power[i];
+        counts[part_of(&f, cones)] += 1.0;
     }
-    for (size_t i = 0; i < rings; i++)
-        if (counts[i] > 0.0) means[i] /= counts[i];
+    for (size_t i = 0; i < samples->width * samples->height; i++) {
+        const frequency f = frequency_of(samples, i);
+        if (f.radius == 0) continue;
+        const size_t part = part_of(&f, cones);
+        sum += energy_at(transform, side, f.x, f.y) * means[part] / counts[part];
+    }
+    return sum / (double)samples->count;
 }
 
 /* Sums over all frequencies of the spectrum except 0. */
 static void sum_up(const clshear_spectrum *samples, const fftw_complex *transform, size_t side,
-                   const double *rings, clshear_prediction *p)
+                   clshear_prediction *p)
 {
     const double inverse = 1.0 / (double)samples->count;
     double seen = 0.0;
@@ -77,13 +96,11 @@ static void sum_up(const clshear_spectrum *samples, const fftw_complex *transfor
         if (f.radius == 0) continue;
         const double energy = energy_at(transform, side, f.x, f.y);
         seen += energy;
-        p->variances[cone_of((double)f.x, (double)f.y)] +=
+        p->variances[cone_of((double)f.x, (double)f.y, CS_CONES)] +=
             inverse * energy * (double)samples->power[i];
-        p->isotropic += inverse * energy * rings[f.radius];
     }
     const double tail = inverse * fmax(p->energy - seen, 0.0);
     p->variances[CS_CONES] = tail;
-    p->isotropic += tail;
     p->variance = tail;
     for (int cone = 0; cone < CS_CONES; cone++)
         p->variance += p->variances[cone];
@@ -99,7 +116,7 @@ clshear_status cs_predict_variance(const clshear_spectrum *samples, const float 
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
-    const size_t rings = longer_side(samples) + 2;
+    const size_t entries = (longer_side(samples) + 2) << (CS_CONE_LEVELS - 1);
     clshear_prediction p = {.parts = CS_CONES + 1};
     double *values = NULL, *means = NULL, mean = 0.0;
     fftw_complex *transform = NULL;
@@ -111,7 +128,7 @@ clshear_status cs_predict_variance(const clshear_spectrum *samples, const float 
                side, side, samples->width, samples->height);
     values = fftw_malloc(side * side * sizeof *values);
     transform = fftw_malloc(side * (side / 2 + 1) * sizeof *transform);
-    means = calloc(2 * rings, sizeof *means);
+    means = calloc(2 * entries, sizeof *means);
     CS_REQUIRE(values != NULL && transform != NULL && means != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory for an integrand of %zu x %zu cells", side, side);
     cs_fourier_start();
@@ -123,8 +140,11 @@ clshear_status cs_predict_variance(const clshear_spectrum *samples, const float 
     }
     fftw_execute(plan);
     p.energy = fmax(mean_square - mean * mean, 0.0);
-    ring_means(samples, means, means + rings, rings);
-    sum_up(samples, (const fftw_complex *)transform, side, means, &p);
+    sum_up(samples, (const fftw_complex *)transform, side, &p);
+    for (size_t level = 0; level < CS_CONE_LEVELS; level++)
+        p.by_cones[level] = p.variances[CS_CONES] +
+                            sum_in_cones(samples, (const fftw_complex *)transform, side,
+                                         (size_t)1 << level, means, means + entries, entries);
     for (size_t part = 0; part < p.parts; part++) {
         p.names[part] = part_names[part];
         p.energies[part] = NAN;

@@ -5,8 +5,9 @@
 #include "analysis/spectrum.h"
 
 enum {
-    CS_CONES = 8,      /* parts in two dimensions, without the tail */
-    CS_MOST_PARTS = 12 /* parts in four dimensions */
+    CS_CONES = 8,       /* parts in two dimensions, without the tail */
+    CS_MOST_PARTS = 12, /* parts in four dimensions */
+    CS_CONE_LEVELS = 9  /* divisions into 1, 2, 4, ... 256 cones */
 };
 
 struct clshear_prediction {
@@ -15,8 +16,9 @@ struct clshear_prediction {
     double variances[CS_MOST_PARTS];
     double energies[CS_MOST_PARTS]; /* energy of each part; NaN in two dimensions */
     double variance;                /* sum of `variances` */
-    double isotropic;               /* variance from ring means; NaN in four dimensions */
-    double energy;                  /* variance of the integrand itself */
+    /* Variance from means over parts of rings in 2^level cones; NaN in four dimensions. */
+    double by_cones[CS_CONE_LEVELS];
+    double energy; /* variance of the integrand itself */
 };
 
 /* Implement the public functions of these names. Errors go to the calling thread's error. */

@@ -14,7 +14,7 @@ enum {
     BLOCK = AXES + PLANES,
     TAIL = BLOCK + 1,
     FOLD = 128,           /* frequencies of an axis per row of the lattice */
-    GRID_POINTS = 1 << 19 /* least number of points per grid of a part */
+    GRID_POINTS = 1 << 19 /* least number of points per grid of a part, unless it is given */
 };
 
 static const struct {
@@ -106,26 +106,32 @@ static void add_up(int part, int reach, const cs_lattice *lattice, const float *
         }
 }
 
-static cs_part_marginal marginal_of(int part, int reach)
+static size_t points_of(const clshear_reach *reach)
+{
+    return reach->points > 0 ? reach->points : GRID_POINTS;
+}
+
+static cs_part_marginal marginal_of(int part, int reach, size_t least)
 {
     cs_part_marginal m = {.rank = parts[part].rank, .side = 2 * (size_t)reach + 2, .samples = 1};
     memcpy(m.coordinate, parts[part].coordinate, sizeof m.coordinate);
     size_t cells = 1;
     for (int d = 0; d < m.rank; d++)
         cells *= m.side;
-    while (cells * m.samples < GRID_POINTS)
+    while (cells * m.samples < least)
         m.samples *= 2;
     return m;
 }
 
 static clshear_status predict_part(clshear_context *context, const clshear_points *samples,
-                                   clshear_function function, void *user, int part, int reach,
-                                   clshear_prediction *p)
+                                   clshear_function function, void *user, int part,
+                                   const clshear_reach *given, clshear_prediction *p)
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
+    const int reach = reach_of(given, parts[part].rank);
     const cs_lattice lattice = lattice_of(part, reach);
-    const cs_part_marginal marginal = marginal_of(part, reach);
+    const cs_part_marginal marginal = marginal_of(part, reach, points_of(given));
     cs_energy energy = {0};
     float *power = malloc((size_t)lattice.counts[0] * lattice.counts[1] * sizeof *power);
     CS_REQUIRE(power != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for a spectrum");
@@ -138,18 +144,18 @@ done:
     return status;
 }
 
-/* Measures the variance of the function with well-spread samples, because the tail is a small
- * difference from it. */
-static clshear_status measure_energy(clshear_function function, void *user, double *energy,
-                                     cs_error *error)
+/* Measures the variance of the function with 32 sets of `count` well-spread samples, because the
+ * tail is a small difference from it. */
+static clshear_status measure_energy(clshear_function function, void *user, size_t count,
+                                     double *energy, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    const size_t count = 1 << 16, sets = 32;
+    const size_t sets = 32;
     double mean = 0.0, mean_square = 0.0;
     clshear_points points = {0};
     float *values = malloc(count * sizeof *values);
     CS_REQUIRE(values != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    status = cs_points_draw("sz", count, sets, 0, &points);
+    status = cs_points_draw("sz", count, sets, 0, 0, &points);
     if (status == CLSHEAR_OK) status = cs_points_select(&points, "xyuv");
     CS_REQUIRE(status == CLSHEAR_OK, status, "%s", cs_thread_error()->message);
     for (size_t set = 0; set < sets; set++) {
@@ -173,25 +179,26 @@ clshear_status cs_predict_variance_4d(clshear_context *context, const clshear_po
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
-    clshear_prediction p = {.parts = CS_MOST_PARTS, .isotropic = NAN};
+    clshear_prediction p = {.parts = CS_MOST_PARTS};
     double seen = 0.0;
     CS_REQUIRE(samples->dimensions >= 4 && strncmp(samples->names, "xyuv", 4) == 0,
                CLSHEAR_BAD_ARGUMENT, "samples of %s: must begin with x, y, u, v", samples->names);
-    CS_REQUIRE(reach->axis >= 1 && reach->axis <= 65536 && reach->plane >= 1 &&
-                   reach->plane <= 2047 && reach->block >= 1 && reach->block <= 15,
-               CLSHEAR_BAD_ARGUMENT,
-               "frequencies up to %u, %u and %u: must be 1 to 65536, 2047 and 15", reach->axis,
-               reach->plane, reach->block);
-    CS_TRY(measure_energy(function, user, &p.energy, error));
+    CS_REQUIRE(
+        reach->axis >= 1 && reach->axis <= 65536 && reach->plane >= 1 && reach->plane <= 2047 &&
+            reach->block >= 1 && reach->block <= 15 && reach->points <= 1u << 24,
+        CLSHEAR_BAD_ARGUMENT, "frequencies up to %u, %u and %u: must be 1 to 65536, 2047 and 15",
+        reach->axis, reach->plane, reach->block);
+    CS_TRY(measure_energy(function, user, (points_of(reach) + 7) / 8, &p.energy, error));
     for (int part = 0; part < TAIL; part++) {
-        const int far = reach_of(reach, parts[part].rank);
-        CS_TRY(predict_part(context, samples, function, user, part, far, &p));
+        CS_TRY(predict_part(context, samples, function, user, part, reach, &p));
         seen += p.energies[part];
         p.variance += p.variances[part];
     }
     p.energies[TAIL] = fmax(p.energy - seen, 0.0);
     p.variances[TAIL] = p.energies[TAIL] / (double)samples->count;
     p.variance += p.variances[TAIL];
+    for (size_t level = 0; level < CS_CONE_LEVELS; level++)
+        p.by_cones[level] = NAN;
     for (size_t part = 0; part < p.parts; part++)
         p.names[part] = parts[part].name;
     *prediction = p;

@@ -1,5 +1,6 @@
 /* Public functions of convergence studies and fits. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "analysis/fit.h"
 #include "analysis/moments.h"
@@ -102,6 +103,15 @@ CS_GETTER_AT(double, convergence, error, errors)
 void clshear_convergence_fit(const clshear_convergence *result, clshear_fit *fit)
 {
     cs_struct_out(fit, &result->fit, sizeof result->fit);
+}
+
+const float *clshear_convergence_map(const clshear_convergence *result, size_t index, int window[4])
+{
+    if (result->maps == NULL || index >= result->sizes) return NULL;
+    const size_t width = (size_t)(result->window[1] - result->window[0]);
+    const size_t height = (size_t)(result->window[3] - result->window[2]);
+    memcpy(window, result->window, sizeof result->window);
+    return result->maps + index * width * height;
 }
 
 void clshear_convergence_local_fit(const clshear_convergence *result, size_t index,

@@ -4,6 +4,8 @@
 
 #include "api/arguments.h"
 #include "film/film.h"
+#include "film/merge.h"
+#include "film/shards.h"
 #include "image/image_io.h"
 
 void clshear_film_describe(const clshear_film *film, clshear_film_info *info)
@@ -52,6 +54,29 @@ clshear_status clshear_film_annotate(clshear_film *film, const char *name, const
     CS_NEEDS(name);
     CS_NEEDS(text);
     return cs_message_keep(&film->message, cs_film_annotate(film, name, text));
+}
+
+clshear_status clshear_film_merge(const clshear_film *const *films, size_t count,
+                                  clshear_film **merged)
+{
+    CS_NEEDS(films);
+    CS_NEEDS(merged);
+    if (count == 0)
+        return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT, "there are no films to merge");
+    for (size_t i = 0; i < count; i++)
+        CS_NEEDS(films[i]);
+    return cs_film_merge(films, count, merged, cs_thread_error());
+}
+
+void clshear_film_missing(const clshear_film *film, char *text, size_t size)
+{
+    cs_shards shards;
+    const char *held = cs_film_text(film, "clshear.shard");
+    if (size > 0) *text = '\0';
+    if (size == 0 || held == NULL || cs_shards_read(held, &shards, cs_thread_error()) != CLSHEAR_OK)
+        return;
+    cs_shards_print(&shards, 0, text, size);
+    cs_shards_free(&shards);
 }
 
 clshear_status clshear_film_read(const char *path, clshear_film **film)

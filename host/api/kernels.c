@@ -123,9 +123,10 @@ struct clshear_lens {
 static void make_camera(const clshear_settings *settings, const cs_view *view, clshear_lens *lens)
 {
     lens->camera_status = CLSHEAR_BAD_ARGUMENT;
-    if (!cs_is_set(settings, EYE) || !cs_is_set(settings, TARGET) || !cs_is_set(settings, FOV)) {
+    if (!cs_is_set(settings, EYE) || !cs_is_set(settings, TARGET) ||
+        !(cs_is_set(settings, FOV) || cs_is_set(settings, ORTHOGRAPHIC))) {
         cs_fail(&lens->camera_error, CLSHEAR_BAD_ARGUMENT,
-                "a camera needs eye, target and fov; they are not set");
+                "a camera needs eye, target and fov or orthographic; they are not set");
         return;
     }
     cs_view upright = *view;

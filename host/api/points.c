@@ -13,7 +13,15 @@ clshear_status clshear_points_draw(const char *sampler, size_t count, size_t set
 {
     CS_NEEDS(points);
     clshear_points made = {0};
-    return hand_over(cs_points_draw(sampler, count, sets, seed, &made), &made, points);
+    return hand_over(cs_points_draw(sampler, count, sets, seed, 0, &made), &made, points);
+}
+
+clshear_status clshear_points_draw_fresh(const char *sampler, size_t count, size_t sets,
+                                         uint32_t seed, clshear_points **points)
+{
+    CS_NEEDS(points);
+    clshear_points made = {0};
+    return hand_over(cs_points_draw(sampler, count, sets, seed, 1, &made), &made, points);
 }
 
 clshear_status clshear_points_create(const float *values, size_t sets, size_t count,

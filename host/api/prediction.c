@@ -68,7 +68,17 @@ void clshear_prediction_free(clshear_prediction *prediction)
 }
 
 CS_GETTER(double, prediction, variance)
-CS_GETTER(double, prediction, isotropic)
+
+double clshear_prediction_isotropic(const clshear_prediction *prediction)
+{
+    return prediction->by_cones[0];
+}
+
+double clshear_prediction_in_cones(const clshear_prediction *prediction, size_t level)
+{
+    return level < CS_CONE_LEVELS ? prediction->by_cones[level] : prediction->variance;
+}
+
 CS_GETTER(double, prediction, energy)
 CS_GETTER(size_t, prediction, parts)
 CS_GETTER_AT(const char *, prediction, part_name, names)

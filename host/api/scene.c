@@ -1,6 +1,7 @@
 /* Public functions of scenes and cameras. */
 #include "api/arguments.h"
 #include "render/camera_choice.h"
+#include "render/focus_choice.h"
 #include "render/objects.h"
 #include "render/studio.h"
 #include "settings/settings.h"
@@ -85,6 +86,11 @@ void clshear_scene_describe(const clshear_scene *scene, clshear_scene_info *info
     clshear_scene_info described = scene->info;
     described.lights = scene->scene.lights.count;
     described.emitters = scene->device_scene.emitters;
+    for (int axis = 0; axis < 3; axis++) {
+        const double origin = scene->scene.origin[axis];
+        described.low[axis] = (double)scene->scene.bounds[0][axis] + origin;
+        described.high[axis] = (double)scene->scene.bounds[1][axis] + origin;
+    }
     cs_struct_out(info, &described, sizeof described);
 }
 

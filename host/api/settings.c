@@ -139,13 +139,22 @@ static clshear_status check_value(const clshear_settings *settings, clshear_sett
                    cs_setting_table[index].name);
 }
 
+/* Fails unless the value is one number. */
+static clshear_status check_number(const clshear_settings *settings, clshear_setting setting)
+{
+    const cs_setting *entry = &cs_setting_table[cs_setting_index(setting)];
+    if (entry->values == 1) return check_value(settings, setting);
+    return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT, "%s: is %zu numbers, not one",
+                   entry->name, entry->values);
+}
+
 clshear_status clshear_settings_get_integer(const clshear_settings *settings,
                                             clshear_setting setting, int64_t *value)
 {
     CS_NEEDS(settings);
     CS_NEEDS(value);
     if (integer_entry(setting) == NULL) return CLSHEAR_BAD_ARGUMENT;
-    const clshear_status status = check_value(settings, setting);
+    const clshear_status status = check_number(settings, setting);
     if (status == CLSHEAR_OK)
         *value = (int64_t)settings->values[cs_setting_index(setting)].numbers[0];
     return status;
@@ -158,7 +167,7 @@ clshear_status clshear_settings_get_number(const clshear_settings *settings,
     CS_NEEDS(value);
     if (entry_of(setting, CLSHEAR_NUMBER, CLSHEAR_NUMBER, "a number") == NULL)
         return CLSHEAR_BAD_ARGUMENT;
-    const clshear_status status = check_value(settings, setting);
+    const clshear_status status = check_number(settings, setting);
     if (status == CLSHEAR_OK) *value = settings->values[cs_setting_index(setting)].numbers[0];
     return status;
 }
@@ -213,4 +222,11 @@ void clshear_settings_set_progress(clshear_settings *settings,
     if (settings == NULL) return;
     settings->progress = progress;
     settings->progress_user = user;
+}
+
+void clshear_settings_set_preview(clshear_settings *settings, int (*wanted)(void *user),
+                                  void (*show)(void *user, clshear_film *film), void *user)
+{
+    if (settings == NULL) return;
+    settings->preview = (cs_preview){wanted, show, user};
 }

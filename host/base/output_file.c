@@ -1,6 +1,7 @@
 #include "base/output_file.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -28,6 +29,23 @@ static char *link_target(const char *path)
     return target;
 }
 
+/* The temporary path beside `target`, owned by the caller. A name that would be too long with what
+ * is added to it is cut. */
+static char *part_beside(const char *target)
+{
+    char suffix[sizeof ".part" + 20]; /* 64 bits have 20 digits */
+    const size_t added = (size_t)snprintf(suffix, sizeof suffix, ".part%ld", (long)getpid());
+    const char *slash = strrchr(target, '/');
+    const size_t folder = slash == NULL ? 0 : (size_t)(slash + 1 - target);
+    size_t kept = strlen(target);
+    if (kept - folder > NAME_MAX - added) kept = folder + NAME_MAX - added;
+    char *part = malloc(kept + added + 1);
+    if (part == NULL) return NULL;
+    memcpy(part, target, kept);
+    memcpy(part + kept, suffix, added + 1);
+    return part;
+}
+
 int cs_output_begin(const char *path, cs_output_file *file)
 {
     *file = (cs_output_file){0};
@@ -36,17 +54,12 @@ int cs_output_begin(const char *path, cs_output_file *file)
     if (file->target == NULL && !special) file->target = link_target(path);
     if (file->target == NULL) file->target = strdup(path);
     if (file->target == NULL) return ENOMEM;
-    const size_t size = strlen(file->target) + sizeof ".part" + 20; /* 64 bits have 20 digits */
-    file->part = malloc(size);
+    file->part = special ? strdup(file->target) : part_beside(file->target);
     if (file->part == NULL) {
         free(file->target);
         *file = (cs_output_file){0};
         return ENOMEM;
     }
-    if (special)
-        snprintf(file->part, size, "%s", file->target);
-    else
-        snprintf(file->part, size, "%s.part%ld", file->target, (long)getpid());
     return 0;
 }
 

@@ -10,6 +10,7 @@ clshear_status cs_context_create(cs_device *device, int threads, clshear_context
     atomic_init(&context->references, 1);
     cs_message_init(&context->message);
     cs_table_cache_init(&context->tables);
+    cs_environment_cache_init(&context->environments);
     context->device = device;
     context->threads = threads;
     context->page_bytes = (size_t)1 << 27;
@@ -27,6 +28,7 @@ void cs_context_release(clshear_context *context)
 {
     if (context == NULL || atomic_fetch_sub(&context->references, 1) > 1) return;
     cs_table_cache_free(&context->tables);
+    cs_environment_cache_free(&context->environments);
     cs_device_close(context->device);
     cs_message_destroy(&context->message);
     free(context);

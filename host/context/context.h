@@ -7,6 +7,7 @@
 #include "base/message.h"
 #include "base/status.h"
 #include "clshear/device/sampler/pattern.h"
+#include "context/environments.h"
 #include "device/device.h"
 
 /* Most sample tables that are kept on the device: more than the batches of a render. Making one may
@@ -35,6 +36,7 @@ struct clshear_context {
     cs_log log;
     cs_device *device;
     cs_table_cache tables;
+    cs_environment_cache environments;
     int threads;
     size_t page_bytes; /* most bytes of one buffer of pixels; OpenCL devices have 128 MB at least */
 };

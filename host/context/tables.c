@@ -6,7 +6,8 @@
 
 static int is_same(const cs_pattern *a, const cs_pattern *b)
 {
-    return a->sampler == b->sampler && a->first == b->first && a->grid.count == b->grid.count;
+    return a->sampler == b->sampler && a->first == b->first && a->grid.count == b->grid.count &&
+           memcmp(a->shape, b->shape, sizeof a->shape) == 0;
 }
 
 /* Takes an entry out and closes the gap. */

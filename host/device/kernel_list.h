@@ -13,7 +13,7 @@
 
 /* X(identifier, name, program, arguments): arguments is their number. */
 #define CS_KERNEL_LIST(X)                              \
-    X(RENDER, cs_render, RENDER, 7 + CS_SCENE_BUFFERS) \
+    X(RENDER, cs_render, RENDER, 8 + CS_SCENE_BUFFERS) \
     X(TRACE, cs_trace, RENDER, 8)                      \
     X(POINTS, cs_points, RENDER, 6)                    \
     X(DRAW_SUM, cs_draw_sum, RENDER, 5)                \

@@ -122,6 +122,15 @@ int cs_film_int(const clshear_film *film, const char *name, int *value)
     return 0;
 }
 
+float cs_film_float(const clshear_film *film, const char *name)
+{
+    const cs_attribute *attributes = film->attributes.items;
+    for (size_t i = 0; i < film->attributes.count; i++)
+        if (attributes[i].kind == CS_ATTRIBUTE_FLOAT && strcmp(attributes[i].name, name) == 0)
+            return attributes[i].numbers[0];
+    return 0.0f;
+}
+
 const char *cs_film_channel_name(const clshear_film *film, size_t index)
 {
     const cs_channel *channels = film->channels.items;
@@ -139,15 +148,13 @@ const float *cs_film_channel(const clshear_film *film, const char *name)
 /* The tone that the settings in the metadata ask for. */
 static cs_tone tone_of(const clshear_film *film)
 {
-    cs_tone tone = {0};
-    const cs_attribute *attributes = film->attributes.items;
-    for (size_t i = 0; i < film->attributes.count; i++)
-        if (attributes[i].kind == CS_ATTRIBUTE_FLOAT &&
-            strcmp(attributes[i].name, "clshear.exposure") == 0)
-            tone.exposure = attributes[i].numbers[0];
+    cs_tone tone = {.exposure = cs_film_float(film, "clshear.exposure")};
     cs_film_int(film, "clshear.autoExposure", &tone.is_auto);
     const char *curve = cs_film_text(film, "clshear.tone");
-    if (curve != NULL && strcmp(curve, "filmic") == 0) tone.curve = CLSHEAR_TONE_FILMIC;
+#define CS_TONE_NAMED(identifier, number, name, meaning) \
+    if (curve != NULL && strcmp(curve, name) == 0) tone.curve = CLSHEAR_TONE_##identifier;
+    CLSHEAR_TONE_LIST(CS_TONE_NAMED)
+#undef CS_TONE_NAMED
     return tone;
 }
 
@@ -198,9 +205,20 @@ static clshear_status copy_attribute(clshear_film *film, const cs_attribute *fro
         return cs_film_annotate(film, from->name, from->text);
     case CS_ATTRIBUTE_INT:
         return cs_film_set_int(film, from->name, from->integer);
+    case CS_ATTRIBUTE_MATRIX:
+        return cs_film_set_matrix(film, from->name, from->numbers);
     default:
         return cs_film_set_float(film, from->name, from->numbers[0]);
     }
+}
+
+clshear_status cs_film_copy_attributes(const clshear_film *from, clshear_film *to)
+{
+    const cs_attribute *attributes = from->attributes.items;
+    clshear_status status = CLSHEAR_OK;
+    for (size_t i = 0; status == CLSHEAR_OK && i < from->attributes.count; i++)
+        status = copy_attribute(to, &attributes[i]);
+    return status;
 }
 
 static clshear_status copy_picture(clshear_film *film, const cs_picture *picture)
@@ -228,6 +246,7 @@ clshear_status cs_film_read(const char *path, cs_error *error, clshear_film **re
     const int window[4] = {p->x, p->x + p->width, p->y, p->y + p->height};
     CS_TRY(cs_film_create(window, p->full_width, p->full_height, error, &film));
     CS_TRY(copy_picture(film, p));
+    film->path = strdup(path);
     *result = film;
     film = NULL;
 done:
@@ -248,6 +267,7 @@ void cs_film_free(clshear_film *film)
     cs_message_destroy(&film->message);
     cs_array_free(&film->channels);
     cs_array_free(&film->attributes);
+    free(film->path);
     free(film);
 }
 

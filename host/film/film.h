@@ -21,12 +21,13 @@ struct clshear_film {
     int full_width;
     int full_height;
     clshear_film_info info;
+    char *path; /* of the file it was read from; NULL: it was made */
 };
 
 clshear_status cs_film_create(const int *window, int full_width, int full_height, cs_error *error,
                               clshear_film **film);
 
-/* Reads the channels and the text, integer and float metadata of an EXR file. */
+/* Reads the channels and the text, integer, float and matrix metadata of an EXR file. */
 clshear_status cs_film_read(const char *path, cs_error *error, clshear_film **film);
 
 /* The functions below store the reason of a failure in the calling thread's error. */
@@ -49,6 +50,10 @@ float *cs_film_add_channel(clshear_film *film, const char *name);
 /* A text or number of the metadata; NULL or 0 if the film has none of that name. */
 const char *cs_film_text(const clshear_film *film, const char *name);
 int cs_film_int(const clshear_film *film, const char *name, int *value);
+float cs_film_float(const clshear_film *film, const char *name);
+
+/* Gives a film the metadata of another. */
+clshear_status cs_film_copy_attributes(const clshear_film *from, clshear_film *to);
 
 clshear_status cs_film_annotate(clshear_film *film, const char *name, const char *text);
 clshear_status cs_film_set_int(clshear_film *film, const char *name, int32_t value);

@@ -31,7 +31,7 @@ clshear_status cs_read_late(cs_bytes *bytes, cs_model *model, cs_error *error)
     return read(bytes, model, error);
 }
 
-/* In the place of image_io.cpp, which is in the module. */
+/* In the place of texels.cpp, which is in the module. */
 clshear_status cs_image_read_texels(const char *path, const char *label, const void *memory,
                                     size_t size, const cs_texel_use *use, cs_texels *texels,
                                     cs_error *error)

@@ -60,12 +60,14 @@ int main(int argc, char **argv)
     const cs_log log = {.warn = warn};
     cs_error error = {{0}};
     cs_scene scene;
-    if (argc != 3 || isatty(STDOUT_FILENO)) {
+    if (argc != 4 || isatty(STDOUT_FILENO)) {
         fprintf(stderr, "%s reads scene files for libclshear and is not for the command line\n",
                 argv[0]);
         return 2;
     }
-    const cs_import_options options = {.smooth_degrees = atof(argv[2]) / 1000.0};
+    const cs_import_options options = {.smooth_degrees = atof(argv[2]) / 1000.0,
+                                       .is_played = strcmp(argv[3], "-") != 0,
+                                       .time_s = strtod(argv[3], NULL)};
     limit(RLIMIT_CORE, 0.0);
     limit(RLIMIT_AS, cs_import_bytes(argv[1], 0));
     limit(RLIMIT_CPU, cs_import_seconds(argv[1], 0));

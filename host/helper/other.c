@@ -218,6 +218,7 @@ static clshear_status add_camera(const importing *work, const struct aiCamera *s
     transform(&matrix, &source->mPosition, 1.0, camera->eye);
     transform(&matrix, &source->mLookAt, 0.0, camera->forward);
     transform(&matrix, &source->mUp, 0.0, camera->up);
+    camera->height = 2.0 * (double)source->mOrthographicWidth / aspect;
     camera->fov = 2.0 * atan(tan(0.5 * (double)source->mHorizontalFOV) / aspect);
     return CLSHEAR_OK;
 }

@@ -1,4 +1,5 @@
-/* Reads textures and writes pictures. This C interface is the only code that uses OpenImageIO. */
+/* Reads textures and pictures, and writes pictures. What is behind this C interface is the only
+ * code that uses OpenImageIO. */
 #ifndef CS_IMAGE_IMAGE_IO_H
 #define CS_IMAGE_IMAGE_IO_H
 

@@ -86,7 +86,7 @@ static clshear_status add_default(cs_model *model, cs_error *error)
             number = (uint32_t)model->materials.count;
             cs_material_description *added = cs_model_extend(&model->materials, 1);
             if (added == NULL) return cs_model_full(model, error);
-            cs_material_init(added, "default");
+            cs_model_plain(model, "default", added);
         }
         triangles[i].material = number;
     }

@@ -8,12 +8,13 @@
 
 static const float right_angle_deg = 90.0f;
 
-/* Files may give a cone without a soft edge, which is a narrow one here. */
+/* Files may give a cone without a soft edge, which is the narrowest one here. */
 static void make_cone(const cs_model_light *source, clshear_light *light)
 {
     light->kind = CLSHEAR_LIGHT_SPOT;
     light->outer_deg = fminf(source->cone[1] / (CS_PI / 180.0f), right_angle_deg);
-    light->inner_deg = fminf(source->cone[0] / (CS_PI / 180.0f), 0.999f * light->outer_deg);
+    light->inner_deg =
+        fminf(source->cone[0] / (CS_PI / 180.0f), nextafterf(light->outer_deg, 0.0f));
     for (int i = 0; i < 3; i++)
         light->direction[i] = (float)source->axis[i];
 }
@@ -73,7 +74,8 @@ clshear_status cs_build_lights(const cs_model *model, const double bounds[2][3],
 /* 0 if the camera looks nowhere, or its numbers are no numbers. */
 static int make_view(const cs_model_camera *source, const cs_scene *scene, cs_view *view)
 {
-    int good = source->fov > 1e-5 && source->fov < 3.14;
+    int good =
+        source->height > 0.0 ? source->height <= 1e12 : source->fov > 1e-5 && source->fov < 3.14;
     double length = 0.0;
     for (int i = 0; i < 3; i++)
         length += source->forward[i] * source->forward[i];
@@ -91,6 +93,7 @@ static int make_view(const cs_model_camera *source, const cs_scene *scene, cs_vi
         good &= fabs(eye) <= 1e12 && isfinite(source->up[i]);
     }
     view->fov_deg = (float)source->fov / (CS_PI / 180.0f);
+    view->orthographic = (float)source->height;
     return good;
 }
 
@@ -116,7 +119,7 @@ clshear_status cs_build_cameras(const cs_model *model, cs_scene *scene, cs_error
         cs_scene_camera made = {0};
         snprintf(made.name, sizeof made.name, "%.*s", CS_CAMERA_NAME - 1, cameras[i].name);
         if (!make_view(&cameras[i], scene, &made.view)) {
-            cs_warn(model->log, "%s: camera \"%s\" has no perspective; left out", model->path,
+            cs_warn(model->log, "%s: camera \"%s\" shows nothing; left out", model->path,
                     made.name);
             continue;
         }

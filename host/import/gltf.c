@@ -196,6 +196,7 @@ static clshear_status read_all(gltf_reader *reader, cs_bytes *bytes)
     reader->buffers = calloc(reader->buffer_count + 1, sizeof *reader->buffers);
     if (reader->buffers == NULL) return cs_model_full(reader->model, error);
     CS_TRY(gltf_materials(reader));
+    CS_TRY(gltf_animate(reader));
     CS_TRY(gltf_nodes(reader));
     CS_TRY(check(reader));
 done:

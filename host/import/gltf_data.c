@@ -154,7 +154,7 @@ static size_t components_of(const char *type)
     static const char *const names[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
     for (size_t i = 0; i < 4; i++)
         if (strcmp(type, names[i]) == 0) return i + 1;
-    return 0;
+    return strcmp(type, "MAT4") == 0 ? 16 : 0;
 }
 
 /* Points `span`, whose other members are set, at `count` items in a buffer view. */

@@ -12,6 +12,9 @@ typedef struct gltf_primitive {
     gltf_reader *reader;
     char place[64]; /* for messages */
     const double *matrix;
+    const json_t *json;
+    const json_t *weights; /* of its morph targets, or NULL */
+    gltf_skin *skin;
     size_t count;                                         /* vertices */
     uint32_t first_position, first_normal, first_texture; /* CS_NO_INDEX: none */
     uint32_t material;
@@ -27,23 +30,27 @@ static clshear_status add_positions(gltf_primitive *primitive, long long accesso
 {
     gltf_reader *reader = primitive->reader;
     cs_array *pool = &reader->model->positions;
-    const double *m = primitive->matrix;
     float *values = NULL;
     size_t given = 0;
     clshear_status status =
         gltf_read_floats(reader, accessor, 3, &values, &primitive->count, &given);
     if (status != CLSHEAR_OK) return status;
+    status = gltf_morph(reader, primitive->json, primitive->weights, "POSITION", values,
+                        primitive->count);
     primitive->first_position = (uint32_t)pool->count;
     double(*added)[3] = cs_model_extend(pool, primitive->count);
-    if (given != 3)
+    if (status == CLSHEAR_OK && given != 3)
         status = gltf_complain(reader, primitive->place, -1, "its POSITION is no VEC3");
-    else if (added == NULL)
+    else if (status == CLSHEAR_OK && added == NULL)
         status = cs_model_full(reader->model, reader->error);
-    for (size_t i = 0; status == CLSHEAR_OK && added != NULL && i < primitive->count; i++)
+    for (size_t i = 0; status == CLSHEAR_OK && added != NULL && i < primitive->count; i++) {
+        double m[16];
+        gltf_skin_matrix(primitive->skin, i, primitive->matrix, m);
         for (int axis = 0; axis < 3; axis++)
             added[i][axis] = m[axis] * (double)values[3 * i] +
                              m[4 + axis] * (double)values[3 * i + 1] +
                              m[8 + axis] * (double)values[3 * i + 2] + m[12 + axis];
+    }
     free(values);
     return status;
 }
@@ -72,13 +79,16 @@ static clshear_status add_normals(gltf_primitive *primitive, long long accessor)
     if (status != CLSHEAR_OK) return status;
     primitive->first_normal = (uint32_t)pool->count;
     float(*added)[3] = cs_model_extend(pool, count);
-    normal_matrix(primitive->matrix, rows);
     if (count != primitive->count)
         status = wrong_count(primitive, "normals", count);
     else if (added == NULL)
         status = cs_model_full(reader->model, reader->error);
+    else
+        status = gltf_morph(reader, primitive->json, primitive->weights, "NORMAL", values, count);
     for (size_t i = 0; status == CLSHEAR_OK && added != NULL && i < count; i++) {
-        double turned[3];
+        double turned[3], m[16];
+        gltf_skin_matrix(primitive->skin, i, primitive->matrix, m);
+        normal_matrix(m, rows);
         for (int axis = 0; axis < 3; axis++)
             turned[axis] = rows[axis][0] * (double)values[3 * i] +
                            rows[axis][1] * (double)values[3 * i + 1] +
@@ -205,12 +215,15 @@ static clshear_status find_material(gltf_primitive *primitive, const json_t *jso
     return CLSHEAR_OK;
 }
 
-static void warn_of_motion(gltf_reader *reader, const json_t *json)
+/* Binds the skin to as many vertices as there are positions. */
+static clshear_status bind_skin(gltf_primitive *primitive, const json_t *attributes,
+                                long long position)
 {
-    const int skinned = json_object_get(json_object_get(json, "attributes"), "JOINTS_0") != NULL;
-    if (reader->warned_motion || (!skinned && json_object_get(json, "targets") == NULL)) return;
-    reader->warned_motion = 1;
-    cs_warn(reader->model->log, "%s: skins and morph targets are not applied", reader->model->path);
+    const json_t *accessor = gltf_at(primitive->reader, "accessors", position);
+    if (accessor == NULL) return CLSHEAR_BAD_FILE;
+    const long long count = gltf_index(accessor, "count");
+    return gltf_skin_bind(primitive->reader, attributes, count > 0 ? (size_t)count : 0,
+                          primitive->skin);
 }
 
 static clshear_status add_primitive(gltf_primitive *primitive, const json_t *json)
@@ -230,8 +243,8 @@ static clshear_status add_primitive(gltf_primitive *primitive, const json_t *jso
         reader->model->without_area++;
         return CLSHEAR_OK;
     }
-    warn_of_motion(reader, json);
     CS_TRY(find_material(primitive, json));
+    CS_TRY(bind_skin(primitive, attributes, position));
     CS_TRY(add_positions(primitive, position));
     const long long normal = gltf_index(attributes, "NORMAL");
     if (normal >= 0) CS_TRY(add_normals(primitive, normal));
@@ -250,16 +263,25 @@ done:
     return status;
 }
 
-clshear_status gltf_mesh(gltf_reader *reader, long long index, const double *matrix)
+clshear_status gltf_mesh(gltf_reader *reader, const json_t *node, const double *matrix)
 {
+    const long long index = gltf_index(node, "mesh");
     const json_t *json = gltf_at(reader, "meshes", index);
     if (json == NULL) return CLSHEAR_BAD_FILE;
     const json_t *primitives = json_object_get(json, "primitives");
-    clshear_status status = CLSHEAR_OK;
+    const json_t *weights = json_object_get(node, "weights");
+    gltf_skin skin;
+    clshear_status status = gltf_skin_open(reader, node, &skin);
     for (size_t i = 0; i < json_array_size(primitives) && status == CLSHEAR_OK; i++) {
-        gltf_primitive primitive = {.reader = reader, .matrix = matrix};
+        gltf_primitive primitive = {.reader = reader,
+                                    .matrix = matrix,
+                                    .json = json_array_get(primitives, i),
+                                    .weights = weights != NULL ? weights
+                                                               : json_object_get(json, "weights"),
+                                    .skin = &skin};
         snprintf(primitive.place, sizeof primitive.place, "meshes[%lld].primitives[%zu]", index, i);
-        status = add_primitive(&primitive, json_array_get(primitives, i));
+        status = add_primitive(&primitive, primitive.json);
     }
+    gltf_skin_close(&skin);
     return status;
 }

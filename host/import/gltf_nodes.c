@@ -55,6 +55,36 @@ static void local_matrix(const json_t *node, double *m)
     memcpy(m + 12, t, sizeof t);
 }
 
+/* The node that has `child` among its children, or -1. */
+static long long parent_of(const gltf_reader *reader, long long child)
+{
+    const json_t *nodes = json_object_get(reader->root, "nodes");
+    for (size_t i = 0; i < json_array_size(nodes); i++) {
+        const json_t *children = json_object_get(json_array_get(nodes, i), "children");
+        for (size_t k = 0; k < json_array_size(children); k++)
+            if (json_number_value(json_array_get(children, k)) == (double)child)
+                return (long long)i;
+    }
+    return -1;
+}
+
+clshear_status gltf_global_matrix(gltf_reader *reader, long long node, double *matrix)
+{
+    const size_t count = gltf_count(reader, "nodes");
+    identity(matrix);
+    for (size_t depth = 0; node >= 0; depth++) {
+        const json_t *json = gltf_at(reader, "nodes", node);
+        double local[16], product[16];
+        if (json == NULL) return CLSHEAR_BAD_FILE;
+        if (depth > count) return gltf_complain(reader, "nodes", node, "is its own parent");
+        local_matrix(json, local);
+        multiply(local, matrix, product);
+        memcpy(matrix, product, sizeof product);
+        node = parent_of(reader, node);
+    }
+    return CLSHEAR_OK;
+}
+
 /* ----- Cameras ----- */
 
 static int camera_is_named(const cs_model *model, const char *name)
@@ -85,6 +115,9 @@ static clshear_status add_camera(gltf_reader *reader, long long index, const jso
     }
     if (strcmp(gltf_text(json, "type", "perspective"), "perspective") == 0)
         camera->fov = gltf_number(json_object_get(json, "perspective"), "yfov", 0.0);
+    else
+        camera->height =
+            2.0 * fabs(gltf_number(json_object_get(json, "orthographic"), "ymag", 0.0));
     return CLSHEAR_OK;
 }
 
@@ -158,9 +191,9 @@ static clshear_status visit_node(gltf_reader *reader, cs_array *waiting, const g
                              "has two parents, or is its own; nodes must be a tree");
     local_matrix(node, local);
     multiply(visit->matrix, local, matrix);
-    const long long mesh = gltf_index(node, "mesh"), camera = gltf_index(node, "camera");
+    const long long camera = gltf_index(node, "camera");
     const json_t *light = gltf_extension(node, "KHR_lights_punctual");
-    if (mesh != -1) CS_TRY(gltf_mesh(reader, mesh, matrix));
+    if (json_object_get(node, "mesh") != NULL) CS_TRY(gltf_mesh(reader, node, matrix));
     if (camera != -1) CS_TRY(add_camera(reader, camera, node, matrix));
     if (light != NULL) CS_TRY(add_light(reader, gltf_index(light, "light"), node, matrix));
     if (gltf_extension(node, "EXT_mesh_gpu_instancing") != NULL)
@@ -223,8 +256,10 @@ clshear_status gltf_nodes(gltf_reader *reader)
         const gltf_visit visit = ((const gltf_visit *)waiting.items)[--waiting.count];
         status = visit_node(reader, &waiting, &visit, seen);
     }
-    if (status == CLSHEAR_OK && gltf_count(reader, "animations") > 0)
-        cs_warn(reader->model->log, "%s: animations are not played", reader->model->path);
+    if (status == CLSHEAR_OK && gltf_count(reader, "animations") > 0 && !reader->model->is_played)
+        cs_warn(reader->model->log,
+                "%s: animations are not played; --frame or --shutter play the first",
+                reader->model->path);
 done:
     cs_array_free(&waiting);
     free(seen);

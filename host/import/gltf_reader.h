@@ -23,7 +23,6 @@ typedef struct gltf_reader {
     size_t buffer_count;
     char folder[4096];
     int default_material; /* number of the one for primitives without; -1: none yet */
-    int warned_motion;
 } gltf_reader;
 
 /* Fails with "FILE: PLACE[index]: ...". `place` is a name in the JSON; index -1: none. */
@@ -74,7 +73,41 @@ clshear_status gltf_materials(gltf_reader *reader);
 /* Walks over the nodes of the scene, and adds their meshes, lights and cameras. */
 clshear_status gltf_nodes(gltf_reader *reader);
 
-/* Adds the triangles of a mesh, moved by a matrix (4 columns of 4). */
-clshear_status gltf_mesh(gltf_reader *reader, long long index, const double *matrix);
+/* Sets translation, rotation, scale and weights of the nodes to those of the first animation at
+ * the model's time. */
+clshear_status gltf_animate(gltf_reader *reader);
+
+/* The matrix (4 columns of 4) from a node's coordinates to those of the scene. */
+clshear_status gltf_global_matrix(gltf_reader *reader, long long node, double *matrix);
+
+/* ----- Skins and morph targets ----- */
+
+/* What moves the vertices of a node's mesh in the place of the node. */
+typedef struct gltf_skin {
+    size_t joint_count;   /* 0: the node has no skin */
+    double (*joints)[16]; /* from the mesh's coordinates to those of the scene; owned */
+    float *which;         /* four joints of each vertex; NULL: none are given; owned */
+    float *weights;       /* and how much each counts; owned */
+} gltf_skin;
+
+/* The joints of the node's skin. */
+clshear_status gltf_skin_open(gltf_reader *reader, const json_t *node, gltf_skin *skin);
+
+/* The joints of the `count` vertices of a primitive, in the place of those of the last. */
+clshear_status gltf_skin_bind(gltf_reader *reader, const json_t *attributes, size_t count,
+                              gltf_skin *skin);
+
+/* The matrix of a vertex; that of the node without a skin. */
+void gltf_skin_matrix(const gltf_skin *skin, size_t vertex, const double *of_node, double *matrix);
+void gltf_skin_close(gltf_skin *skin);
+
+/* Adds what the morph targets of a primitive change of an attribute with three components. weights:
+ * those of the node or its mesh, or NULL. */
+clshear_status gltf_morph(gltf_reader *reader, const json_t *primitive, const json_t *weights,
+                          const char *attribute, float *values, size_t count);
+
+/* Adds the triangles of a node's mesh, moved by a matrix (4 columns of 4) or by the node's skin,
+ * with the weights of its morph targets. */
+clshear_status gltf_mesh(gltf_reader *reader, const json_t *node, const double *matrix);
 
 #endif

@@ -31,6 +31,8 @@ clshear_status cs_import_here(const char *path, const cs_import_options *options
     cs_bytes bytes = {0};
     cs_model model;
     cs_model_init(&model, path, log);
+    model.is_played = options->is_played;
+    model.time_s = options->time_s;
     CS_TRY(cs_bytes_read(path, &bytes, error));
     CS_REQUIRE(bytes.size > 0, CLSHEAR_BAD_FILE, "%s: is empty", path);
     const cs_other_reader reader = reader_for(&bytes, path, other);

@@ -7,6 +7,8 @@
 
 typedef struct cs_import_options {
     double smooth_degrees; /* as cs_model_smooth; below 0: as the file says */
+    int is_played;         /* whether the file's animation is; else it stands as the file has it */
+    double time_s;         /* of the animation */
 } cs_import_options;
 
 /* Reads `path` into an initialised, empty scene, in a process of its own: whatever the file does

@@ -89,6 +89,13 @@ clshear_status cs_model_add_image(cs_model *model, const char *path, const char 
     return CLSHEAR_OK;
 }
 
+void cs_model_plain(const cs_model *model, const char *name, cs_material_description *material)
+{
+    cs_material_init(material, name);
+    for (int c = 0; c < 3 && model->colours.count > 0; c++)
+        material->base_colour[c] = 1.0f;
+}
+
 clshear_status cs_model_add_polygon(cs_model *model, const cs_corner *corners, size_t count,
                                     uint32_t material, uint32_t group, cs_error *error)
 {

@@ -57,12 +57,16 @@ typedef struct cs_model_camera {
     double eye[3];
     double forward[3]; /* any length */
     double up[3];
-    double fov; /* vertical, radians */
+    double fov;    /* vertical, radians */
+    double height; /* what the picture shows of parallel lines of sight, above 0; or 0, and fov
+                      counts */
 } cs_model_camera;
 
 typedef struct cs_model {
     const char *path; /* of the file, for messages */
     const cs_log *log;
+    int is_played;       /* whether the animation is */
+    double time_s;       /* of the animation */
     cs_array positions;  /* double[3] */
     cs_array colours;    /* float[3], linear, one for each position; or none at all */
     cs_array normals;    /* float[3] */
@@ -89,6 +93,10 @@ clshear_status cs_model_full(const cs_model *model, cs_error *error);
 /* Gives the position number `index` a colour. Those that get none are white. */
 clshear_status cs_model_set_colour(cs_model *model, size_t index, const float *colour,
                                    cs_error *error);
+
+/* A material of which no more is known than a name: mid-grey; white where positions have colours,
+ * so that they show those and not half of them. */
+void cs_model_plain(const cs_model *model, const char *name, cs_material_description *material);
 
 /* Adds an image, or finds it: a file (`path`), or a copy of `size` bytes. */
 clshear_status cs_model_add_image(cs_model *model, const char *path, const char *label,

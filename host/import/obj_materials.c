@@ -96,10 +96,11 @@ clshear_status cs_obj_materials(obj_reader *reader)
     for (size_t i = 0; i < count; i++) {
         cs_material_whiten(&made[i]);
         if (made[i].name[0] != '\0') continue;
-        cs_material_init(&made[i], names[i]);
+        cs_model_plain(model, names[i], &made[i]);
         if (reader->missing == 0 && undefined++ < 8)
-            cs_warn(model->log, "%s: material \"%s\" is not defined; it is mid-grey", model->path,
-                    names[i]);
+            cs_warn(model->log, "%s: material \"%s\" %s", model->path, names[i],
+                    model->colours.count > 0 ? "is not defined; it is white"
+                                             : "is not defined; it is mid-grey");
     }
     if (undefined > 8)
         cs_warn(model->log, "%s: %zu more materials are not defined", model->path, undefined - 8);

@@ -313,7 +313,7 @@ static clshear_status add_materials(ply_reader *reader)
     for (size_t i = 0; i < reader->head.texture_count || i == 0; i++) {
         cs_material_description *material = cs_model_extend(&model->materials, 1);
         if (material == NULL) return cs_model_full(model, error);
-        cs_material_init(material, "default");
+        cs_model_plain(model, "default", material);
         if (reader->head.texture_count == 0) continue;
         const char *name = reader->head.textures[i];
         const int there = cs_find_file(name, folders, 1, found);
@@ -322,10 +322,6 @@ static clshear_status add_materials(ply_reader *reader)
         CS_TRY(cs_model_add_image(model, there ? found : "", there ? found : name, NULL, 0,
                                   &material->base_map.image, error));
     }
-    /* A colour of its own is the colour, not half of it. */
-    cs_material_description *materials = model->materials.items;
-    for (int c = 0; c < 3 && model->colours.count > 0; c++)
-        materials[0].base_colour[c] = 1.0f;
 done:
     return status;
 }

@@ -19,7 +19,9 @@ void cs_scene_arrays(cs_scene *scene, cs_array *arrays[CS_SCENE_ARRAYS])
                                       &scene->textures,
                                       &scene->texels,
                                       &scene->lights,
-                                      &scene->cameras};
+                                      &scene->cameras,
+                                      &scene->positions_to,
+                                      &scene->normals_to};
     memcpy(arrays, all, sizeof all);
 }
 
@@ -70,6 +72,8 @@ static int counts_agree(const cs_scene *scene)
     const size_t vertices = scene->positions.count, triangles = scene->indices.count;
     return scene->vertices.count == vertices &&
            (scene->colours.count == 0 || scene->colours.count == vertices) &&
+           (scene->positions_to.count == 0 || scene->positions_to.count == vertices) &&
+           scene->normals_to.count == scene->positions_to.count &&
            scene->triangle_materials.count == triangles &&
            scene->triangle_flags.count == triangles && triangles > 0 && triangles < 1u << 27;
 }
@@ -86,8 +90,11 @@ static int are_within(const float *values, size_t count, float least, float most
 static int vertices_are_sound(const cs_scene *scene)
 {
     const cs_vertex *vertices = scene->vertices.items;
-    int good = are_within(scene->positions.items, 3 * scene->positions.count, -FLT_MAX, FLT_MAX) &&
-               are_within(scene->colours.items, 3 * scene->colours.count, -FLT_MAX, FLT_MAX);
+    int good =
+        are_within(scene->positions.items, 3 * scene->positions.count, -FLT_MAX, FLT_MAX) &&
+        are_within(scene->colours.items, 3 * scene->colours.count, -FLT_MAX, FLT_MAX) &&
+        are_within(scene->positions_to.items, 3 * scene->positions_to.count, -FLT_MAX, FLT_MAX) &&
+        are_within(scene->normals_to.items, 3 * scene->normals_to.count, -FLT_MAX, FLT_MAX);
     for (size_t i = 0; i < scene->vertices.count; i++)
         good &= are_within(vertices[i].normal, 3, -FLT_MAX, FLT_MAX) &&
                 are_within(vertices[i].texture, 2, -most_coordinate, most_coordinate);
@@ -178,7 +185,8 @@ static int cameras_are_sound(cs_scene *scene)
         good &= are_within(view->eye, 3, -FLT_MAX, FLT_MAX) &&
                 are_within(view->target, 3, -FLT_MAX, FLT_MAX) &&
                 are_within(view->up, 3, -FLT_MAX, FLT_MAX) &&
-                are_within(&view->fov_deg, 1, 0.0f, 180.0f);
+                are_within(&view->fov_deg, 1, 0.0f, 180.0f) &&
+                are_within(&view->orthographic, 1, 0.0f, FLT_MAX);
     }
     return good;
 }

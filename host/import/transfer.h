@@ -27,7 +27,7 @@ typedef struct cs_scene_frame {
 } cs_scene_frame;
 
 enum {
-    CS_SCENE_ARRAYS = 11
+    CS_SCENE_ARRAYS = 13
 };
 
 /* The arrays of a scene, in the order in which they are sent. */

@@ -34,9 +34,10 @@ static clshear_status start(const char *helper, const cs_import_options *options
                             cs_error *error)
 {
     int ends[2];
-    char smooth[32];
+    char smooth[32], time[48];
     snprintf(smooth, sizeof smooth, "%d", (int)(options->smooth_degrees * 1000.0));
-    char *arguments[] = {(char *)helper, (char *)made->path, smooth, NULL};
+    snprintf(time, sizeof time, options->is_played ? "%a" : "-", options->time_s);
+    char *arguments[] = {(char *)helper, (char *)made->path, smooth, time, NULL};
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     sigset_t signals;

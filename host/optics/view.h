@@ -18,8 +18,12 @@ typedef struct cs_view {
     float target[3];
     float up[3];
     float fov_deg;        /* degrees along the shorter image axis, in (0, 180) */
+    float orthographic;   /* length that the shorter image axis shows, world units, along parallel
+                             lines of sight; 0: they meet in the eye and spread by fov_deg */
     float lens_radius;    /* world units; 0: pinhole */
-    float focal_distance; /* depth of the focal plane, world units */
+    float focal_distance; /* depth of the focal plane on the optical axis, world units */
+    float tilt_deg[2];    /* azimuth and elevation of the side to which the focal plane faces, as
+                             the camera sees it; 0, 0: it faces the camera */
     clshear_aperture aperture;
     int blades;                     /* corners of a polygonal aperture, 3 to 32 */
     float blade_rotation_deg;       /* anticlockwise in the picture; 0 puts a corner on the right */

@@ -1,6 +1,5 @@
-/* Sample table of the rank-1 lattice, and of the planar sets. */
+/* Sample table of the rank-1 lattice. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "pattern/table_makers.h"
 
@@ -10,8 +9,7 @@ int cs_table_none(cs_table *table)
     return 1;
 }
 
-/* Cuts the plane of an evenly spread set into boxes of about CS_GROUP points. */
-static void cut_evenly(cs_table *table)
+void cs_table_cut_evenly(cs_table *table)
 {
     const cs_u32 boxes = table->pattern->grid.count / CS_GROUP;
     table->boxes[0] = (cs_u32)lround(sqrt((double)boxes));
@@ -91,33 +89,6 @@ int cs_table_rank1(cs_table *table)
         table->place[1][row] = table->word[1][row];
     }
     table->words = CS_MAIN_DIMENSIONS;
-    cut_evenly(table);
+    cs_table_cut_evenly(table);
     return 1;
-}
-
-static int fill_table_of_points(cs_table *table,
-                                int (*points)(cs_u32 count, cs_u32 seed, cs_f32 *x, cs_f32 *y))
-{
-    const cs_u32 count = table->pattern->grid.count;
-    cs_f32 *x = malloc(2 * (size_t)count * sizeof *x);
-    const int good = x != NULL && points(count, 1u, x, x + count);
-    for (cs_u32 row = 0; good && row < count; row++)
-        for (cs_u32 d = 0; d < 2; d++) {
-            table->word[d][row] = (cs_u32)((double)x[d * count + row] * 0x1p32);
-            table->place[d][row] = table->word[d][row];
-        }
-    free(x);
-    table->words = 2;
-    cut_evenly(table);
-    return good;
-}
-
-int cs_table_poisson(cs_table *table)
-{
-    return fill_table_of_points(table, cs_poisson_points);
-}
-
-int cs_table_ccvt(cs_table *table)
-{
-    return fill_table_of_points(table, cs_ccvt_points);
 }

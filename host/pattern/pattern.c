@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "pattern/table_makers.h"
 
 /* Returns 1 if the construction has a set of exactly `count` points, else 0. */
@@ -134,6 +135,21 @@ static void shape_digits(cs_pattern *pattern, cs_u32 count)
         pattern->shape[d] = digits_of(pattern->first + count, bases[d]);
 }
 
+enum {
+    POOL_SETS = 64,        /* planar sets of a pattern, unless that makes too many points: */
+    POOL_POINTS = 1 << 18, /* most points of a pool, */
+    LEAST_SETS = 4         /* unless that leaves fewer sets (cs_set_word) */
+};
+
+/* shape[0] is the number of planar sets, shape[1] the pool that they come from. */
+static void shape_sets(cs_pattern *pattern, cs_u32 count)
+{
+    shape_evenly(pattern, count);
+    pattern->shape[0] = POOL_SETS;
+    while (pattern->shape[0] > LEAST_SETS && pattern->shape[0] * count > POOL_POINTS)
+        pattern->shape[0] /= 2;
+}
+
 /* An entry of the `shape` column of cl/clshear/device/sampler/list.h. */
 typedef struct sampler_shape {
     count_rule has;
@@ -141,8 +157,8 @@ typedef struct sampler_shape {
 } sampler_shape;
 
 static const sampler_shape shape_rules_any = {counts_any, shape_evenly};
-static const sampler_shape shape_rules_modest = {counts_modest, shape_evenly};
-static const sampler_shape shape_rules_few = {counts_few, shape_evenly};
+static const sampler_shape shape_rules_modest = {counts_modest, shape_sets};
+static const sampler_shape shape_rules_few = {counts_few, shape_sets};
 static const sampler_shape shape_rules_grid = {counts_grid, shape_evenly};
 static const sampler_shape shape_rules_hypergrid = {counts_hypergrid, shape_hypergrid};
 static const sampler_shape shape_rules_square = {counts_square, shape_square};
@@ -273,24 +289,79 @@ static int pack(const cs_table *table, cs_array *table_words)
     return 1;
 }
 
+static int has_pool(const cs_pattern *pattern)
+{
+    return samplers[pattern->sampler].shape->fill == shape_sets;
+}
+
+cs_u32 cs_pattern_parts(const cs_pattern *pattern)
+{
+    return has_pool(pattern) ? pattern->shape[0] : 1;
+}
+
+void cs_pattern_refresh(cs_pattern *pattern, cs_u32 seed)
+{
+    if (has_pool(pattern)) pattern->shape[1] = cs_key(0u, seed) | 1u;
+}
+
+cs_pattern cs_pattern_of_length(const cs_pattern *like, cs_u32 count)
+{
+    cs_pattern pattern = cs_pattern_of(like->sampler, 0, cs_sampler_count(like->sampler, count));
+    if (has_pool(like)) pattern.shape[1] = like->shape[1];
+    return pattern;
+}
+
+/* The parts of a table, while they are made. */
+typedef struct table_job {
+    cs_sample_order order;
+    cs_table *parts;
+    int *good;
+} table_job;
+
+static void make_parts(void *user, size_t begin, size_t end)
+{
+    const table_job *job = user;
+    for (size_t i = begin; i < end; i++) {
+        cs_table *table = &job->parts[i];
+        job->good[i] = samplers[table->pattern->sampler].make_table(table);
+        if (job->good[i] && job->order == CS_ORDER_COHERENT && table->words > 0 &&
+            table->boxes[0] > 0)
+            job->good[i] = sort_rows(table);
+    }
+}
+
+/* Points the parts to their columns, one after another in `memory`. */
+static void lay_out(const cs_pattern *pattern, cs_u32 parts, cs_u32 *memory, cs_table *table)
+{
+    for (cs_u32 part = 0; part < parts; part++, table++) {
+        table->pattern = pattern;
+        table->part = part;
+        for (cs_u32 w = 0; w < CS_MOST_WORDS; w++, memory += pattern->grid.count)
+            table->word[w] = memory;
+        for (cs_u32 d = 0; d < 2; d++, memory += pattern->grid.count)
+            table->place[d] = memory;
+    }
+}
+
 clshear_status cs_sample_table_make(const cs_pattern *pattern, cs_sample_order order,
                                     cs_array *table_words, cs_error *error)
 {
-    const cs_u32 count = pattern->grid.count;
-    cs_table table = {.pattern = pattern};
-    cs_u32 *memory = calloc((size_t)count * (CS_MOST_WORDS + 2), sizeof *memory);
-    int good = memory != NULL;
-    for (cs_u32 w = 0; good && w < CS_MOST_WORDS; w++)
-        table.word[w] = memory + (size_t)w * count;
-    for (cs_u32 d = 0; good && d < 2; d++)
-        table.place[d] = memory + (size_t)(CS_MOST_WORDS + d) * count;
+    const cs_u32 count = pattern->grid.count, parts = cs_pattern_parts(pattern);
+    cs_u32 *memory = calloc((size_t)parts * count * (CS_MOST_WORDS + 2), sizeof *memory);
+    table_job job = {order, calloc(parts, sizeof *job.parts), calloc(parts, sizeof *job.good)};
+    int good = memory != NULL && job.parts != NULL && job.good != NULL;
     *table_words = (cs_array){.item_size = sizeof(cs_u32)};
-    good = good && samplers[pattern->sampler].make_table(&table);
-    if (good && table.words > 0) {
-        if (order == CS_ORDER_COHERENT && table.boxes[0] > 0) good = sort_rows(&table);
-        good = good && pack(&table, table_words);
+    if (good) {
+        lay_out(pattern, parts, memory, job.parts);
+        cs_parallel(parts > 1 ? 0 : 1, parts, make_parts, &job);
+    }
+    for (cs_u32 part = 0; good && part < parts; part++) {
+        good = job.good[part];
+        if (good && job.parts[part].words > 0) good = pack(&job.parts[part], table_words);
     }
     free(memory);
+    free(job.parts);
+    free(job.good);
     if (good) return CLSHEAR_OK;
     cs_array_free(table_words);
     return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %u samples of %s", count,

@@ -27,6 +27,18 @@ cs_u32 cs_sampler_most(cs_u32 sampler);
  * sample count of the sampler; `first` must be 0 unless the sampler is progressive. */
 cs_pattern cs_pattern_of(cs_u32 sampler, cs_u32 first, cs_u32 count);
 
+/* Number of parts of a pattern's sample table: the sets of a pool of planar sets, 64 for up to 4096
+ * points and fewer for more, otherwise 1. */
+cs_u32 cs_pattern_parts(const cs_pattern *pattern);
+
+/* Lets a pattern of planar sets have its own ones, made from `seed`, instead of the shared ones
+ * that are kept on disk. Leaves other patterns as they are. */
+void cs_pattern_refresh(cs_pattern *pattern, cs_u32 seed);
+
+/* A pattern of the next sample count from `count` on, with the sampler and the pool of `like`.
+ * There must be such a count. */
+cs_pattern cs_pattern_of_length(const cs_pattern *like, cs_u32 count);
+
 /* Order of a table's rows: blocks of neighbours, as the renderer draws them, or the sampler's
  * sequence. */
 typedef enum cs_sample_order {

@@ -67,7 +67,7 @@ static void draw_sets(void *user, size_t begin, size_t end)
 }
 
 clshear_status cs_points_draw(const char *name, size_t wanted, size_t sets, uint32_t seed,
-                              clshear_points *points)
+                              int fresh, clshear_points *points)
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
@@ -81,6 +81,7 @@ clshear_status cs_points_draw(const char *name, size_t wanted, size_t sets, uint
     clshear_points made = {
         .sets = sets, .count = count, .dimensions = CS_DIMENSIONS, .names = CS_DIMENSION_NAMES};
     draw_job job = {.pattern = cs_pattern_of(sampler, 0, count), .seed = seed, .points = &made};
+    if (fresh) cs_pattern_refresh(&job.pattern, seed);
     CS_TRY(cs_sample_table_make(&job.pattern, CS_ORDER_SEQUENCE, &table, error));
     CS_TRY(cs_points_reserve(&made, error));
     job.table = table.items;

@@ -25,9 +25,10 @@ clshear_status cs_points_reserve(clshear_points *points, cs_error *error);
 clshear_status cs_points_take(const float *values, size_t sets, size_t count, const char *names,
                               clshear_points *points);
 
-/* Implement the public functions of these names. Errors go to the calling thread's error. */
+/* Implement the public functions of these names; `fresh`, clshear_points_draw_fresh. Errors go to
+ * the calling thread's error. */
 clshear_status cs_points_draw(const char *sampler, size_t count, size_t sets, uint32_t seed,
-                              clshear_points *points);
+                              int fresh, clshear_points *points);
 clshear_status cs_points_shear(clshear_points *points, clshear_shear shear, float shear_px);
 clshear_status cs_points_select(clshear_points *points, const char *names);
 clshear_status cs_points_read(const char *path, clshear_points *points);

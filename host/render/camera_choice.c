@@ -1,22 +1,13 @@
 #include "render/camera_choice.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/vec.h"
+#include "render/focus_choice.h"
 #include "render/interior.h"
 #include "scene/camera.h"
 #include "scene/framing.h"
 #include "settings/view.h"
-
-static const float blur_at_infinity = 0.03f; /* of the shorter image axis, for a lens not chosen */
-static const float half_sensor_m = 0.012f;   /* half the short side of a full-frame sensor */
-
-static float tangent_of_half_fov(const cs_view *view)
-{
-    return tanf(0.5f * view->fov_deg * (CS_PI / 180.0f));
-}
 
 static clshear_status set_one(clshear_settings *settings, clshear_setting setting, float value,
                               cs_error *error)
@@ -64,6 +55,7 @@ static cs_view frame_scene(const cs_scene *scene, const clshear_settings *settin
 {
     cs_framing framing = cs_framing_default(scene, z_is_up(scene, settings));
     if (cs_is_set(settings, FOV)) framing.fov_deg = (float)cs_number(settings, FOV);
+    framing.orthographic = cs_is_set(settings, ORTHOGRAPHIC);
     if (cs_is_set(settings, ORBIT)) {
         framing.azimuth_deg = (float)cs_numbers(settings, ORBIT)[0];
         framing.elevation_deg = (float)cs_numbers(settings, ORBIT)[1];
@@ -78,7 +70,8 @@ static clshear_status default_view(const clshear_scene *scene, const clshear_set
 {
     int is_room = 0;
     const int is_placed = cs_is_set(settings, ORBIT) || cs_is_set(settings, EYE) ||
-                          cs_is_set(settings, TARGET) || cs_is_set(settings, UP);
+                          cs_is_set(settings, TARGET) || cs_is_set(settings, UP) ||
+                          cs_is_set(settings, ORTHOGRAPHIC);
     clshear_status status = CLSHEAR_OK;
     if (!is_placed)
         status = cs_interior_view(scene, z_is_up(&scene->scene, settings), &is_room, view, error);
@@ -91,6 +84,40 @@ static clshear_status default_view(const clshear_scene *scene, const clshear_set
     else
         *view = frame_scene(&scene->scene, settings);
     return CLSHEAR_OK;
+}
+
+/* Sets how much the camera shows, unless the settings do: what the file's camera does, and of
+ * parallel lines of sight as much as the scene needs where none or 0 is asked for. */
+static clshear_status choose_extent(const clshear_scene *scene, clshear_settings *settings,
+                                    const cs_view *chosen, cs_error *error)
+{
+    cs_view view;
+    if (!cs_is_set(settings, ORTHOGRAPHIC) && chosen->orthographic <= 0.0f)
+        return cs_is_set(settings, FOV) ? CLSHEAR_OK
+                                        : set_one(settings, CLSHEAR_FOV, chosen->fov_deg, error);
+    if (cs_is_set(settings, FOV) || cs_number(settings, ORTHOGRAPHIC) > 0.0) return CLSHEAR_OK;
+    float width = chosen->orthographic;
+    if (width <= 0.0f) {
+        cs_view_of(settings, scene->scene.origin, &view);
+        width = cs_framing_width(&scene->scene, &view, (int)cs_integer(settings, WIDTH),
+                                 (int)cs_integer(settings, HEIGHT));
+    }
+    return set_one(settings, CLSHEAR_ORTHOGRAPHIC, width, error);
+}
+
+/* Where a camera of the file is when the shutter closes, unless the settings place the camera. */
+static clshear_status follow_camera(const cs_scene_camera *camera, const double *origin,
+                                    clshear_settings *settings, cs_error *error)
+{
+    double numbers[6];
+    if (!camera->moves || cs_is_set(settings, EYE) || cs_is_set(settings, TARGET) ||
+        cs_is_set(settings, CAMERA_TO))
+        return CLSHEAR_OK;
+    for (int axis = 0; axis < 3; axis++) {
+        numbers[axis] = (double)camera->eye_to[axis] + origin[axis];
+        numbers[3 + axis] = (double)camera->target_to[axis] + origin[axis];
+    }
+    return cs_settings_set(settings, CLSHEAR_CAMERA_TO, numbers, 6, error);
 }
 
 clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *settings,
@@ -107,132 +134,24 @@ clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *sett
     else
         view = cs_camera_of_scene(&scene->scene, number, (int)cs_integer(settings, WIDTH),
                                   (int)cs_integer(settings, HEIGHT));
+    if (number >= 0)
+        CS_TRY(follow_camera((const cs_scene_camera *)scene->scene.cameras.items + number, origin,
+                             settings, error));
     if (!cs_is_set(settings, EYE))
         CS_TRY(set_vector(settings, CLSHEAR_EYE, view.eye, origin, error));
     if (!cs_is_set(settings, TARGET))
         CS_TRY(set_vector(settings, CLSHEAR_TARGET, view.target, origin, error));
     if (!cs_is_set(settings, UP)) CS_TRY(set_vector(settings, CLSHEAR_UP, view.up, nowhere, error));
-    if (!cs_is_set(settings, FOV)) CS_TRY(set_one(settings, CLSHEAR_FOV, view.fov_deg, error));
+    CS_TRY(choose_extent(scene, settings, &view, error));
 done:
     return status;
-}
-
-/* Depth that pixel (x, y) sees, infinite if it sees nothing. */
-static clshear_status depth_at(const clshear_scene *scene, const clshear_settings *settings, int x,
-                               int y, float *depth, cs_error *error)
-{
-    const int width = (int)cs_integer(settings, WIDTH), height = (int)cs_integer(settings, HEIGHT);
-    const int window[4] = {x, x + 1, y, y + 1};
-    cs_view view;
-    cs_camera camera;
-    cs_depth found;
-    if (x < 0 || y < 0 || x >= width || y >= height)
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "pixel %d,%d is outside the %d x %d image", x,
-                       y, width, height);
-    cs_view_of(settings, scene->scene.origin, &view);
-    clshear_status status = cs_camera_frame(&view, width, height, &camera, error);
-    if (status == CLSHEAR_OK)
-        status = cs_accel_depth(scene->accel, &camera, NULL, window, 0, &found, error);
-    if (status == CLSHEAR_OK) *depth = found.centre;
-    return status;
-}
-
-clshear_status cs_camera_focus(const clshear_scene *scene, clshear_settings *settings, int x, int y,
-                               cs_error *error)
-{
-    float depth = INFINITY;
-    clshear_status status = depth_at(scene, settings, x, y, &depth, error);
-    if (status != CLSHEAR_OK) return status;
-    if (!isfinite(depth))
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "pixel %d,%d sees nothing to focus on; choose another or give a distance", x,
-                       y);
-    return set_one(settings, CLSHEAR_FOCAL_DISTANCE, depth, error);
-}
-
-/* Depth of a point, relative to the scene's origin; 0 or less: behind the camera. */
-static float depth_of(const cs_view *view, const float *point)
-{
-    float towards[3], offset[3];
-    cs_vec_subtract(view->target, view->eye, towards);
-    cs_vec_subtract(point, view->eye, offset);
-    return cs_vec_dot(towards, offset) / sqrtf(cs_vec_dot(towards, towards));
-}
-
-/* Depth of the bounding box's centre; 1 if it lies behind the camera. */
-static float depth_of_centre(const cs_scene *scene, const cs_view *view)
-{
-    float centre[3];
-    for (int i = 0; i < 3; i++)
-        centre[i] = 0.5f * (scene->bounds[0][i] + scene->bounds[1][i]);
-    const float depth = depth_of(view, centre);
-    return depth > 0.0f ? depth : 1.0f;
-}
-
-static clshear_status focus_on_point(const clshear_scene *scene, clshear_settings *settings,
-                                     cs_error *error)
-{
-    const double *given = cs_numbers(settings, FOCUS_POINT);
-    const double at[3] = {given[0], given[1], given[2]};
-    float point[3];
-    cs_view view;
-    cs_view_of(settings, scene->scene.origin, &view);
-    for (int i = 0; i < 3; i++)
-        point[i] = (float)(at[i] - scene->scene.origin[i]);
-    const float depth = depth_of(&view, point);
-    if (!(depth > 1e-12f))
-        return cs_fail(
-            error, CLSHEAR_BAD_ARGUMENT,
-            "focus-point %g,%g,%g: lies behind the camera; choose a point in the picture", at[0],
-            at[1], at[2]);
-    return set_one(settings, CLSHEAR_FOCAL_DISTANCE, depth, error);
-}
-
-static clshear_status choose_focus(const clshear_scene *scene, clshear_settings *settings,
-                                   cs_error *error)
-{
-    cs_view view;
-    float depth = INFINITY;
-    if (cs_is_set(settings, FOCAL_DISTANCE)) return CLSHEAR_OK;
-    if (cs_is_set(settings, FOCUS_PIXEL)) {
-        const double *pixel = cs_numbers(settings, FOCUS_PIXEL);
-        return cs_camera_focus(scene, settings, (int)pixel[0], (int)pixel[1], error);
-    }
-    if (cs_is_set(settings, FOCUS_POINT)) return focus_on_point(scene, settings, error);
-    clshear_status status = depth_at(scene, settings, (int)cs_integer(settings, WIDTH) / 2,
-                                     (int)cs_integer(settings, HEIGHT) / 2, &depth, error);
-    if (status != CLSHEAR_OK) return status;
-    cs_view_of(settings, scene->scene.origin, &view);
-    if (!isfinite(depth)) depth = depth_of_centre(&scene->scene, &view);
-    return set_one(settings, CLSHEAR_FOCAL_DISTANCE, depth, error);
-}
-
-static clshear_status choose_lens(const clshear_scene *scene, clshear_settings *settings,
-                                  cs_error *error)
-{
-    cs_view view;
-    if (cs_is_set(settings, LENS_RADIUS)) return CLSHEAR_OK;
-    cs_view_of(settings, scene->scene.origin, &view);
-    float radius =
-        0.5f * blur_at_infinity * 2.0f * view.focal_distance * tangent_of_half_fov(&view);
-    if (cs_is_set(settings, F_STOP)) {
-        const float focal_length_m = half_sensor_m / tangent_of_half_fov(&view);
-        radius = focal_length_m / (2.0f * (float)cs_number(settings, F_STOP)) /
-                 (float)cs_number(settings, UNIT);
-    }
-    if (cs_is_set(settings, BLUR)) { /* at infinity the blur is lens width / pixel width */
-        const double width = cs_number(settings, WIDTH), height = cs_number(settings, HEIGHT);
-        const double shorter_px = width < height ? width : height;
-        radius = (float)(cs_number(settings, BLUR) / shorter_px) * view.focal_distance *
-                 tangent_of_half_fov(&view);
-    }
-    return set_one(settings, CLSHEAR_LENS_RADIUS, radius, error);
 }
 
 clshear_status cs_camera_complete(const clshear_scene *scene, clshear_settings *settings,
                                   cs_error *error)
 {
     clshear_status status = cs_camera_pose(scene, settings, error);
-    if (status == CLSHEAR_OK) status = choose_focus(scene, settings, error);
-    return status == CLSHEAR_OK ? choose_lens(scene, settings, error) : status;
+    float depth = 0.0f;
+    if (status == CLSHEAR_OK) status = cs_choose_focus(scene, settings, &depth, error);
+    return status == CLSHEAR_OK ? cs_choose_lens(scene, settings, depth, error) : status;
 }

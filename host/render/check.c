@@ -2,9 +2,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "film/shards.h"
 #include "pattern/pattern.h"
 #include "render/aov.h"
 #include "render/camera_choice.h"
+#include "render/motion.h"
 #include "render/render_job.h"
 #include "render/studio.h"
 #include "scene/camera.h"
@@ -28,16 +30,60 @@ static clshear_status check_window(cs_job *job, cs_error *error)
     return CLSHEAR_OK;
 }
 
-/* Without a number of replicates: that of the film that is continued, or two. */
+/* Samples per pixel of a render that rules may end, where none are asked for. */
+static const double most_spp = 65536.0;
+
+/* Reads which part of the render the job is. */
+static clshear_status check_shard(cs_job *job, cs_error *error)
+{
+    static const size_t excluded[] = {CS_INDEX_NOISE, CS_INDEX_NOISE_PIXEL, CS_INDEX_TIME,
+                                      CS_INDEX_EXTENDABLE, CS_INDEX_KEEP_PATTERNS};
+    const char *text = cs_text(&job->settings, SHARD);
+    cs_shards shards;
+    job->shards = 1;
+    if (text == NULL) return CLSHEAR_OK;
+    const clshear_status status = cs_shards_read(text, &shards, error);
+    if (status != CLSHEAR_OK) return status;
+    job->shard = (cs_u32)shards.first - 1;
+    job->shards = (cs_u32)shards.count;
+    const int held = shards.held;
+    cs_shards_free(&shards);
+    if (held != 1)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "shard %.40s: a render is one of them", text);
+    if (job->base != NULL)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "a shard cannot extend a render");
+    for (size_t i = 0; i < sizeof excluded / sizeof *excluded; i++)
+        if (*job->settings.values[excluded[i]].numbers > 0.0) /* those that are not set are 0 */
+            return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "a shard cannot have %s",
+                           cs_setting_table[excluded[i]].name);
+    return CLSHEAR_OK;
+}
+
+/* Without a number of replicates: that of the film that is continued, or two, or one for each
+ * shard. */
 static clshear_status check_counts(cs_job *job, cs_error *error)
 {
     int before = 0;
+    clshear_status status = check_shard(job, error);
+    if (status != CLSHEAR_OK) return status;
+    job->stop = cs_stop_of(&job->settings);
+    if (cs_stop_has_rules(&job->stop) && !cs_is_set(&job->settings, SPP)) {
+        status = cs_settings_set(&job->settings, CLSHEAR_SPP, &most_spp, 1, error);
+        if (status != CLSHEAR_OK) return status;
+    }
     job->spp = (cs_u32)cs_integer(&job->settings, SPP);
+    job->pilot_spp = job->spp;
     job->replicates = (cs_u32)cs_integer(&job->settings, REPLICATES);
     if (job->replicates == 0 && job->base != NULL &&
         cs_film_int(job->base, "clshear.replicates", &before))
         job->replicates = (cs_u32)before;
     if (job->replicates == 0) job->replicates = job->spp > 1 ? 2 : 1;
+    if (!cs_is_set(&job->settings, REPLICATES) && job->replicates < job->shards)
+        job->replicates = job->shards;
+    if (job->replicates < job->shards)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "%u shards of %u replicates: must be %u at most", job->shards,
+                       job->replicates, job->replicates);
     if (job->replicates > job->spp)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "%u replicates of %u samples per pixel: must be 1 to %u", job->replicates,
@@ -46,13 +92,14 @@ static clshear_status check_counts(cs_job *job, cs_error *error)
     return cs_settings_set(&job->settings, CLSHEAR_REPLICATES, &resolved, 1, error);
 }
 
-/* Without a sampler's name: `sobol` where lights have a size, because its six dimensions include
- * theirs; elsewhere the sampler that is best in four. */
+/* Without a sampler's name: `sobol` where lights have a size or something moves, because its six
+ * dimensions include theirs or the time; elsewhere the sampler that is best in four. */
 static clshear_status choose_sampler(cs_job *job, cs_error *error)
 {
-    const double with_light = CS_SAMPLER_SOBOL;
-    if (cs_is_set(&job->settings, SAMPLER) || cs_area_lights(job) == 0) return CLSHEAR_OK;
-    return cs_settings_set(&job->settings, CLSHEAR_SAMPLER, &with_light, 1, error);
+    const double of_six = CS_SAMPLER_SOBOL;
+    if (cs_is_set(&job->settings, SAMPLER) || (cs_area_lights(job) == 0 && !job->moves))
+        return CLSHEAR_OK;
+    return cs_settings_set(&job->settings, CLSHEAR_SAMPLER, &of_six, 1, error);
 }
 
 /* The pattern of a replicate; more samples than asked for where the sampler has no such number. */
@@ -76,6 +123,8 @@ static clshear_status choose_pattern(cs_job *job, cs_error *error)
                        "%u replicates of %u samples per pixel are more than 2000000000",
                        job->replicates, count);
     job->pattern = cs_pattern_of(sampler, 0, count);
+    if (cs_integer(&job->settings, FRESH_SETS))
+        cs_pattern_refresh(&job->pattern, (cs_u32)cs_integer(&job->settings, SEED));
     return CLSHEAR_OK;
 }
 
@@ -104,6 +153,7 @@ static clshear_status make_camera(cs_job *job, cs_error *error)
                "use equal-area");
     CS_TRY(cs_camera_frame(&view, job->width, job->height, &job->camera, error));
     job->camera.optics = job->optics.optics;
+    CS_TRY(cs_motion_begin(job, &view, error));
     const double width_px = (double)job->camera.optics.filter_width;
     CS_TRY(cs_settings_set(&job->settings, CLSHEAR_FILTER_WIDTH, &width_px, 1, error));
 done:

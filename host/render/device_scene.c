@@ -2,6 +2,7 @@
 #include "kernels/bsdf/bsdf.h"
 #include "render/objects.h"
 #include "scene/albedo.h"
+#include "scene/emitters.h"
 
 static clshear_status upload(cs_device_scene *world, cs_device *device, cs_scene_buffer which,
                              const cs_array *array, cs_error *error)
@@ -17,6 +18,45 @@ static int any_face_is_described(const cs_scene *scene)
     for (size_t i = 0; i < scene->triangle_flags.count; i++)
         if (flags[i] != 0) return 1;
     return 0;
+}
+
+/* How normals move; nothing where they do not. */
+static clshear_status upload_normal_steps(cs_device_scene *world, cs_device *device,
+                                          const cs_scene *scene, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_array steps = {.item_size = sizeof(cs_normal_step)};
+    const float(*closed)[3] = scene->normals_to.items;
+    const cs_vertex *open = scene->vertices.items;
+    cs_normal_step *made = cs_array_extend(&steps, scene->normals_to.count);
+    CS_REQUIRE(made != NULL || scene->normals_to.count == 0, CLSHEAR_OUT_OF_MEMORY,
+               "out of memory for moving normals");
+    for (size_t i = 0; i < scene->normals_to.count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            made[i].normal[axis] = closed[i][axis] - open[i].normal[axis];
+    CS_TRY(upload(world, device, CS_SCENE_NORMAL_STEPS, &steps, error));
+done:
+    cs_array_free(&steps);
+    return status;
+}
+
+/* How emitters move; nothing where they do not. */
+static clshear_status upload_emitter_steps(cs_device_scene *world, cs_device *device,
+                                           const cs_scene *scene, const cs_array *table,
+                                           cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_array steps = {.item_size = sizeof(cs_triangle_step)};
+    const size_t count = cs_scene_moves(scene) ? table->count : 0;
+    cs_triangle_step *step = cs_array_extend(&steps, count);
+    CS_REQUIRE(count == 0 || step != NULL, CLSHEAR_OUT_OF_MEMORY,
+               "out of memory for moving lights");
+    for (size_t i = 0; i < count; i++)
+        step[i] = cs_scene_step(scene, ((const cs_emitter *)table->items)[i].face);
+    CS_TRY(upload(world, device, CS_SCENE_EMITTER_STEPS, &steps, error));
+done:
+    cs_array_free(&steps);
+    return status;
 }
 
 clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const cs_scene *scene,
@@ -37,6 +77,9 @@ clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const 
     if (world->needs.features & CS_FEATURE_MATERIALS)
         CS_TRY(cs_buffer_create(device, CS_ALBEDO_FLOATS * sizeof(float), cs_albedo_table(),
                                 &world->buffers[CS_SCENE_ALBEDOS], error));
+    CS_TRY(upload(world, device, CS_SCENE_NODE_STEPS, &bvh->node_steps, error));
+    CS_TRY(upload(world, device, CS_SCENE_TRIANGLE_STEPS, &bvh->triangle_steps, error));
+    if (described) CS_TRY(upload_normal_steps(world, device, scene, error));
     CS_TRY(upload(world, device, CS_SCENE_TEXTURES, &scene->textures, error));
     CS_TRY(upload(world, device, CS_SCENE_TEXELS, &scene->texels, error));
     world->geometry_bytes = bvh->nodes.count * bvh->nodes.item_size +
@@ -47,15 +90,21 @@ done:
 }
 
 clshear_status cs_scene_upload_emitters(cs_device_scene *world, cs_device *device,
-                                        const cs_scene *scene, cs_error *error)
+                                        const cs_scene *scene, cs_flat_bvh *bvh, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_array emitters = {.item_size = sizeof(cs_emitter)};
-    CS_TRY(cs_scene_emitters(scene, &emitters, &world->emitted_power, error));
-    CS_TRY(upload(world, device, CS_SCENE_EMITTERS, &emitters, error));
-    world->emitters = (uint32_t)emitters.count;
+    cs_emitters emitters = {0};
+    CS_TRY(cs_emitters_make(scene, &emitters, error));
+    CS_TRY(upload(world, device, CS_SCENE_EMITTERS, &emitters.table, error));
+    CS_TRY(upload(world, device, CS_SCENE_EMITTER_NODES, &emitters.nodes, error));
+    CS_TRY(upload_emitter_steps(world, device, scene, &emitters.table, error));
+    cs_emitters_number(&emitters, bvh->triangles.items, bvh->triangles.count);
+    world->emitters = (uint32_t)emitters.table.count;
+    world->even_emitters = emitters.even;
+    world->emitted_power = emitters.power;
+    world->emitted_light = emitters.light;
 done:
-    cs_array_free(&emitters);
+    cs_emitters_free(&emitters);
     return status;
 }
 

@@ -76,7 +76,7 @@ static float distance_of(const interior *in, const float *from, const float *dir
     for (int i = 0; i < MOST_PANES; i++) {
         uint32_t triangle = 0;
         const float distance =
-            cs_accel_distance(in->scene->accel, from, direction, near, far, &triangle);
+            cs_accel_distance(in->scene->accel, from, direction, near, far, 0.0f, &triangle);
         if (!isfinite(distance)) return INFINITY;
         if (!(materials[material_of[triangle]].flags & (CS_MATERIAL_BLEND | CS_MATERIAL_MASK)))
             return distance;

@@ -85,14 +85,19 @@ done:
     return status;
 }
 
-/* All emissive triangles as one light. Their table makes the density of a point its luminance by
- * the whole power. */
-static clshear_status add_emitters(const cs_device_scene *world, cs_array *lights, cs_error *error)
+/* All emissive triangles as one light: by the tree all of them, by power those whose density is
+ * their luminance by the whole power. */
+static clshear_status add_emitters(const cs_device_scene *world, const clshear_settings *settings,
+                                   cs_lighting *lighting, cs_array *lights, cs_error *error)
 {
-    const cs_light light = {.kind = CS_LIGHT_TRIANGLES,
-                            .count = world->emitters,
-                            .parameters = {(float)(1.0 / world->emitted_power)}};
-    return world->emitters > 0 ? add(lights, &light, error) : CLSHEAR_OK;
+    const int by_power = cs_integer(settings, EMITTERS) == CLSHEAR_EMITTERS_POWER;
+    cs_light light = {.kind = CS_LIGHT_TRIANGLES, .count = world->emitters};
+    if (by_power ? world->even_emitters == 0 : world->emitters == 0) return CLSHEAR_OK;
+    if (by_power)
+        light.parameters[0] = (float)(1.0 / world->emitted_power);
+    else
+        lighting->features |= CS_FEATURE_EMITTERS;
+    return add(lights, &light, error);
 }
 
 static clshear_status add_environment(const clshear_scene *scene, const clshear_settings *settings,
@@ -102,16 +107,13 @@ static clshear_status add_environment(const clshear_scene *scene, const clshear_
     const cs_environment_view view = {.rotation_deg = cs_number(settings, ENVIRONMENT_ROTATION),
                                       .strength = cs_number(settings, ENVIRONMENT_STRENGTH)};
     const char *text = cs_text(settings, ENVIRONMENT);
-    cs_environment environment = {0};
+    cs_light light;
     if (text == NULL || *text == '\0' || strcmp(text, "none") == 0) return CLSHEAR_OK;
-    CS_TRY(cs_environment_read(text, &view, &environment, error));
-    CS_TRY(add(lights, &environment.light, error));
-    const cs_array *image = &environment.image;
-    if (image->count > 0)
-        CS_TRY(cs_buffer_create(scene->context->device, image->count * image->item_size,
-                                image->items, &lighting->environment, error));
+    CS_TRY(cs_environment_cache_find(&scene->context->environments, scene->context->device, text,
+                                     &light, &lighting->environment, error));
+    cs_environment_show(&view, &light);
+    CS_TRY(add(lights, &light, error));
 done:
-    cs_environment_free(&environment);
     return status;
 }
 
@@ -124,7 +126,7 @@ static clshear_status collect(const clshear_scene *scene, const clshear_settings
         CS_TRY(add(lights, (const cs_light *)own->items + i, error));
     CS_TRY(add_settings(settings, scene->scene.origin, lights, error));
     CS_TRY(add_environment(scene, settings, lighting, lights, error));
-    CS_TRY(add_emitters(&scene->device_scene, lights, error));
+    CS_TRY(add_emitters(&scene->device_scene, settings, lighting, lights, error));
 done:
     return status;
 }
@@ -149,23 +151,29 @@ clshear_status cs_lighting_make(const clshear_scene *scene, const clshear_settin
                                 cs_lighting *lighting, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_array lights = {.item_size = sizeof(cs_light)};
-    CS_TRY(collect(scene, settings, lighting, &lights, error));
-    lighting->count = (cs_u32)lights.count;
-    for (size_t i = 0; i < lights.count; i++) {
-        const cs_u32 kind = ((const cs_light *)lights.items)[i].kind;
+    cs_array *lights = &lighting->list;
+    lights->item_size = sizeof(cs_light);
+    CS_TRY(collect(scene, settings, lighting, lights, error));
+    lighting->count = (cs_u32)lights->count;
+    for (size_t i = 0; i < lights->count; i++) {
+        const cs_u32 kind = ((const cs_light *)lights->items)[i].kind;
         lighting->area_count += (cs_u32)kinds[kind].is_area;
         lighting->features |= kinds[kind].features;
     }
-    CS_TRY(cs_buffer_create(scene->context->device, lights.count * lights.item_size, lights.items,
-                            &lighting->lights, error));
+    CS_TRY(cs_buffer_create(scene->context->device, lights->count * lights->item_size,
+                            lights->items, &lighting->lights, error));
 done:
-    cs_array_free(&lights);
     return status;
+}
+
+cs_shapes cs_lighting_shapes(const cs_lighting *lighting)
+{
+    return (cs_shapes){lighting->list.items, lighting->list.count};
 }
 
 void cs_lighting_free(cs_lighting *lighting)
 {
+    cs_array_free(&lighting->list);
     cs_buffer_free(lighting->lights);
     cs_buffer_free(lighting->environment);
     *lighting = (cs_lighting){0};

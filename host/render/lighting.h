@@ -13,7 +13,8 @@
     X(QUAD, quad)
 
 typedef struct cs_lighting {
-    cs_buffer *lights;      /* cs_light */
+    cs_array list;          /* cs_light */
+    cs_buffer *lights;      /* the same on the device */
     cs_buffer *environment; /* an image and its tables; NULL: none */
     cs_u32 count;
     cs_u32 features;   /* CS_FEATURE_ bits that the lights need */
@@ -25,6 +26,9 @@ typedef struct cs_lighting {
 clshear_status cs_lighting_make(const clshear_scene *scene, const clshear_settings *settings,
                                 cs_lighting *lighting, cs_error *error);
 void cs_lighting_free(cs_lighting *lighting);
+
+/* Those of the lights that rays can meet, for as long as the lighting lives. */
+cs_shapes cs_lighting_shapes(const cs_lighting *lighting);
 
 /* The scene's buffers in the order of the list, with these lights. */
 void cs_lit_buffers(const clshear_scene *scene, const cs_lighting *lighting,

@@ -12,7 +12,9 @@ typedef struct cs_device_scene {
     cs_buffer *buffers[CS_SCENE_BUFFERS]; /* in the order of kernels' arguments; NULL for what each
                                            * render has of its own */
     uint32_t emitters;                    /* emissive triangles */
-    double emitted_power;                 /* of them: area times luminance */
+    uint32_t even_emitters;               /* of them: those whose radiance does not vary */
+    double emitted_power;                 /* of the even ones: area times luminance */
+    double emitted_light;                 /* by all, a unit of the scene's area: luminance */
     cs_material_needs needs;
     size_t geometry_bytes;
 } cs_device_scene;
@@ -52,9 +54,9 @@ clshear_status cs_scene_light(clshear_scene *scene, const clshear_light *light, 
 clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const cs_scene *scene,
                                const cs_flat_bvh *bvh, cs_error *error);
 
-/* Puts the emissive triangles there. */
+/* Puts the emissive triangles there, and numbers them in `bvh`, which comes after it. */
 clshear_status cs_scene_upload_emitters(cs_device_scene *world, cs_device *device,
-                                        const cs_scene *scene, cs_error *error);
+                                        const cs_scene *scene, cs_flat_bvh *bvh, cs_error *error);
 void cs_device_scene_free(cs_device_scene *world);
 
 #endif

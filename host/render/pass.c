@@ -6,6 +6,19 @@
 
 static const double launch_s = 0.15; /* aim for one launch */
 
+clshear_status cs_batch_set_pattern(clshear_context *context, const cs_pattern *pattern,
+                                    cs_batch *batch, cs_error *error)
+{
+    cs_buffer *rows = NULL;
+    const clshear_status status =
+        cs_table_cache_find(&context->tables, context->device, pattern, &rows, error);
+    if (status != CLSHEAR_OK) return status;
+    cs_buffer_free(batch->rows);
+    batch->rows = rows;
+    batch->pattern = *pattern;
+    return CLSHEAR_OK;
+}
+
 clshear_status cs_batch_create(clshear_context *context, const cs_pattern *pattern,
                                const cs_u32 *pixels, size_t count, cs_u32 width, int compact,
                                cs_batch *batch, cs_error *error)
@@ -14,10 +27,9 @@ clshear_status cs_batch_create(clshear_context *context, const cs_pattern *patte
     cs_device *device = context->device;
     const size_t page_pixels = cs_page_pixels(context, width);
     cs_u32 *order = NULL;
-    batch->pattern = *pattern;
     batch->pixel_count = count;
     batch->compact = compact;
-    CS_TRY(cs_table_cache_find(&context->tables, device, pattern, &batch->rows, error));
+    CS_TRY(cs_batch_set_pattern(context, pattern, batch, error));
     if (pixels == NULL) {
         order = malloc(count * sizeof *order);
         CS_REQUIRE(order != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", count);
@@ -64,6 +76,7 @@ static clshear_status run_kernel(const cs_pass *pass, const cs_batch *batch,
                                      {.buffer = pixels->aovs != NULL ? pixels->aovs[page] : NULL},
                                      {.buffer = batch->order},
                                      {.buffer = pass->shears},
+                                     {.buffer = pass->velocities},
                                      {.buffer = batch->rows},
                                      {.buffer = pass->optics},
                                      CS_SCENE_BUFFER_LIST(CS_SCENE_ARGUMENT)};
@@ -91,10 +104,12 @@ clshear_status cs_pass_ask(const clshear_settings *settings, cs_error *error)
 static clshear_status report(const cs_pass *pass, double now_s, cs_error *error)
 {
     const double mean_rate = pass->done / (now_s - pass->start_s);
+    const double part = pass->total > 0.0 ? pass->done / pass->total : 0.0;
     const clshear_progress progress = {
-        .fraction = pass->total > 0.0 ? pass->done / pass->total : 0.0,
+        .fraction = part < 1.0 ? part : 1.0,
         .samples_per_s = mean_rate,
-        .remaining_s = pass->total > 0.0 ? (pass->total - pass->done) / mean_rate : 0.0,
+        .remaining_s = pass->total > pass->done ? (pass->total - pass->done) / mean_rate : 0.0,
+        .noise = pass->noise,
     };
     return tell(pass->settings, &progress, error);
 }
@@ -113,10 +128,13 @@ static clshear_status timed_launch(cs_pass *pass, const cs_batch *batch, const c
     pass->kernel_s += took_s;
     pass->done += samples;
     pass->rate = 0.5 * (pass->rate + samples / took_s);
-    return report(pass, now_s, error);
+    pass->place.pixel += launch->pixel_count;
+    if (pass->between != NULL) status = pass->between(pass->user, error);
+    return status == CLSHEAR_OK ? report(pass, now_s, error) : status;
 }
 
-/* Draws blocks [first, last) of the patterns of a batch, some pixels at a time. */
+/* Draws blocks [first, last) of the patterns of a batch from the place's pixel on, some pixels at a
+ * time. */
 static clshear_status pass_batch(cs_pass *pass, const cs_batch *batch, cs_u32 first, cs_u32 last,
                                  cs_error *error)
 {
@@ -129,7 +147,8 @@ static clshear_status pass_batch(cs_pass *pass, const cs_batch *batch, cs_u32 fi
     launch.pixels_each =
         cs_pixels_together(last - first, (cs_u32)cs_device_packet(pass->scene->context->device));
     size_t page = 0;
-    for (size_t pixel = 0; pixel < batch->pixel_count; pixel += launch.pixel_count) {
+    while (pass->place.pixel < batch->pixel_count) {
+        const size_t pixel = pass->place.pixel;
         while (batch->page_ends[page] <= pixel) /* 0 for pages without pixels of the batch */
             page++;
         const double samples_each = (double)(last - first) * CS_BLOCK;
@@ -161,6 +180,11 @@ static cs_u32 blocks_at(const cs_batch *batch, double part)
     return blocks < batch->pattern.blocks ? blocks : batch->pattern.blocks;
 }
 
+int cs_pass_is_fresh(const cs_pass *pass)
+{
+    return !(pass->place.next > 0.0);
+}
+
 clshear_status cs_pass_replicate(cs_pass *pass, const cs_batch *batches, size_t batch_count,
                                  cs_u32 replicate, cs_error *error)
 {
@@ -171,19 +195,21 @@ clshear_status cs_pass_replicate(cs_pass *pass, const cs_batch *batches, size_t 
         if (flushes_of(&batches[b]) > most) most = flushes_of(&batches[b]);
     }
     pass->launch.replicate = replicate;
-    double part = 0.0;
-    while (part < 1.0) {
+    cs_place *at = &pass->place;
+    while (at->part < 1.0) {
         /* As little as a launch affords, but a flush of the largest pattern at least. */
         const double step = pass->rate * launch_s / samples;
-        double next = part + (step > 1.0 / most ? step : 1.0 / most);
-        if (next > 1.0 - 0.5 / most) next = 1.0;
-        for (size_t b = 0; b < batch_count; b++) {
-            const cs_u32 first = blocks_at(&batches[b], part), last = blocks_at(&batches[b], next);
+        if (at->next <= at->part) at->next = at->part + (step > 1.0 / most ? step : 1.0 / most);
+        if (at->next > 1.0 - 0.5 / most) at->next = 1.0;
+        for (; at->batch < batch_count; at->batch++, at->pixel = 0) {
+            const cs_batch *batch = &batches[at->batch];
+            const cs_u32 first = blocks_at(batch, at->part), last = blocks_at(batch, at->next);
             if (first == last) continue;
-            clshear_status status = pass_batch(pass, &batches[b], first, last, error);
+            clshear_status status = pass_batch(pass, batch, first, last, error);
             if (status != CLSHEAR_OK) return status;
         }
-        part = next;
+        *at = (cs_place){.part = at->next};
     }
+    *at = (cs_place){0};
     return CLSHEAR_OK;
 }

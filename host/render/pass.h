@@ -17,16 +17,30 @@ typedef struct cs_batch {
     size_t *page_ends; /* of each page of pixels: where in the order the next begins; owned */
 } cs_batch;
 
+/* How far a replicate is: batch by batch, part by part. All zero: at its beginning. */
+typedef struct cs_place {
+    double part;    /* of every batch's pattern that is drawn */
+    double next;    /* part after the step in progress; not above `part`: no step is in progress */
+    uint64_t batch; /* that the step is at */
+    uint64_t pixel; /* and the pixel in it, in its order */
+} cs_place;
+
 /* What all launches of a render have in common, and how far it is. */
 typedef struct cs_pass {
     clshear_scene *scene;
-    cs_launch launch;        /* camera, seed, window, shear mode, lights */
-    const cs_buffer *optics; /* their table */
-    const cs_buffer *shears; /* of every pixel of the window */
+    cs_launch launch;            /* camera, seed, window, shear mode, lights */
+    const cs_buffer *optics;     /* their table */
+    const cs_buffer *shears;     /* of every pixel of the window */
+    const cs_buffer *velocities; /* likewise; NULL where nothing moves */
     const cs_pixels *pixels;
     const cs_lighting *lighting;
     cs_u32 features;                  /* CS_FEATURE_ bits of the variant that renders it */
     const clshear_settings *settings; /* whose progress callback is called; NULL: no calls */
+    /* Called after each launch, before the progress callback, with `user`; NULL: no calls. */
+    clshear_status (*between)(void *user, cs_error *error);
+    void *user;
+    cs_place place;
+    double noise; /* of the picture, for the progress callback; 0: unknown */
     double start_s;
     double rate;  /* samples per second of the last launches */
     double done;  /* samples */
@@ -39,10 +53,17 @@ typedef struct cs_pass {
 clshear_status cs_batch_create(clshear_context *context, const cs_pattern *pattern,
                                const cs_u32 *pixels, size_t count, cs_u32 width, int compact,
                                cs_batch *batch, cs_error *error);
+/* Gives a batch another pattern. */
+clshear_status cs_batch_set_pattern(clshear_context *context, const cs_pattern *pattern,
+                                    cs_batch *batch, cs_error *error);
 void cs_batch_free(cs_batch *batch);
 
-/* Draws one replicate of every batch's patterns: of all of them a part, then the next part, so that
- * an interrupted picture is even. How the work is cut does not change a bit of the result. */
+/* Whether the next replicate of the pass starts from its beginning. */
+int cs_pass_is_fresh(const cs_pass *pass);
+
+/* Draws one replicate of every batch's patterns from pass->place on: of all of them a part, then
+ * the next part, so that an interrupted picture is even. How the work is cut does not change a bit
+ * of the result. At the end the place is that of a new beginning. */
 clshear_status cs_pass_replicate(cs_pass *pass, const cs_batch *batches, size_t batch_count,
                                  cs_u32 replicate, cs_error *error);
 

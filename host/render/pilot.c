@@ -7,6 +7,7 @@
 
 #include "oracle/choose_rule.h"
 #include "pattern/pattern.h"
+#include "render/motion.h"
 
 enum {
     CHOICE_SAMPLES = 32, /* patterns by which shears are judged */
@@ -50,26 +51,33 @@ done:
     return status;
 }
 
-/* Renders `replicates` patterns of `samples` for the listed pixels (NULL: all) with given shears.
- */
-static clshear_status run(cs_job *job, const cs_f32 *shears, const cs_u32 *list, size_t count,
+/* How the pixels of a pilot are sheared. */
+typedef struct trial {
+    const cs_f32 *shears;
+    const uint8_t *rules; /* which say whether the velocity counts */
+} trial;
+
+/* Renders `replicates` patterns of `samples` for the listed pixels (NULL: all). */
+static clshear_status run(cs_job *job, const trial *how, const cs_u32 *list, size_t count,
                           cs_u32 samples, cs_u32 replicates, const outcome *result, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     clshear_context *context = job->scene->context;
-    cs_buffer *shear_buffer = NULL;
+    cs_buffer *shear_buffer = NULL, *velocities = NULL;
     cs_pixels pixels = {0};
     cs_batch batch = {0};
-    const cs_u32 sampler = job->pattern.sampler, width = (cs_u32)(job->window[1] - job->window[0]);
-    const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, samples));
+    const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
+    const cs_pattern pattern = cs_pattern_of_length(&job->pattern, samples);
     cs_pass pass = cs_job_pass(job);
     if (count > 0) {
         CS_TRY(cs_pixels_create(context, count, width, 0, &pixels, error));
-        CS_TRY(cs_buffer_create(context->device, job->pixel_count * sizeof *shears, shears,
-                                &shear_buffer, error));
+        CS_TRY(cs_buffer_create(context->device, job->pixel_count * sizeof *how->shears,
+                                how->shears, &shear_buffer, error));
+        CS_TRY(cs_motion_upload(job, how->rules, &velocities, error));
         CS_TRY(cs_batch_create(context, &pattern, list, count, width, list != NULL, &batch, error));
         pass.launch.seed = cs_key(job->seed, 0x70696c6fu); /* its own random numbers */
         pass.shears = shear_buffer;
+        pass.velocities = velocities;
         pass.pixels = &pixels;
         pass.settings = &job->settings;
         for (cs_u32 replicate = 0; replicate < replicates; replicate++)
@@ -81,6 +89,7 @@ done:
     job->kernel_s += pass.kernel_s;
     cs_batch_free(&batch);
     cs_buffer_free(shear_buffer);
+    cs_buffer_free(velocities);
     cs_pixels_free(&pixels);
     return status;
 }
@@ -122,20 +131,32 @@ static void release(choice *c)
 }
 
 /* Rules tried against the prior. The median is the centre nearly everywhere. */
-static int is_candidate(int rule)
+static int is_candidate(const cs_job *job, int rule)
 {
+    if (rule == CS_RULE_LENS || rule == CS_RULE_MOTION) return job->moves;
     return rule == CS_RULE_NEAR || rule == CS_RULE_FAR || rule == CS_RULE_NONE;
+}
+
+/* Whether the rule is a candidate that pixel `i` could tell from the prior. */
+static int differs(const cs_job *job, const choice *c, int rule, size_t i)
+{
+    if (!is_candidate(job, rule)) return 0;
+    if (job->moves && !cs_rule_has_velocity((cs_rule)rule)) {
+        const cs_velocity v = job->velocities_px[i];
+        if (fabsf(v.x) + fabsf(v.y) > 0.05f) return 1;
+    }
+    return differ(c->shears[prior_rule][i], c->shears[rule][i]);
 }
 
 /* The fraction of pixels that the budget affords, when each is tried with all its candidates. */
 static double affordable_part(const cs_job *job, const choice *c)
 {
-    const double budget = 0.06 * (double)job->spp * (double)job->pixel_count;
+    const double budget = 0.06 * (double)job->pilot_spp * (double)job->pixel_count;
     double tries = 0.0;
     for (size_t i = 0; i < job->pixel_count; i++) {
         int candidates = 0;
         for (int r = 0; r < CS_RULE_COUNT; r++)
-            candidates += is_candidate(r) && differ(c->shears[prior_rule][i], c->shears[r][i]);
+            candidates += differs(job, c, r, i);
         if (candidates > 0) tries += candidates + 1;
     }
     const double cost = tries * CHOICE_SAMPLES * CHOICE_REPLICATES;
@@ -154,8 +175,7 @@ static size_t list_pixels(const cs_job *job, choice *c, int rule, double part)
         const double lot = (double)cs_hash((y << 16 ^ x) + 1u) * 0x1p-32;
         int wanted = 0;
         for (int r = 0; r < CS_RULE_COUNT; r++)
-            wanted |= is_candidate(r) && (r == rule || rule == (int)prior_rule) &&
-                      differ(c->shears[prior_rule][i], c->shears[r][i]);
+            wanted |= (r == rule || rule == (int)prior_rule) && differs(job, c, r, i);
         if (wanted && lot < part) c->list[count++] = (cs_u32)i;
     }
     return count;
@@ -164,11 +184,13 @@ static size_t list_pixels(const cs_job *job, choice *c, int rule, double part)
 static clshear_status try_rules(cs_job *job, choice *c, double part, cs_error *error)
 {
     for (int rule = 0; rule < CS_RULE_COUNT; rule++) {
-        if (rule != (int)prior_rule && !is_candidate(rule)) continue;
+        if (rule != (int)prior_rule && !is_candidate(job, rule)) continue;
         const size_t count = list_pixels(job, c, rule, part);
         const outcome result = {.variance = c->variance[rule]};
-        clshear_status status = run(job, c->shears[rule], c->list, count, CHOICE_SAMPLES,
-                                    CHOICE_REPLICATES, &result, error);
+        memset(c->rules, rule, job->pixel_count);
+        const trial how = {c->shears[rule], c->rules};
+        clshear_status status =
+            run(job, &how, c->list, count, CHOICE_SAMPLES, CHOICE_REPLICATES, &result, error);
         if (status != CLSHEAR_OK) return status;
     }
     return CLSHEAR_OK;
@@ -184,11 +206,12 @@ clshear_status cs_pilot_shears(cs_job *job, cs_error *error)
                "out of memory for the pilot of %zu pixels", job->pixel_count);
     for (int r = 0; r < CS_RULE_COUNT; r++)
         for (size_t i = 0; i < job->pixel_count; i++)
-            c.shears[r][i] = cs_oracle_shear(&job->camera, &job->depth[i], (cs_rule)r);
+            c.shears[r][i] = cs_job_shear(job, i, (cs_rule)r);
     const double part = affordable_part(job, &c);
     CS_TRY(try_rules(job, &c, part, error));
     for (int r = 0; r < CS_RULE_COUNT; r++)
-        if (is_candidate(r)) evidence[r] = (cs_evidence){c.variance[r], c.variance[prior_rule]};
+        if (is_candidate(job, r))
+            evidence[r] = (cs_evidence){c.variance[r], c.variance[prior_rule]};
     /* A window holds about a hundred pixels of the pilot. */
     const int radius = (int)ceil(5.0 / sqrt(part > 1e-4 ? part : 1e-4));
     CS_TRY(cs_pilot_choose(evidence, prior_rule, width, height, radius, c.rules, error));
@@ -215,7 +238,8 @@ clshear_status cs_pilot_samples(cs_job *job, cs_u32 *samples, cs_error *error)
     const cs_u32 size = cs_sampler_count(sampler, job->spp < 256 ? 8 : 16);
     const cs_u32 patterns = job->spp / 16 / size;
     const cs_u32 replicates = patterns < 2 ? 2 : patterns > 4 ? 4 : patterns;
-    CS_TRY(run(job, job->shear_px, NULL, job->pixel_count, size, replicates, &result, error));
+    const trial how = {job->shear_px, job->rule};
+    CS_TRY(run(job, &how, NULL, job->pixel_count, size, replicates, &result, error));
     const cs_pilot_picture picture = {.variance = result.variance,
                                       .intensity = result.intensity,
                                       .width = width,
@@ -251,11 +275,14 @@ clshear_status cs_pilot_gain(cs_job *job, cs_f32 *gain, cs_error *error)
     const size_t pixels = job->pixel_count;
     const int width = job->window[1] - job->window[0], height = job->window[3] - job->window[2];
     cs_f32 *memory = calloc(3 * pixels, sizeof *memory);
-    CS_REQUIRE(memory != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for the gain of %zu pixels",
-               pixels);
+    uint8_t *no_rules = malloc(pixels);
+    CS_REQUIRE(memory != NULL && no_rules != NULL, CLSHEAR_OUT_OF_MEMORY,
+               "out of memory for the gain of %zu pixels", pixels);
     const outcome without = {.variance = memory + pixels}, with = {.variance = memory + 2 * pixels};
-    CS_TRY(run(job, memory, NULL, pixels, GAIN_SAMPLES, GAIN_REPLICATES, &without, error));
-    CS_TRY(run(job, job->shear_px, NULL, pixels, GAIN_SAMPLES, GAIN_REPLICATES, &with, error));
+    memset(no_rules, CS_RULE_NONE, pixels);
+    const trial unsheared = {memory, no_rules}, chosen = {job->shear_px, job->rule};
+    CS_TRY(run(job, &unsheared, NULL, pixels, GAIN_SAMPLES, GAIN_REPLICATES, &without, error));
+    CS_TRY(run(job, &chosen, NULL, pixels, GAIN_SAMPLES, GAIN_REPLICATES, &with, error));
     for (size_t i = 0; i < pixels; i++) {
         const int x = (int)(i % (size_t)width), y = (int)(i / (size_t)width);
         const double before = smoothed(without.variance, width, height, x, y);
@@ -264,5 +291,6 @@ clshear_status cs_pilot_gain(cs_job *job, cs_f32 *gain, cs_error *error)
     }
 done:
     free(memory);
+    free(no_rules);
     return status;
 }

@@ -67,6 +67,15 @@ void cs_pixels_free(cs_pixels *pixels)
     *pixels = (cs_pixels){0};
 }
 
+void cs_pixels_release(cs_pixels *pixels, size_t end)
+{
+    const size_t count = end == pixels->count ? pixels->page_count : end / pixels->page_pixels;
+    for (size_t page = 0; page < count; page++) {
+        cs_buffer_free(pixels->pages[page]);
+        pixels->pages[page] = NULL;
+    }
+}
+
 /* The part of pixels `first` ... that lies in the page of the first: how many, and where in it. */
 static size_t part_in_page(const cs_pixels *pixels, size_t first, size_t count, size_t *page,
                            size_t *place)

@@ -24,6 +24,11 @@ size_t cs_page_pixels(const clshear_context *context, cs_u32 width);
 /* `count` pixels of a window, all zero, with sums of some planes of AOVs. */
 clshear_status cs_pixels_create(clshear_context *context, size_t count, cs_u32 width, size_t planes,
                                 cs_pixels *pixels, cs_error *error);
+
+/* Gives back the memory of the pages that end before pixel `end`, or with it. Their pixels must not
+ * be read or written any more. */
+void cs_pixels_release(cs_pixels *pixels, size_t end);
+
 void cs_pixels_free(cs_pixels *pixels);
 
 /* Pixels `first` ... `first` + `count` - 1, row by row. */

@@ -2,12 +2,15 @@
  * buffers. */
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "oracle/oracle.h"
 #include "pattern/pattern.h"
 #include "render/aov.h"
+#include "render/motion.h"
 #include "render/pilot.h"
 #include "render/resume.h"
+#include "render/rounds.h"
 
 /* Fewer samples than this leave a pilot nothing to find out with. */
 static const cs_u32 least_spp_for_pilot = 64;
@@ -15,10 +18,26 @@ static const cs_u32 least_spp_for_pilot = 64;
 /* Rays of the prepass between two questions to the caller: a fraction of a second. */
 static const size_t rays_at_once = 1 << 22;
 
+/* Says before the render when the picture does not fit: the system ends a program for that without
+ * a word, when the memory is written to. */
+static void warn_of_memory(const cs_job *job)
+{
+    const size_t each = sizeof(cs_pixel) + cs_aov_count(job->planes) * sizeof(cs_exact_sum) +
+                        sizeof *job->depth + 2 * sizeof *job->shear_px + sizeof *job->rule +
+                        sizeof(cs_u32); /* its place in the order of pixels */
+    const double need = (double)each * (double)job->pixel_count;
+    const double most = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    if (need > 0.8 * most)
+        cs_warn(&job->scene->context->log,
+                "%zu pixels take %.1f GB of the machine's %.1f GB of memory; --crop renders parts",
+                job->pixel_count, 1e-9 * need, 1e-9 * most);
+}
+
 static clshear_status reserve(cs_job *job, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_device *device = job->scene->context->device;
+    warn_of_memory(job);
     /* Zero, so that a render that is stopped before they are known can be resolved. */
     job->depth = calloc(job->pixel_count, sizeof *job->depth);
     job->shear_px = calloc(job->pixel_count, sizeof *job->shear_px);
@@ -44,18 +63,28 @@ static clshear_status find_depths(cs_job *job, cs_error *error)
     const size_t rows = rays_at_once / (width * (size_t)(lens_rays + 1)) + 1;
     int band[4] = {job->window[0], job->window[1], job->window[2], job->window[2]};
     cs_depth *depth = job->depth;
+    const cs_shapes shapes = cs_lighting_shapes(&job->lighting);
     while (band[3] < job->window[3]) {
         const size_t left = (size_t)(job->window[3] - band[3]);
         band[2] = band[3];
         band[3] += (int)(left < rows ? left : rows);
         clshear_status status =
-            cs_accel_depth(job->scene->accel, &job->camera, job->optics.table.items, band,
-                           lens_rays, depth, error);
+            cs_accel_depth(job->scene->accel, &shapes, &job->cameras.middle,
+                           job->optics.table.items, band, lens_rays, depth, error);
         if (status == CLSHEAR_OK) status = cs_pass_ask(&job->settings, error);
         if (status != CLSHEAR_OK) return status;
         depth += width * (size_t)(band[3] - band[2]);
     }
     return CLSHEAR_OK;
+}
+
+cs_f32 cs_job_shear(const cs_job *job, size_t index, cs_rule rule)
+{
+    const size_t width = (size_t)(job->window[1] - job->window[0]);
+    const size_t x = (size_t)job->window[0] + index % width;
+    const size_t y = (size_t)job->window[2] + index / width;
+    return cs_oracle_shear(&job->camera, (cs_f32)x + 0.5f, (cs_f32)y + 0.5f, &job->depth[index],
+                           rule);
 }
 
 /* Rules and shears of all pixels; those of the picture that is extended, if there is one. */
@@ -73,7 +102,7 @@ static clshear_status choose_shears(cs_job *job, cs_error *error)
         else if (is_given)
             job->shear_px[i] = (cs_f32)cs_number(&job->settings, SHEAR_PX);
         else
-            job->shear_px[i] = cs_oracle_shear(&job->camera, &job->depth[i], rule);
+            job->shear_px[i] = cs_job_shear(job, i, rule);
     }
     if (!pilot || extended != NULL || job->spp < least_spp_for_pilot ||
         job->shear_kind != CLSHEAR_SHEAR_EQUAL_AREA)
@@ -97,7 +126,7 @@ static clshear_status batch_by_samples(cs_job *job, cs_error *error)
             if (job->samples[pixel] == wanted) list[count++] = pixel;
         }
         if (count == 0) continue;
-        const cs_pattern pattern = cs_pattern_of(sampler, 0, cs_sampler_count(sampler, wanted));
+        const cs_pattern pattern = cs_pattern_of_length(&job->pattern, wanted);
         job->batch_count++; /* first, so that what a failure leaves is freed */
         CS_TRY(cs_batch_create(job->scene->context, &pattern, list, count, width, 0,
                                &job->batches[job->batch_count - 1], error));
@@ -142,6 +171,7 @@ clshear_status cs_job_plan(cs_job *job, cs_error *error)
     const double start_s = cs_now_s();
     CS_TRY(reserve(job, error));
     CS_TRY(find_depths(job, error));
+    CS_TRY(cs_motion_find(job, error));
     job->prepass_s = cs_now_s() - start_s;
     CS_TRY(choose_shears(job, error));
     if (cs_integer(&job->settings, GAIN) != 0) {
@@ -159,6 +189,7 @@ clshear_status cs_job_plan(cs_job *job, cs_error *error)
     job->pilot_s = cs_now_s() - start_s - job->prepass_s;
     CS_TRY(cs_buffer_create(job->scene->context->device, job->pixel_count * sizeof *job->shear_px,
                             job->shear_px, &job->shears, error));
+    CS_TRY(cs_motion_upload(job, job->rule, &job->velocities, error));
 done:
     return status;
 }
@@ -171,12 +202,15 @@ void cs_job_free(cs_job *job)
     free(job->gain);
     free(job->samples);
     cs_resume_free(job);
+    cs_rounds_free(job);
     for (size_t b = 0; b < job->batch_count; b++)
         cs_batch_free(&job->batches[b]);
     cs_pixels_free(&job->pixels);
     cs_buffer_free(job->optics_table);
     cs_optics_free(&job->optics);
     cs_buffer_free(job->shears);
+    free(job->velocities_px);
+    cs_buffer_free(job->velocities);
     cs_lighting_free(&job->lighting);
     cs_settings_free(&job->settings);
 }

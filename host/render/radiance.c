@@ -161,11 +161,13 @@ clshear_status cs_pixel_shear(clshear_scene *scene, const clshear_settings *sett
     CS_TRY(cs_job_begin(&job, scene, settings, NULL, error));
     CS_REQUIRE(x >= 0 && x < job.width && y >= 0 && y < job.height, CLSHEAR_BAD_ARGUMENT,
                "pixel %d,%d is outside the %d x %d image", x, y, job.width, job.height);
-    CS_TRY(cs_accel_depth(scene->accel, &job.camera, job.optics.table.items, window,
+    const cs_shapes shapes = cs_lighting_shapes(&job.lighting);
+    CS_TRY(cs_accel_depth(scene->accel, &shapes, &job.camera, job.optics.table.items, window,
                           (int)cs_integer(&job.settings, LENS_RAYS), &depth, error));
     *shear_px = cs_is_set(&job.settings, SHEAR_PX)
                     ? (float)cs_number(&job.settings, SHEAR_PX)
-                    : cs_oracle_shear(&job.camera, &depth, cs_rule_of(job.oracle));
+                    : cs_oracle_shear(&job.camera, (cs_f32)x + 0.5f, (cs_f32)y + 0.5f, &depth,
+                                      cs_rule_of(job.oracle));
 done:
     cs_job_free(&job);
     return status;

@@ -48,13 +48,13 @@ done:
     return status;
 }
 
-void cs_record_recipe(const clshear_settings *settings, char *text, size_t size)
+void cs_record_list(const clshear_settings *settings, cs_setting_use use, char *text, size_t size)
 {
     char value[256];
     size_t used = 0;
     *text = '\0';
     for (size_t i = 0; i < CS_SETTING_COUNT && used < size; i++) {
-        if (cs_setting_table[i].use != CS_USE_RECIPE) continue;
+        if (cs_setting_table[i].use != use) continue;
         cs_settings_print(settings, i, value, sizeof value);
         used +=
             (size_t)snprintf(text + used, size - used, "%s=%s;", cs_setting_table[i].name, value);

@@ -12,7 +12,7 @@ enum {
 /* Writes each setting of the table that is recorded as "clshear.<nameInCamelCase>". */
 clshear_status cs_record_settings(const clshear_settings *settings, clshear_film *film);
 
-/* "name=value;..." of each setting of the table that is part of the recipe. */
-void cs_record_recipe(const clshear_settings *settings, char *text, size_t size);
+/* "name=value;..." of each setting of the table with this use. */
+void cs_record_list(const clshear_settings *settings, cs_setting_use use, char *text, size_t size);
 
 #endif

@@ -1,17 +1,21 @@
 #include "render/render.h"
 
+#include "render/checkpoint.h"
 #include "render/resume.h"
+#include "render/rounds.h"
 
 clshear_status cs_render(clshear_scene *scene, const clshear_settings *settings,
                          const clshear_film *base, clshear_film **result, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK, passes = CLSHEAR_OK;
     const double start_s = cs_now_s();
-    cs_job job = {0};
+    cs_job job = {.start_s = start_s};
     clshear_film *film = NULL;
     CS_TRY(cs_job_begin(&job, scene, settings, base, error));
     CS_TRY(cs_job_choose_samples(&job, error));
     CS_TRY(cs_resume_check(&job, error));
+    CS_TRY(cs_rounds_check(&job, error));
+    CS_TRY(cs_checkpoint_check(&job, error));
     passes = cs_job_plan(&job, error);
     if (passes == CLSHEAR_OK) passes = cs_job_run_passes(&job, error);
     if (passes != CS_CANCELLED) CS_TRY(passes);

@@ -5,12 +5,30 @@
 #include "film/film.h"
 #include "kernels/launch.h"
 #include "optics/optics.h"
+#include "oracle/oracle.h"
 #include "render/lighting.h"
 #include "render/pass.h"
+#include "render/stop.h"
 
 enum {
     CS_MOST_BATCHES = 24
 };
+
+/* What a pixel has of a pattern that is not finished. */
+typedef struct cs_net {
+    cs_f32 sum[3];
+    cs_f32 carry[3];
+    cs_u32 pending;
+} cs_net;
+
+/* Rounds of a render that may end early: see rounds.h. */
+typedef struct cs_rounds {
+    cs_net *nets; /* of each replicate, pixel by pixel; NULL: the job draws no such rounds */
+    cs_pattern whole[CS_MOST_BATCHES]; /* of the batches, if nothing ends the render early */
+    cs_u32 from;                       /* samples of the job's pattern in all replicates, ... */
+    cs_u32 to;                         /* ... and after the round in progress. Or replicates */
+    cs_u32 replicate;                  /* of the round in progress */
+} cs_rounds;
 
 typedef struct cs_job {
     clshear_scene *scene;
@@ -18,12 +36,20 @@ typedef struct cs_job {
     const clshear_film *base;  /* the film that is continued; NULL: none */
     cs_u32 spp;
     cs_u32 replicates;
+    cs_u32 shard;     /* the job draws replicates shard, shard + shards, ... */
+    cs_u32 shards;    /* 1: all of them */
+    cs_u32 pilot_spp; /* that pilots are a part of */
+    cs_stop stop;
+    cs_rounds rounds;
     cs_u32 seed;
     int width; /* of the whole image, px */
     int height;
     clshear_shear shear_kind;
     clshear_oracle oracle;
-    cs_camera camera;
+    cs_camera camera; /* where the shutter opens */
+    cs_shutter_cameras cameras;
+    cs_camera_motion motion;
+    int moves; /* whether anything does while the shutter is open */
     cs_lighting lighting;
     cs_u32 features; /* CS_FEATURE_ bits that the render needs, but for its AOVs */
     cs_u32 planes;   /* of AOVs: a set of CS_PLANE_ numbers */
@@ -42,12 +68,18 @@ typedef struct cs_job {
     size_t batch_count;
     cs_pixels pixels;
     cs_buffer *shears;
+    cs_velocity *velocities_px; /* NULL where nothing moves, as `velocities` */
+    cs_buffer *velocities;      /* of the chosen rules */
     /* For extensions, else NULL: means of finished patterns, a plane for each replicate and colour;
      * and the sums they are taken from, three for each pixel. */
     float *pattern_means;
     double *pattern_sums;
     uint32_t patterns_kept;
     uint32_t replicates_begun;
+    int resumes;    /* whether the job goes on from a checkpoint */
+    int save_fails; /* whether the last checkpoint could not be written */
+    double saved_s; /* when the last checkpoint was written */
+    double start_s; /* when the render began */
     double prepass_s;
     double pilot_s;
     double kernel_s;
@@ -65,6 +97,10 @@ clshear_status cs_job_choose_samples(cs_job *job, cs_error *error);
 clshear_status cs_job_plan(cs_job *job, cs_error *error);
 void cs_job_free(cs_job *job);
 
+/* The oracle's shear by a rule for pixel `index` of the window, row by row, whose depths are known.
+ */
+cs_f32 cs_job_shear(const cs_job *job, size_t index, cs_rule rule);
+
 /* How many of the lights are sampled by a pair of the tuple. */
 cs_u32 cs_area_lights(const cs_job *job);
 
@@ -74,6 +110,9 @@ cs_pass cs_job_pass(const cs_job *job);
 /* Runs all passes. Each launch takes a fraction of a second, so that progress, cancelling and GPU
  * watchdogs work; how the work is cut into launches does not change the result. */
 clshear_status cs_job_run_passes(cs_job *job, cs_error *error);
+
+/* Patterns that the job draws for a pixel: its shard of the replicates. */
+cs_u32 cs_job_patterns(const cs_job *job);
 
 /* Turns the accumulated pixels into a film with metadata. */
 clshear_status cs_job_resolve(cs_job *job, clshear_film **film, cs_error *error);

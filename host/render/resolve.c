@@ -6,8 +6,10 @@
 
 #include "oracle/oracle.h"
 #include "render/aov.h"
-#include "render/record.h"
+#include "render/motion.h"
+#include "render/recipe.h"
 #include "render/resume.h"
+#include "render/rounds.h"
 
 enum {
     SLICE = 1 << 16 /* pixels read back at once */
@@ -53,6 +55,7 @@ static clshear_status add_planes(clshear_film *film, planes *all)
 /* Samples in a finished pattern of a pixel. */
 static uint32_t pattern_of(const cs_job *job, size_t index)
 {
+    if (job->rounds.nets != NULL) return job->rounds.nets[index].pending;
     return job->samples != NULL ? job->samples[index]
                                 : job->pattern.first + job->pattern.grid.count;
 }
@@ -99,13 +102,14 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
     CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
     for (size_t first = 0; first < job->pixel_count; first += SLICE) {
         size_t count = job->pixel_count - first < SLICE ? job->pixel_count - first : SLICE;
-        CS_TRY(cs_pixels_read(&job->pixels, first, count, slice, error));
+        CS_TRY(cs_rounds_read(job, first, count, slice, error));
         for (size_t i = 0; i < count; i++) {
             resolve_pixel(job, &slice[i], first + i, all);
             film->info.samples += slice[i].samples;
             film->info.shadow_rays += slice[i].shadow_rays;
             if (slice[i].patterns < fewest) fewest = slice[i].patterns;
         }
+        cs_pixels_release(&job->pixels, first + count); /* the film takes its place */
     }
     for (size_t i = 0; i < job->pixel_count; i++) {
         all->depth[0][i] = job->depth[i].centre;
@@ -113,7 +117,7 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
         all->depth[2][i] = job->depth[i].far;
         all->shear[i] = job->shear_px[i];
         all->rule[i] = (float)job->rule[i];
-        all->blur[i] = fabsf(cs_oracle_shear(&job->camera, &job->depth[i], CS_RULE_CENTRE));
+        all->blur[i] = fabsf(cs_job_shear(job, i, CS_RULE_CENTRE));
     }
     if (fewest < 2) drop_variance(film);
 done:
@@ -157,6 +161,17 @@ done:
     return status;
 }
 
+/* What a merge of shards must know. */
+static clshear_status describe_shard(const cs_job *job, clshear_film *film)
+{
+    char text[CS_RECIPE_SIZE];
+    if (!cs_is_set(&job->settings, SHARD)) return CLSHEAR_OK;
+    cs_recipe_of(job, text, sizeof text);
+    const clshear_status status = cs_film_annotate(film, "clshear.recipe", text);
+    if (status != CLSHEAR_OK) return status;
+    return cs_film_set_int(film, "clshear.patterns", (int32_t)cs_job_patterns(job));
+}
+
 clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
@@ -168,6 +183,7 @@ clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *erro
     CS_TRY(add_planes(film, &all));
     CS_TRY(read_pixels(job, film, &all, error));
     CS_TRY(cs_aov_resolve(job, all.samples, film, error));
+    CS_TRY(cs_motion_resolve(job, film, error));
     if (job->gain != NULL) {
         float *gain = cs_film_add_channel(film, "Gain");
         CS_REQUIRE(gain != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
@@ -175,6 +191,8 @@ clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *erro
     }
     CS_TRY(describe(job, film));
     CS_TRY(cs_resume_describe(job, film));
+    CS_TRY(cs_rounds_describe(job, film));
+    CS_TRY(describe_shard(job, film));
     film->info.prepass_s = job->prepass_s;
     film->info.pilot_s = job->pilot_s;
     film->info.pilot_samples = (uint64_t)job->pilot_samples;

@@ -8,7 +8,7 @@
 
 #include "pattern/pattern.h"
 #include "render/aov.h"
-#include "render/record.h"
+#include "render/recipe.h"
 
 enum {
     SLICE = 1 << 16 /* pixels on their way at once */
@@ -22,67 +22,6 @@ static int is_extendable(const cs_job *job)
 static void plane_name(char *name, size_t size, uint32_t replicate, int colour)
 {
     snprintf(name, size, "Pattern%u.%c", replicate, "RGB"[colour]);
-}
-
-/* Adds bytes to a fingerprint, four at a time. */
-static void add_words(cs_u32 *fingerprint, const void *items, size_t size)
-{
-    for (size_t i = 0; i < size; i += 4) {
-        cs_u32 word = 0;
-        memcpy(&word, (const char *)items + i, size - i < 4 ? size - i : 4);
-        *fingerprint = cs_key(*fingerprint, word);
-    }
-}
-
-static void add_array(cs_u32 *fingerprint, const cs_array *array)
-{
-    add_words(fingerprint, array->items, array->count * array->item_size);
-}
-
-/* The lights of the settings; those that are not set change nothing. */
-static void add_lights(cs_u32 *fingerprint, const clshear_settings *settings)
-{
-    static const size_t indices[] = {
-#define INDEX(identifier, suffix) CS_INDEX_##identifier,
-        CS_LIGHT_SETTING_LIST(INDEX)
-#undef INDEX
-    };
-    for (size_t i = 0; i < sizeof indices / sizeof *indices; i++) {
-        const cs_setting_value *value = &settings->values[indices[i]];
-        if (value->is_set)
-            add_words(fingerprint, value->numbers, value->count * sizeof *value->numbers);
-    }
-}
-
-/* What fixes the samples and the picture, but for their number: "name=value;...". */
-static void recipe_of(const cs_job *job, char *text, size_t size)
-{
-    const cs_scene *scene = &job->scene->scene;
-    cs_u32 lens = 0, light = 0, world = 0;
-    add_array(&lens, &job->optics.table);
-    add_array(&light, &scene->lights);
-    add_lights(&light, &job->settings);
-    add_array(&world, &scene->positions);
-    add_array(&world, &scene->vertices);
-    add_array(&world, &scene->indices);
-    add_array(&world, &scene->triangle_materials);
-    add_array(&world, &scene->triangle_flags);
-    add_array(&world, &scene->materials);
-    add_array(&world, &scene->textures);
-    add_array(&world, &scene->texels);
-    cs_record_recipe(&job->settings, text, size);
-    const size_t used = strlen(text);
-    snprintf(text + used, size - used, "lens table=%08x;lights=%08x;scene=%08x", lens, light,
-             world);
-}
-
-/* Name of the first thing in which two recipes differ. */
-static void first_difference(const char *a, const char *b, char *name, size_t size)
-{
-    size_t start = 0, i = 0;
-    for (; a[i] == b[i] && a[i] != '\0'; i++)
-        if (a[i] == ';') start = i + 1;
-    snprintf(name, size, "%.*s", (int)strcspn(a + start, "="), a + start);
 }
 
 /* Whether a film has all the planes that load() reads, and counts of samples to go with them. */
@@ -116,7 +55,7 @@ clshear_status cs_resume_check(cs_job *job, cs_error *error)
                        "progressive ones can",
                        cs_sampler_name(job->pattern.sampler));
     if (base == NULL) return CLSHEAR_OK;
-    recipe_of(job, mine, sizeof mine);
+    cs_recipe_of(job, mine, sizeof mine);
     const char *theirs = cs_film_text(base, "clshear.recipe");
     if (theirs == NULL ||
         (strcmp(mine, theirs) == 0 && !holds_state(base, job->replicates, &samples)))
@@ -125,7 +64,7 @@ clshear_status cs_resume_check(cs_job *job, cs_error *error)
             "the image to extend lacks the means of its patterns; it must be a complete EXR "
             "rendered with --extendable");
     if (strcmp(mine, theirs) != 0) {
-        first_difference(mine, theirs, name, sizeof name);
+        cs_recipe_difference(theirs, mine, name, sizeof name);
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "the image to extend was made with another %s; give all flags as before, "
                        "but for --spp",
@@ -260,7 +199,7 @@ clshear_status cs_resume_describe(const cs_job *job, clshear_film *film)
                job->pixel_count * sizeof *pixels);
     }
     if (!is_extendable(job) && job->base == NULL) return CLSHEAR_OK;
-    recipe_of(job, text, sizeof text);
+    cs_recipe_of(job, text, sizeof text);
     return cs_film_annotate(film, "clshear.recipe", text);
 }
 

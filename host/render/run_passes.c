@@ -1,7 +1,9 @@
 /* The passes of a render over its batches. */
 #include "optics/shear_mode.h"
 #include "render/aov.h"
+#include "render/checkpoint.h"
 #include "render/resume.h"
+#include "render/rounds.h"
 
 cs_u32 cs_area_lights(const cs_job *job)
 {
@@ -14,6 +16,7 @@ cs_pass cs_job_pass(const cs_job *job)
     const cs_material_needs *needs = &job->scene->device_scene.needs;
     return (cs_pass){.scene = job->scene,
                      .launch = {.camera = job->camera,
+                                .motion = job->motion,
                                 .seed = job->seed,
                                 .image_width = (cs_u32)job->width,
                                 .crop_x = (cs_u32)job->window[0],
@@ -33,23 +36,76 @@ cs_pass cs_job_pass(const cs_job *job)
                      .rate = 1e5};
 }
 
+/* A job in progress: what its pass calls between launches. */
+typedef struct progress {
+    cs_job *job;
+    cs_pass *pass;
+} progress;
+
+/* Shows the picture so far, if the caller wants it. */
+static clshear_status show(cs_job *job, cs_error *error)
+{
+    const cs_preview *preview = &job->settings.preview;
+    clshear_film *film = NULL;
+    if (preview->wanted == NULL || preview->show == NULL || !preview->wanted(preview->user))
+        return CLSHEAR_OK;
+    const clshear_status status = cs_job_resolve(job, &film, error);
+    if (status != CLSHEAR_OK) return status;
+    film->info.complete = 0;
+    const clshear_status marked = cs_film_set_int(film, "clshear.interrupted", 1);
+    if (marked == CLSHEAR_OK) preview->show(preview->user, film);
+    cs_film_free(film);
+    return marked;
+}
+
+static clshear_status between_launches(void *user, cs_error *error)
+{
+    const progress *now = user;
+    const clshear_status status = cs_checkpoint_save(now->job, now->pass, 0, error);
+    return status == CLSHEAR_OK ? show(now->job, error) : status;
+}
+
+cs_u32 cs_job_patterns(const cs_job *job)
+{
+    return (job->replicates - job->shard - 1) / job->shards + 1;
+}
+
+/* All replicates, one after another, from the one in progress on. */
+static clshear_status run_replicates(cs_job *job, cs_pass *pass, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    for (cs_u32 *at = &job->rounds.replicate; *at < job->replicates; ++*at) {
+        if (*at % job->shards != job->shard) continue;
+        if (cs_pass_is_fresh(pass)) CS_TRY(cs_resume_begin(job, *at, error));
+        CS_TRY(cs_pass_replicate(pass, job->batches, job->batch_count, *at, error));
+        CS_TRY(cs_resume_end(job, *at, error));
+    }
+done:
+    return status;
+}
+
 clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    const cs_u32 replicates = job->replicates;
     cs_pass pass = cs_job_pass(job);
+    progress now = {job, &pass};
     pass.shears = job->shears;
+    pass.velocities = job->velocities;
     pass.pixels = &job->pixels;
     pass.settings = &job->settings;
     pass.launch.planes = job->planes;
     pass.features = cs_aov_features(job);
+    pass.between = between_launches;
+    pass.user = &now;
     for (size_t b = 0; b < job->batch_count; b++)
-        pass.total += (double)replicates * (double)job->batches[b].pixel_count *
+        pass.total += (double)cs_job_patterns(job) * (double)job->batches[b].pixel_count *
                       job->batches[b].pattern.grid.count;
-    for (cs_u32 replicate = 0; replicate < replicates; replicate++) {
-        CS_TRY(cs_resume_begin(job, replicate, error));
-        CS_TRY(cs_pass_replicate(&pass, job->batches, job->batch_count, replicate, error));
-        CS_TRY(cs_resume_end(job, replicate, error));
+    CS_TRY(cs_checkpoint_load(job, &pass, error));
+    status = cs_stop_has_rules(&job->stop) ? cs_rounds_run(job, &pass, error)
+                                           : run_replicates(job, &pass, error);
+    if (status == CS_CANCELLED) {
+        const clshear_status saved = cs_checkpoint_save(job, &pass, 1, error);
+        if (saved != CLSHEAR_OK) status = saved;
     }
 done:
     job->kernel_s += pass.kernel_s;

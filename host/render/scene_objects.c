@@ -8,6 +8,7 @@
 #include "import/import.h"
 #include "render/objects.h"
 #include "render/pass.h"
+#include "render/scene_motion.h"
 #include "settings/settings.h"
 
 clshear_status cs_scene_new(clshear_context *context, clshear_scene **result, cs_error *error)
@@ -39,8 +40,12 @@ clshear_status cs_scene_read(clshear_scene *scene, const char *path,
     cs_import_options options = {.smooth_degrees = -1.0};
     if (settings != NULL && cs_is_set(settings, SMOOTH))
         options.smooth_degrees = cs_number(settings, SMOOTH);
+    double times_s[2];
+    options.is_played = cs_shutter_times(settings, times_s);
+    options.time_s = times_s[0];
     clshear_status status =
         cs_scene_import(path, &options, &scene->scene, &scene->context->log, error);
+    if (status == CLSHEAR_OK) status = cs_scene_read_motion(scene, path, &options, settings, error);
 #ifdef __GLIBC__
     malloc_trim(0); /* importing takes several times what it leaves */
 #endif
@@ -86,8 +91,9 @@ clshear_status cs_scene_complete(clshear_scene *scene, cs_error *error)
     const double compiled_s = cs_now_s();
     CS_TRY(cs_accel_create(&scene->scene, context->threads, &scene->accel, error));
     CS_TRY(cs_accel_build_bvh(scene->accel, &bvh, error));
+    CS_TRY(cs_scene_upload_emitters(&scene->device_scene, context->device, &scene->scene, &bvh,
+                                    error));
     CS_TRY(cs_scene_upload(&scene->device_scene, context->device, &scene->scene, &bvh, error));
-    CS_TRY(cs_scene_upload_emitters(&scene->device_scene, context->device, &scene->scene, error));
     info->triangles = cs_scene_triangle_count(&scene->scene);
     info->degenerate = scene->scene.degenerate;
     info->nodes = bvh.nodes.count;

@@ -11,10 +11,14 @@ static const double key_radiance = 0.6;
 static const double key_diameter_deg = 10.0;
 static const double pi = 3.14159265358979;
 
-/* Textured emission is a screen or a label rather than what lights a scene. */
+/* Emission that varies over surfaces is often a screen or a label, which leaves a scene dark: it
+ * counts as light if all surfaces together emit this radiance in the mean. */
+static const double least_light = 0.02;
+
 static int has_light(const clshear_scene *scene, const clshear_settings *settings)
 {
-    return scene->scene.lights.count > 0 || scene->device_scene.emitters > 0 ||
+    return scene->scene.lights.count > 0 || scene->device_scene.even_emitters > 0 ||
+           scene->device_scene.emitted_light > least_light ||
            cs_is_set(settings, ENVIRONMENT)
 #define OR_SET(identifier, suffix) || cs_is_set(settings, identifier)
                CS_LIGHT_SETTING_LIST(OR_SET);

@@ -18,13 +18,18 @@ enum {
 
 static const float most_radiance = 1e15f;
 
-/* The scale and the turn. */
-static void describe(const cs_environment_view *view, const float *colour, cs_light *light)
+/* An environment of a colour, as it is. */
+static void describe(const float *colour, cs_light *light)
+{
+    *light = (cs_light){.kind = CS_LIGHT_ENVIRONMENT, .parameters = {[3] = 1.0f}};
+    memcpy(light->colour, colour, sizeof light->colour);
+}
+
+void cs_environment_show(const cs_environment_view *view, cs_light *light)
 {
     const double angle = view->rotation_deg * (3.14159265358979 / 180.0);
-    *light = (cs_light){.kind = CS_LIGHT_ENVIRONMENT};
     for (int c = 0; c < 3; c++)
-        light->colour[c] = (float)((double)colour[c] * view->strength);
+        light->colour[c] = (float)((double)light->colour[c] * view->strength);
     light->parameters[3] = (float)cos(angle);
     light->parameters[4] = (float)sin(angle);
 }
@@ -105,8 +110,7 @@ static size_t cells_of(size_t texels, size_t most)
 }
 
 clshear_status cs_environment_make(const float *texels, size_t width, size_t height,
-                                   const cs_environment_view *view, cs_environment *environment,
-                                   cs_error *error)
+                                   cs_environment *environment, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const float white[3] = {1.0f, 1.0f, 1.0f};
@@ -116,7 +120,7 @@ clshear_status cs_environment_make(const float *texels, size_t width, size_t hei
     float *buffer = cs_array_extend(&environment->image, 3 * width * height + down + down * across);
     CS_REQUIRE(weights != NULL && buffer != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory for an environment of %zu x %zu texels", width, height);
-    describe(view, white, &environment->light);
+    describe(white, &environment->light);
     environment->light.count = (cs_u32)width;
     environment->light.parameters[0] = (float)height;
     environment->light.parameters[1] = (float)across;
@@ -138,8 +142,8 @@ static int read_colour(const char *text, float *colour)
 
 /* A sky: `colours` has its zenith and its horizon, which the ground continues. In between, radiance
  * is linear in the sine of the elevation, so that a surface that faces up is lit in closed form. */
-static clshear_status make_gradient(const float *colours, const cs_environment_view *view,
-                                    cs_environment *environment, cs_error *error)
+static clshear_status make_gradient(const float *colours, cs_environment *environment,
+                                    cs_error *error)
 {
     float texels[3 * SKY_WIDTH * SKY_HEIGHT];
     for (int y = 0; y < SKY_HEIGHT; y++) {
@@ -148,7 +152,7 @@ static clshear_status make_gradient(const float *colours, const cs_environment_v
         for (int i = 0; i < 3 * SKY_WIDTH; i++)
             texels[3 * SKY_WIDTH * y + i] = up * colours[i % 3] + (1.0f - up) * colours[3 + i % 3];
     }
-    return cs_environment_make(texels, SKY_WIDTH, SKY_HEIGHT, view, environment, error);
+    return cs_environment_make(texels, SKY_WIDTH, SKY_HEIGHT, environment, error);
 }
 
 /* Whether the text is a gradient: this word and six numbers. */
@@ -159,8 +163,7 @@ static int read_gradient(const char *text, float *c)
                   &end) == 6;
 }
 
-clshear_status cs_environment_read(const char *text, const cs_environment_view *view,
-                                   cs_environment *environment, cs_error *error)
+clshear_status cs_environment_read(const char *text, cs_environment *environment, cs_error *error)
 {
     float colour[3], sky[6], *texels = NULL;
     size_t width = 0, height = 0;
@@ -169,14 +172,14 @@ clshear_status cs_environment_read(const char *text, const cs_environment_view *
             return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                            "environment %.60s: must be three numbers, 0 to 1e15", text);
         environment->image = (cs_array){.item_size = sizeof(cs_f32)};
-        describe(view, colour, &environment->light);
+        describe(colour, &environment->light);
         return CLSHEAR_OK;
     }
     if (read_gradient(text, sky)) {
         if (!cs_is_colour(sky) || !cs_is_colour(sky + 3))
             return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                            "environment %.120s: must be six numbers, 0 to 1e15", text);
-        return make_gradient(sky, view, environment, error);
+        return make_gradient(sky, environment, error);
     }
     if (access(text, R_OK) != 0)
         return cs_fail(error, CLSHEAR_BAD_FILE,
@@ -185,7 +188,7 @@ clshear_status cs_environment_read(const char *text, const cs_environment_view *
                        text, strerror(errno));
     clshear_status status = cs_image_read_colours(text, &texels, &width, &height, error);
     if (status == CLSHEAR_OK)
-        status = cs_environment_make(texels, width, height, view, environment, error);
+        status = cs_environment_make(texels, width, height, environment, error);
     free(texels);
     return status;
 }

@@ -20,13 +20,14 @@ typedef struct cs_environment_view {
 
 /* From "R,G,B", "gradient:R,G,B,R,G,B" (zenith, horizon) or the path of an image. Freed by
  * cs_environment_free. */
-clshear_status cs_environment_read(const char *text, const cs_environment_view *view,
-                                   cs_environment *environment, cs_error *error);
+clshear_status cs_environment_read(const char *text, cs_environment *environment, cs_error *error);
 
 /* From `width` x `height` texels of three floats, rows from the top. */
 clshear_status cs_environment_make(const float *texels, size_t width, size_t height,
-                                   const cs_environment_view *view, cs_environment *environment,
-                                   cs_error *error);
+                                   cs_environment *environment, cs_error *error);
+
+/* Turns and scales the light of an environment that was read or made. */
+void cs_environment_show(const cs_environment_view *view, cs_light *light);
 void cs_environment_free(cs_environment *environment);
 
 #endif

@@ -64,7 +64,7 @@ static int is_open_room(const cs_scene *scene, const box_axes *axes)
 cs_framing cs_framing_default(const cs_scene *scene, int z_up)
 {
     const box_axes axes = axes_of(z_up);
-    cs_framing framing = {z_up, 35.0f, 20.0f, default_fov_deg};
+    cs_framing framing = {z_up, 35.0f, 20.0f, default_fov_deg, 0};
     float size[3];
     for (int i = 0; i < 3; i++)
         size[i] = scene->bounds[1][axes.axis[i]] - scene->bounds[0][axes.axis[i]];
@@ -95,19 +95,14 @@ typedef struct touch {
     float high; /* largest p + tangent t */
 } touch;
 
-cs_view cs_framing_view(const cs_scene *scene, const cs_framing *framing, int width, int height)
+/* The touches along the first two axes of the frame, and the largest t, from `middle`. */
+static float find_touches(const cs_scene *scene, float frame[3][3], const float *middle,
+                          const float *tangent, touch *sides)
 {
-    cs_view view = {.fov_deg = framing->fov_deg, .lens_radius = -1.0f};
     const float(*positions)[3] = scene->positions.items;
     const uint32_t(*triangles)[3] = scene->indices.items;
-    const float shorter = width < height ? (float)width : (float)height;
-    const float half = tanf(0.5f * framing->fov_deg * degrees) / (margin * shorter);
-    const float tangent[2] = {half * (float)width, half * (float)height};
-    touch sides[2] = {{-INFINITY, -INFINITY}, {-INFINITY, -INFINITY}};
-    float frame[3][3], middle[3], distance = -INFINITY, nearest = -INFINITY;
-    picture_axes(framing, frame);
-    for (int i = 0; i < 3; i++)
-        middle[i] = 0.5f * (scene->bounds[0][i] + scene->bounds[1][i]);
+    float nearest = -INFINITY;
+    sides[0] = sides[1] = (touch){-INFINITY, -INFINITY};
     for (size_t i = 0; i < 3 * scene->indices.count; i++) {
         float from_middle[3];
         cs_vec_subtract(positions[triangles[i / 3][i % 3]], middle, from_middle);
@@ -119,9 +114,27 @@ cs_view cs_framing_view(const cs_scene *scene, const cs_framing *framing, int wi
             sides[axis].high = fmaxf(sides[axis].high, p + tangent[axis] * t);
         }
     }
+    return nearest;
+}
+
+static const float parallel[2] = {0.0f, 0.0f}; /* tangents of parallel lines of sight */
+
+cs_view cs_framing_view(const cs_scene *scene, const cs_framing *framing, int width, int height)
+{
+    cs_view view = {.fov_deg = framing->fov_deg, .lens_radius = -1.0f};
+    const float shorter = width < height ? (float)width : (float)height;
+    const float half = tanf(0.5f * framing->fov_deg * degrees) / (margin * shorter);
+    const float tangent[2] = {half * (float)width, half * (float)height};
+    touch sides[2];
+    float frame[3][3], middle[3], distance = -INFINITY;
+    picture_axes(framing, frame);
+    for (int i = 0; i < 3; i++)
+        middle[i] = 0.5f * (scene->bounds[0][i] + scene->bounds[1][i]);
+    const float nearest = find_touches(scene, frame, middle, tangent, sides);
     for (int axis = 0; axis < 2; axis++)
         distance = fmaxf(distance, (sides[axis].low + sides[axis].high) / (2.0f * tangent[axis]));
     distance = fmaxf(distance, nearest + 1e-3f * fabsf(distance));
+    if (framing->orthographic) find_touches(scene, frame, middle, parallel, sides);
     for (int i = 0; i < 3; i++) {
         view.target[i] = middle[i];
         for (int axis = 0; axis < 2; axis++)
@@ -130,4 +143,25 @@ cs_view cs_framing_view(const cs_scene *scene, const cs_framing *framing, int wi
         view.up[i] = frame[1][i];
     }
     return view;
+}
+
+float cs_framing_width(const cs_scene *scene, const cs_view *view, int width, int height)
+{
+    const int size[2] = {width, height};
+    const float shorter = width < height ? (float)width : (float)height;
+    float frame[3][3], most = 0.0f;
+    touch sides[2];
+    cs_vec_subtract(view->eye, view->target, frame[2]);
+    cs_vec_cross(view->up, frame[2], frame[0]);
+    cs_vec_cross(frame[2], frame[0], frame[1]);
+    for (int axis = 0; axis < 2; axis++) {
+        const float length = sqrtf(cs_vec_dot(frame[axis], frame[axis]));
+        for (int i = 0; i < 3; i++)
+            frame[axis][i] /= length;
+    }
+    find_touches(scene, frame, view->eye, parallel, sides);
+    for (int axis = 0; axis < 2; axis++)
+        most = fmaxf(most,
+                     2.0f * fmaxf(sides[axis].low, sides[axis].high) * shorter / (float)size[axis]);
+    return margin * most;
 }

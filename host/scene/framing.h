@@ -10,7 +10,9 @@ typedef struct cs_framing {
     int z_up; /* 1: +Z is up and -Y in front; 0: +Y is up and +Z in front */
     float azimuth_deg;
     float elevation_deg;
-    float fov_deg; /* along the shorter image axis */
+    float fov_deg;    /* along the shorter image axis */
+    int orthographic; /* 1: parallel lines of sight. The eye stands where a camera of this field of
+                         view would */
 } cs_framing;
 
 /* Three-quarter view from the front, slightly above; straight from the front for a room without a
@@ -20,5 +22,9 @@ cs_framing cs_framing_default(const cs_scene *scene, int z_up);
 /* The nearest camera in that direction whose picture, of this size, shows every triangle inside a
  * margin. Eye and target are relative to the scene's origin. The lens is not chosen. */
 cs_view cs_framing_view(const cs_scene *scene, const cs_framing *framing, int width, int height);
+
+/* What the shorter image axis has to show of the scene (cs_view.orthographic) around the axis of a
+ * camera, for a picture of this size. */
+float cs_framing_width(const cs_scene *scene, const cs_view *view, int width, int height);
 
 #endif

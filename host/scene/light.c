@@ -74,13 +74,19 @@ static clshear_status check_light(const clshear_light *light, cs_error *error)
     return check_shape(light, error);
 }
 
-/* Scale and offset as KHR_lights_punctual defines them. */
+/* Scale and offset as cs_sample_light_spot takes them, from cos b - cos a = 2 sin((a + b) / 2)
+ * sin((a - b) / 2), which keeps its digits where the cone is narrow or its edge sharp. A scale
+ * above 1e30 is a step. */
 static void make_spot(const clshear_light *light, cs_light *made)
 {
-    const float outer = cosf(light->outer_deg * degree);
+    const double outer = (double)light->outer_deg * (double)degree;
+    const double inner = (double)light->inner_deg * (double)degree;
+    const double half = sin(0.5 * outer);
+    const double across = sin(0.5 * (outer + inner)) * sin(0.5 * (outer - inner));
+    const double scale = fmin(0.25 / fmax(across, 1e-300), 1e30);
     made->kind = CS_LIGHT_SPOT;
-    made->parameters[0] = 1.0f / fmaxf(cosf(light->inner_deg * degree) - outer, 0.001f);
-    made->parameters[1] = -outer * made->parameters[0];
+    made->parameters[0] = (float)scale;
+    made->parameters[1] = (float)(4.0 * half * half * scale);
     for (int i = 0; i < 3; i++)
         made->axis[i] = -made->axis[i];
 }

@@ -9,6 +9,8 @@ void cs_scene_init(cs_scene *scene)
 {
     memset(scene, 0, sizeof *scene);
     scene->positions.item_size = 3 * sizeof(float);
+    scene->positions_to.item_size = 3 * sizeof(float);
+    scene->normals_to.item_size = 3 * sizeof(float);
     scene->vertices.item_size = sizeof(cs_vertex);
     scene->indices.item_size = 3 * sizeof(uint32_t);
     scene->triangle_materials.item_size = sizeof(uint32_t);
@@ -24,6 +26,8 @@ void cs_scene_init(cs_scene *scene)
 void cs_scene_free(cs_scene *scene)
 {
     cs_array_free(&scene->positions);
+    cs_array_free(&scene->positions_to);
+    cs_array_free(&scene->normals_to);
     cs_array_free(&scene->vertices);
     cs_array_free(&scene->indices);
     cs_array_free(&scene->triangle_materials);
@@ -39,6 +43,27 @@ void cs_scene_free(cs_scene *scene)
 size_t cs_scene_triangle_count(const cs_scene *scene)
 {
     return scene->indices.count;
+}
+
+/* Where the vertices that were added last are when the shutter closes. */
+static clshear_status add_places_to(cs_scene *scene, const clshear_mesh *mesh, const char *name,
+                                    cs_error *error)
+{
+    if (!cs_scene_moves(scene) && mesh->positions_to == NULL) return CLSHEAR_OK;
+    if (!cs_scene_start_moving(scene))
+        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", name);
+    const size_t first = 3 * (scene->positions.count - mesh->vertex_count);
+    const size_t size = 3 * mesh->vertex_count * sizeof(float);
+    if (mesh->positions_to == NULL) return CLSHEAR_OK;
+    for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
+        if (!isfinite(mesh->positions_to[i]))
+            return cs_fail(error, CLSHEAR_BAD_FILE,
+                           "%s: vertex %zu moves to what is not a finite number; repair the mesh",
+                           name, i / 3);
+    memcpy((float *)scene->positions_to.items + first, mesh->positions_to, size);
+    if (mesh->normals_to != NULL)
+        memcpy((float *)scene->normals_to.items + first, mesh->normals_to, size);
+    return CLSHEAR_OK;
 }
 
 static clshear_status add_vertices(cs_scene *scene, const clshear_mesh *mesh, const char *name,
@@ -57,7 +82,7 @@ static clshear_status add_vertices(cs_scene *scene, const clshear_mesh *mesh, co
         if (mesh->normals != NULL)
             memcpy(vertices[i].normal, mesh->normals + 3 * i, sizeof vertices[i].normal);
     }
-    return CLSHEAR_OK;
+    return add_places_to(scene, mesh, name, error);
 }
 
 /* Whether the three corners span an area: more than a ten-millionth of the square of their edges,
@@ -119,6 +144,7 @@ clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, uint
                                  const char *name, cs_error *error)
 {
     const size_t vertices = scene->positions.count, triangles = scene->indices.count;
+    const int moving = cs_scene_moves(scene);
     const uint8_t flag = mesh->normals != NULL ? CS_FACE_SMOOTH : 0;
     if (mesh->triangle_count == 0) return CLSHEAR_OK;
     clshear_status status = check_indices(mesh, name, error);
@@ -127,6 +153,10 @@ clshear_status cs_scene_add_mesh(cs_scene *scene, const clshear_mesh *mesh, uint
         status = add_triangles(scene, mesh, vertices, material, flag, name, error);
     if (status == CLSHEAR_OK) return status;
     scene->positions.count = scene->vertices.count = vertices; /* nothing of it stays */
+    if (scene->positions_to.count > vertices) {
+        scene->positions_to.count = moving ? vertices : 0;
+        scene->normals_to.count = scene->positions_to.count;
+    }
     scene->indices.count = scene->triangle_materials.count = triangles;
     scene->triangle_flags.count = triangles;
     return status;

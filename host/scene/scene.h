@@ -16,14 +16,19 @@ enum {
 /* A camera of the file. */
 typedef struct cs_scene_camera {
     char name[CS_CAMERA_NAME];
-    cs_view view; /* its fov is vertical until an image size is known */
+    cs_view view;    /* fov and orthographic are vertical until an image size is known */
+    int moves;       /* whether it does while the shutter is open */
+    float eye_to[3]; /* where it closes, if so */
+    float target_to[3];
 } cs_scene_camera;
 
 typedef struct cs_scene {
-    cs_array positions;          /* float[3] a vertex */
-    cs_array vertices;           /* cs_vertex; as many as positions */
-    cs_array colours;            /* cs_colour; as many as positions, or none */
-    cs_array indices;            /* uint32_t[3] a triangle */
+    cs_array positions;    /* float[3] a vertex */
+    cs_array vertices;     /* cs_vertex; as many as positions */
+    cs_array positions_to; /* float[3], where the shutter closes; as many as positions, or none */
+    cs_array normals_to;   /* float[3], likewise; as many as positions_to */
+    cs_array colours;      /* cs_colour; as many as positions, or none */
+    cs_array indices;      /* uint32_t[3] a triangle */
     cs_array triangle_materials; /* uint32_t a triangle */
     cs_array triangle_flags;     /* uint8_t a triangle, CS_FACE_ */
     cs_array materials;          /* cs_material */
@@ -41,6 +46,16 @@ void cs_scene_init(cs_scene *scene);
 void cs_scene_free(cs_scene *scene);
 
 size_t cs_scene_triangle_count(const cs_scene *scene);
+
+/* Whether any of its surfaces moves while the shutter is open. */
+int cs_scene_moves(const cs_scene *scene);
+
+/* Makes room for the places of all vertices where the shutter closes: at first those where it
+ * opens. 0 if out of memory. */
+int cs_scene_start_moving(cs_scene *scene);
+
+/* The place of a corner, 0 to 2, of a triangle at a time of the shutter, 0 to 1. */
+void cs_scene_corner(const cs_scene *scene, size_t triangle, int corner, float time, float *place);
 
 /* Appends the triangles of `mesh` with a material that is already known. `name` is for messages.
  * Drops triangles without area. */
@@ -90,9 +105,8 @@ clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_erro
 /* The same, appended to the scene. */
 clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error);
 
-/* The emissive triangles (cs_emitter, in `emitters`), with probabilities in proportion to power:
- * area times luminance, whose sum is `total`. */
-clshear_status cs_scene_emitters(const cs_scene *scene, cs_array *emitters, double *total,
-                                 cs_error *error);
+
+/* How the triangle moves while the shutter is open. */
+cs_triangle_step cs_scene_step(const cs_scene *scene, size_t triangle);
 
 #endif

@@ -51,6 +51,7 @@ clshear_status cs_settings_copy(const clshear_settings *from, clshear_settings *
     clshear_status status = CLSHEAR_OK;
     to->progress = from->progress;
     to->progress_user = from->progress_user;
+    to->preview = from->preview;
     for (size_t i = 0; i < CS_SETTING_COUNT; i++)
         CS_TRY(copy_value(&from->values[i], &to->values[i], error));
     if (from->aperture.luminance != NULL)
@@ -93,6 +94,7 @@ static const int alternatives[][2] = {
     {CS_INDEX_EYE, CS_INDEX_ORBIT},
     {CS_INDEX_TARGET, CS_INDEX_ORBIT},
     {CS_INDEX_CAMERA, CS_INDEX_ORBIT},
+    {CS_INDEX_FOV, CS_INDEX_ORTHOGRAPHIC},
 };
 
 /* Unsets the alternatives of a setting that was just set. Setting the blades chooses the

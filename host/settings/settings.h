@@ -13,11 +13,19 @@ typedef struct cs_setting_value {
     char *text;      /* value of a TEXT; NULL: not set */
 } cs_setting_value;
 
+/* As in clshear_settings_set_preview. */
+typedef struct cs_preview {
+    int (*wanted)(void *user);
+    void (*show)(void *user, clshear_film *film);
+    void *user;
+} cs_preview;
+
 struct clshear_settings {
     cs_setting_value values[CS_SETTING_COUNT];
     cs_aperture_image aperture; /* transmittance of an image aperture; owned */
     int (*progress)(void *user, const clshear_progress *state);
     void *progress_user;
+    cs_preview preview;
 };
 
 /* Read a setting by its identifier, as in cs_integer(settings, SPP). */

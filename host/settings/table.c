@@ -14,6 +14,7 @@ static const cs_choice choices_oracle[] = {CLSHEAR_ORACLE_LIST(CS_CHOICE_ENTRY){
 static const cs_choice choices_filter[] = {CLSHEAR_FILTER_LIST(CS_CHOICE_ENTRY){NULL, NULL}};
 static const cs_choice choices_aperture[] = {CLSHEAR_APERTURE_LIST(CS_CHOICE_ENTRY){NULL, NULL}};
 static const cs_choice choices_aov[] = {CLSHEAR_AOV_LIST(CS_CHOICE_ENTRY){NULL, NULL}};
+static const cs_choice choices_emitters[] = {CLSHEAR_EMITTERS_LIST(CS_CHOICE_ENTRY){NULL, NULL}};
 static const cs_choice choices_tone[] = {CLSHEAR_TONE_LIST(CS_CHOICE_ENTRY){NULL, NULL}};
 static const cs_choice choices_sampler[] = {CS_SAMPLER_LIST(CS_SAMPLER_CHOICE){NULL, NULL}};
 

@@ -10,6 +10,9 @@ void cs_view_of(const clshear_settings *settings, const double *origin, cs_view 
         view->up[axis] = (float)cs_numbers(settings, UP)[axis];
     }
     view->fov_deg = (float)cs_number(settings, FOV);
+    view->orthographic = (float)cs_number(settings, ORTHOGRAPHIC);
+    for (int k = 0; k < 2; k++)
+        view->tilt_deg[k] = (float)cs_numbers(settings, TILT)[k];
     view->lens_radius = (float)cs_number(settings, LENS_RADIUS);
     view->focal_distance = (float)cs_number(settings, FOCAL_DISTANCE);
     view->aperture = (clshear_aperture)cs_integer(settings, APERTURE);

@@ -14,6 +14,8 @@ struct clshear_convergence {
     double mean;      /* mean over all patterns of the largest size */
     clshear_fit fit;
     clshear_fit *local; /* between a size and the next, sizes - 1 entries */
+    float *maps;        /* of images: errors of the pixels, one plane per size; else NULL */
+    int window[4];      /* of images: x0, x1, y0, y1 in the full image, px */
 };
 
 /* The sample counts of a study, and the number of patterns at each. */

@@ -31,11 +31,11 @@ static tiling tiling_of(const clshear_settings *settings)
     return t;
 }
 
-/* Adds the error of one pattern to each tile's sum: its variance, plus the squared difference of
- * the mean from the reference (NULL: none) beyond the mean's own variance. Returns the image's
- * mean. */
-static double add_tiles(const clshear_film *film, const clshear_film *reference,
-                        uint32_t replicates, size_t columns, double *tiles)
+/* Writes the error of one pattern in each pixel, the mean over the colours, to `map`: its variance,
+ * plus the squared difference of the mean from the reference (NULL: none) beyond the mean's own
+ * variance. Adds it to the tiles' sums. Returns the image's mean. */
+static double map_errors(const clshear_film *film, const clshear_film *reference,
+                         uint32_t replicates, size_t columns, float *map, double *tiles)
 {
     static const char *const planes[] = {"Variance.R", "Variance.G", "Variance.B"};
     const size_t width = (size_t)film->info.width, pixels = width * (size_t)film->info.height;
@@ -47,8 +47,9 @@ static double add_tiles(const clshear_film *film, const clshear_film *reference,
         for (size_t i = 0; i < pixels; i++) {
             const double off = truth != NULL ? (double)value[i] - (double)truth[i] : 0.0;
             const double own = truth != NULL ? (double)variance[i] : 0.0;
-            tiles[i / width / TILE * columns + i % width / TILE] +=
-                ((double)variance[i] * replicates + off * off - own) / 3.0;
+            const double error = ((double)variance[i] * replicates + off * off - own) / 3.0;
+            tiles[i / width / TILE * columns + i % width / TILE] += error;
+            map[i] += (float)error;
             mean += (double)value[i] / (3.0 * (double)pixels);
         }
     }
@@ -70,21 +71,24 @@ static clshear_status check_reference(const clshear_film *reference, const tilin
                    reference->info.width, reference->info.height, t->width, t->height);
 }
 
-/* Renders the image with `count` samples in each pattern. `part` has an entry per tile, initially
- * 0; on return its mean is the mean error of a pixel. */
+/* Renders the image with the samples of size number `size` in each pattern. `part` has an entry per
+ * tile, initially 0; on return its mean is the mean error of a pixel. */
 static clshear_status render_size(clshear_scene *scene, const clshear_settings *given,
-                                  const cs_study *study, uint32_t count, const tiling *t,
-                                  const clshear_film *reference, uint32_t *drawn, double *mean,
-                                  double *part, cs_error *error)
+                                  const cs_study *study, const tiling *t,
+                                  const clshear_film *reference, size_t size,
+                                  clshear_convergence *result, double *part, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     clshear_settings settings = {0};
     clshear_film *film = NULL;
-    CS_TRY(cs_study_settings(given, study, count, &settings, error));
+    CS_TRY(cs_study_settings(given, study, study->counts[size], &settings, error));
     CS_TRY(cs_render(scene, &settings, NULL, &film, error));
     CS_REQUIRE(film->info.complete, CLSHEAR_BAD_ARGUMENT, "stopped by the progress callback");
-    *drawn = (uint32_t)(*cs_film_channel(film, "Samples") / (float)study->replicates + 0.5f);
-    *mean = add_tiles(film, reference, study->replicates, t->columns, part);
+    result->counts[size] =
+        (uint32_t)(*cs_film_channel(film, "Samples") / (float)study->replicates + 0.5f);
+    memcpy(result->window, film->window, sizeof result->window);
+    result->mean = map_errors(film, reference, study->replicates, t->columns,
+                              result->maps + size * t->width * t->height, part);
     for (size_t i = 0; i < t->tiles; i++)
         part[i] *= (double)t->tiles / ((double)t->width * (double)t->height);
 done:
@@ -103,9 +107,11 @@ clshear_status cs_converge_image(clshear_scene *scene, const clshear_settings *s
     CS_REQUIRE(parts != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     CS_TRY(check_reference(reference, &t, error));
     CS_TRY(cs_convergence_reserve(study, result, error));
+    result->maps = calloc(study->sizes * t.width * t.height, sizeof *result->maps);
+    CS_REQUIRE(result->maps != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     for (size_t k = 0; k < study->sizes; k++)
-        CS_TRY(render_size(scene, settings, study, study->counts[k], &t, reference,
-                           &result->counts[k], &result->mean, parts + k * t.tiles, error));
+        CS_TRY(render_size(scene, settings, study, &t, reference, k, result, parts + k * t.tiles,
+                           error));
     CS_TRY(cs_convergence_fit(parts, t.tiles, 1, NULL, result));
 done:
     free(parts);

@@ -27,6 +27,11 @@ typedef struct clshear_convergence clshear_convergence; /* measured variance ove
 CLSHEAR_API clshear_status clshear_points_draw(const char *sampler, size_t count, size_t sets,
                                                uint32_t seed, clshear_points **points);
 
+/* The same, but the planar sets of "poisson" and "ccvt" are made anew from the seed instead of
+ * being the kept ones that all seeds share. For expectations over sets; it may take minutes. */
+CLSHEAR_API clshear_status clshear_points_draw_fresh(const char *sampler, size_t count, size_t sets,
+                                                     uint32_t seed, clshear_points **points);
+
 /* Copies points from memory. Coordinate d of point i of set s is values[(s * count + i) *
  * dimensions + d], in [0, 1). `names` has one letter for each of the 1 to 6 dimensions: x y (film),
  * u v (lens), p q (light). */
@@ -220,12 +225,15 @@ CLSHEAR_API clshear_status clshear_predict_variance(const clshear_spectrum *samp
                                                     double mean_square,
                                                     clshear_prediction **prediction);
 
-/* Highest frequencies, in each coordinate, of the sums in clshear_predict_variance_4d. */
+/* Highest frequencies, in each coordinate, of the sums in clshear_predict_variance_4d, and effort.
+ */
 typedef struct clshear_reach {
     size_t struct_size;
     uint32_t axis;  /* for parts of one coordinate: 1 to 65536; should be 4 N */
     uint32_t plane; /* for parts of two coordinates: 1 to 2047 */
     uint32_t block; /* for the block of three or four: 1 to 15 */
+    size_t points;  /* samples of the function for a part, in each of eight grids: a grid has one in
+                       every cell at least; 0: 2^19. Few make the energies noisy, not biased. */
 } clshear_reach;
 
 /* Predicts the variance of the mean of a function at N samples that are shifted at random around
@@ -249,6 +257,12 @@ CLSHEAR_API double clshear_prediction_variance(const clshear_prediction *predict
 /* The predicted variance with the power of each frequency replaced by its ring's mean (Pilleboue et
  * al. 2015). NaN in four dimensions. */
 CLSHEAR_API double clshear_prediction_isotropic(const clshear_prediction *prediction);
+
+/* The predicted variance with the power of each frequency replaced by the mean over its ring within
+ * one of 2^`level` cones of directions, for levels 0 to 8: from the isotropic formula to, in the
+ * limit of many cones, the anisotropic one (Singh & Jarosz 2017). Above 8 the prediction itself;
+ * NaN in four dimensions. */
+CLSHEAR_API double clshear_prediction_in_cones(const clshear_prediction *prediction, size_t level);
 
 /* Variance of the integrand itself. */
 CLSHEAR_API double clshear_prediction_energy(const clshear_prediction *prediction);
@@ -331,6 +345,12 @@ CLSHEAR_API size_t clshear_convergence_sizes(const clshear_convergence *result);
  * clshear_convergence_sizes. */
 CLSHEAR_API uint32_t clshear_convergence_count(const clshear_convergence *result, size_t index);
 CLSHEAR_API double clshear_convergence_error(const clshear_convergence *result, size_t index);
+
+/* The error of one pattern in each pixel of an image at size number `index`, the mean over colours,
+ * by rows. `window` receives the pixels x0, x1, y0, y1 of the full image that the map covers: x0 <=
+ * x < x1, y0 <= y < y1. Owned by the result. NULL for a pixel or an integrand. */
+CLSHEAR_API const float *clshear_convergence_map(const clshear_convergence *result, size_t index,
+                                                 int window[4]);
 
 /* Mean over all patterns of the largest size. */
 CLSHEAR_API double clshear_convergence_mean(const clshear_convergence *result);

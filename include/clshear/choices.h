@@ -3,7 +3,7 @@
  * CLSHEAR_SHEAR_NONE, _TOROIDAL, _EQUAL_AREA; CLSHEAR_ORACLE_CENTRE, _MEDIAN, _NEAR, _FAR, _PILOT;
  * CLSHEAR_FILTER_BOX, _TENT, _GAUSSIAN, _BLACKMAN_HARRIS; CLSHEAR_APERTURE_DISK, _SQUARE, _POLYGON,
  * _IMAGE; CLSHEAR_AOV_ALBEDO, _NORMAL, _POSITION, _DEPTH, _COVERAGE, _EMISSION, _DIRECT, _INDIRECT;
- * CLSHEAR_TONE_SRGB, _FILMIC.
+ * CLSHEAR_TONE_SRGB, _FILMIC, _AGX; CLSHEAR_EMITTERS_TREE, _POWER.
  */
 #ifndef CLSHEAR_CHOICES_H
 #define CLSHEAR_CHOICES_H
@@ -41,6 +41,12 @@ typedef enum clshear_aov {
     CLSHEAR_AOV_LIST(CLSHEAR_CHOICE)
 #undef CLSHEAR_CHOICE
 } clshear_aov;
+
+typedef enum clshear_emitters {
+#define CLSHEAR_CHOICE(identifier, number, name, meaning) CLSHEAR_EMITTERS_##identifier = number,
+    CLSHEAR_EMITTERS_LIST(CLSHEAR_CHOICE)
+#undef CLSHEAR_CHOICE
+} clshear_emitters;
 
 typedef enum clshear_tone {
 #define CLSHEAR_CHOICE(identifier, number, name, meaning) CLSHEAR_TONE_##identifier = number,

@@ -143,6 +143,7 @@ typedef struct clshear_progress {
     double fraction;      /* finished part, 0 to 1; 0 before the samples that count */
     double samples_per_s; /* mean rate since the start; 0 while depths are found */
     double remaining_s;   /* estimate; 0 while it is unknown */
+    double noise;         /* relative standard error when a stop rule last looked; 0: it has not */
 } clshear_progress;
 
 /* Calls `progress` a few times a second during renders with these settings, in the rendering
@@ -152,6 +153,13 @@ CLSHEAR_API void clshear_settings_set_progress(clshear_settings *settings,
                                                int (*progress)(void *user,
                                                                const clshear_progress *state),
                                                void *user);
+
+/* Shows pictures of renders with these settings while they go on. `wanted` is called between two
+ * launches; when it does not return 0, `show` gets the picture so far, with complete == 0, which is
+ * the library's. Both are called in the rendering thread. NULL: no calls. */
+CLSHEAR_API void clshear_settings_set_preview(clshear_settings *settings, int (*wanted)(void *user),
+                                              void (*show)(void *user, clshear_film *film),
+                                              void *user);
 
 /* ------------------------------------------------------------------------------------------------
  * Context: an OpenCL device and the kernels compiled for it
@@ -231,6 +239,8 @@ typedef struct clshear_mesh {
     float emission[3]; /* radiance, on both sides; 0 to 1e15 */
     uint32_t
         material; /* what clshear_scene_add_material gave, in the place of those two; 0: none */
+    const float *positions_to; /* where the vertices are when the shutter closes; NULL: at rest */
+    const float *normals_to;   /* likewise; NULL: those above */
 } clshear_mesh;
 
 typedef enum clshear_light_kind {
@@ -269,6 +279,8 @@ typedef struct clshear_scene_info {
     int file_camera;     /* 1 if the file has a camera */
     double load_s;       /* time spent reading the file */
     double build_s;      /* time spent building the hierarchy */
+    double low[3];       /* corners of the bounding box, in coordinates of the file */
+    double high[3];
 } clshear_scene_info;
 
 /* Reads OBJ, glTF 2.0, PLY, STL or another format that Assimp supports, and completes the scene. Of
@@ -320,18 +332,21 @@ CLSHEAR_API const char *clshear_scene_message(const clshear_scene *scene);
 CLSHEAR_API void clshear_scene_free(clshear_scene *scene);
 
 /* ------------------------------------------------------------------------------------------------
- * Camera: the settings of a pinhole camera with a thin lens
+ * Camera: the settings of a perspective or orthographic camera with a thin lens
  * --------------------------------------------------------------------------------------------- */
 
 /* Sets every camera setting that is not set yet; a render does the same on its own copy of the
  * settings.
- * - Eye, target, up and field of view: from the scene file's camera, the one that
- *   CLSHEAR_CAMERA names or else the first. Without one, the bounding box
- *   fills the picture as seen from the front (looking down -Z).
- * - Focal distance: from CLSHEAR_FOCUS_PIXEL, or from the middle pixel. If that pixel's ray hits
- *   nothing, from the centre of the bounding box.
- * - Lens radius: from CLSHEAR_F_STOP. Without it, a point at infinity blurs over 3 % of the shorter
- *   image axis. */
+ * - Eye, target, up, and field of view or CLSHEAR_ORTHOGRAPHIC: from the scene file's camera, the
+ *   one that CLSHEAR_CAMERA names or else the first. Without one, the scene fills the picture as
+ *   seen from the front and slightly above, or from where CLSHEAR_ORBIT says. CLSHEAR_ORTHOGRAPHIC
+ * 0 becomes the width that shows all of it.
+ * - Focal distance: the focal plane, with its CLSHEAR_TILT, goes through what CLSHEAR_FOCUS_PIXEL
+ *   sees, through CLSHEAR_FOCUS_POINT, or through what the middle pixel sees. If that is nothing,
+ *   the distance is that of the centre of the bounding box.
+ * - Lens radius: from CLSHEAR_F_STOP or CLSHEAR_BLUR. Without them, a point at infinity, or with
+ *   parallel lines of sight the most blurred corner of the bounding box, blurs over 3 % of the
+ *   shorter image axis. */
 CLSHEAR_API clshear_status clshear_camera_complete(const clshear_scene *scene,
                                                    clshear_settings *settings);
 
@@ -396,6 +411,12 @@ typedef struct clshear_film_info {
     double pilot_s;         /* time of the pilots */
     double kernel_s;        /* time on the device, including the pilots */
     double render_s;        /* time of the whole call */
+    const char *stopped_by; /* setting that ended a render with rules: "noise", "noise-pixel",
+                             * "time", or "spp" where no rule did; NULL: there were none */
+    double noise;           /* relative standard error when a rule last looked; 0: none did */
+    double noise_pixel;     /* as CLSHEAR_NOISE_PIXEL has it; 0: the rule was not set */
+    double spp_expected;    /* samples per pixel that the noise promised would take; 0: unknown, or
+                             * the promise is kept */
 } clshear_film_info;
 
 /* Fills in `info`. The caller sets `info->struct_size`. */
@@ -436,6 +457,17 @@ CLSHEAR_API clshear_status clshear_film_annotate(clshear_film *film, const char 
 
 /* Reads an EXR written by clshear_film_write. */
 CLSHEAR_API clshear_status clshear_film_read(const char *path, clshear_film **film);
+
+/* Merges `count` films of shards of one render (CLSHEAR_SHARD), or merges of them: means weighted
+ * by samples, variances by their counts. Any order gives the same result. It may be merged further,
+ * and has complete == 0 while shards are missing. Fails with CLSHEAR_BAD_ARGUMENT for films of
+ * different renders, of interrupted ones, and for a shard that comes twice. */
+CLSHEAR_API clshear_status clshear_film_merge(const clshear_film *const *films, size_t count,
+                                              clshear_film **merged);
+
+/* Prints the shards of a film that are missing, as "2,5-7", truncated to `size` bytes; "" if none
+ * are, or if the film is no shard. */
+CLSHEAR_API void clshear_film_missing(const clshear_film *film, char *text, size_t size);
 
 /* Writes all channels as float32 (.exr), or R G B with the sRGB curve (.png, .jpg, .tif). An
  * existing file is replaced only when the new one is complete. */

@@ -41,8 +41,9 @@ CLSHEAR_API clshear_status clshear_sampler_count(const char *sampler, uint32_t w
 typedef struct clshear_pattern clshear_pattern;
 
 /* Creates a pattern of `wanted` samples, rounded up to the next sample count of the sampler. One
- * pattern serves all pixels, and a key selects the samples of each. This may take seconds for
- * samplers with an optimised table ("ccvt", "poisson"). */
+ * pattern serves all pixels, and a key selects the samples of each. "poisson" and
+ * "ccvt" make their point sets when first used, which may take a minute, and keep them in the
+ * user's folder of caches (docs/notes/samplers.md). */
 CLSHEAR_API clshear_status clshear_pattern_create(const char *sampler, uint32_t wanted,
                                                   clshear_sample_order order,
                                                   clshear_pattern **pattern);

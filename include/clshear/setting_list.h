@@ -37,9 +37,14 @@
     X(POLYGON, 2, "polygon", "a regular polygon with its corners at the lens radius") \
     X(IMAGE, 3, "image", "an image whose longer side is twice the lens radius")
 
-#define CLSHEAR_TONE_LIST(X)                                        \
-    X(SRGB, 0, "srgb", "the sRGB curve alone; values are cut at 1") \
-    X(FILMIC, 1, "filmic", "Hable's curve first, which rolls highlights off")
+#define CLSHEAR_EMITTERS_LIST(X)                                           \
+    X(TREE, 0, "tree", "by their light at the point, then by solid angle") \
+    X(POWER, 1, "power", "by power, then by area; none that a texture varies")
+
+#define CLSHEAR_TONE_LIST(X)                                                  \
+    X(SRGB, 0, "srgb", "the sRGB curve alone; values are cut at 1")           \
+    X(FILMIC, 1, "filmic", "Hable's curve first, which rolls highlights off") \
+    X(AGX, 2, "agx", "Sobotka's AgX first, which also takes the colour out of them")
 
 #define CLSHEAR_AOV_LIST(X)                                                          \
     X(ALBEDO, 0, "albedo", "Albedo.R/G/B: base colour of the surface that is seen")  \
@@ -57,7 +62,7 @@
  *
  * number    value of the enumerator; never reused, because compiled programs depend on it. It also
  *           gives the group in lists: 1 samples, 20 image, 40 camera, 50 lens, 60 light,
- *           70 reading, 80 device, and all numbers up to the next group
+ *           70 reading, 80 device, 90 stopping, 100 motion, and all numbers up to the next group
  * name      name of the flag, without dashes
  * aliases   other names of the flag, separated by spaces
  * kind      SWITCH (0 or 1), INTEGER, NUMBER, CHOICE (a name out of `choices`), TEXT
@@ -77,13 +82,13 @@
 #define CLSHEAR_SETTING_LIST(X) \
     /* Samples */ \
     X(SPP, 1, "spp", "samples", INTEGER, 1, 1, "256", 1, 2e9, none, RECORD, "N", \
-      "samples per pixel") \
+      "samples per pixel; the most where a rule may stop") \
     X(REPLICATES, 2, "replicates", "", INTEGER, 1, 1, "", 1, 2e9, none, RECIPE, "R", \
       "independent patterns of spp/R samples (2)") \
     X(SEED, 3, "seed", "", INTEGER, 1, 1, "0", 0, 4294967295.0, none, RECIPE, "N", \
       "another seed, another noise") \
     X(SAMPLER, 4, "sampler", "", CHOICE, 1, 1, "sz", 0, 0, sampler, RECIPE, "NAME", \
-      "point set; sobol where lights have a size, else sz") \
+      "point set; sobol with light of a size or motion") \
     X(SHEAR, 5, "shear", "", CHOICE, 1, 1, "equal-area", 0, 0, shear, RECIPE, "KIND", \
       "equal-area, toroidal or none") \
     X(ORACLE, 6, "oracle", "", CHOICE, 1, 1, "pilot", 0, 0, oracle, RECIPE, "RULE", \
@@ -98,6 +103,8 @@
       "keep the data for --extend in the EXR") \
     X(KEEP_PATTERNS, 10, "keep-patterns", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
       "keep the mean of each replicate: Pattern<n>.R/G/B") \
+    X(FRESH_SETS, 16, "fresh-sets", "", SWITCH, 1, 1, "0", 0, 1, none, RECIPE, "", \
+      "poisson, ccvt: sets of this seed, not the kept ones") \
     X(GAIN, 11, "gain-channel", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
       "measure the gain of the shear: channel Gain") \
     /* Image */ \
@@ -116,7 +123,7 @@
     X(AUTO_EXPOSURE, 26, "auto-exposure", "", SWITCH, 1, 1, "0", 0, 1, none, RECORD, "", \
       "the picture's log-average grey first; not in EXR") \
     X(TONE, 27, "tone", "", CHOICE, 1, 1, "srgb", 0, 0, tone, RECORD, "CURVE", \
-      "srgb or filmic; not in EXR files") \
+      "srgb, filmic or agx; not in EXR files") \
     X(AOV, 30, "aov", "", CHOICE, 1, 8, "", 0, 0, aov, RECORD, "NAME,...", \
       "more channels in the EXR: albedo, normal, depth...") \
     /* Camera */ \
@@ -138,6 +145,8 @@
       "frame the scene from there, degrees; 0,0: its front") \
     X(FOCUS_POINT, 48, "focus-point", "", NUMBER, 3, 1, "", -1e12, 1e12, none, PRIVATE, "X,Y,Z", \
       "focus on the depth of this point") \
+    X(ORTHOGRAPHIC, 49, "orthographic", "", NUMBER, 1, 1, "", 0, 1e12, none, RECIPE, "WIDTH", \
+      "parallel view, WIDTH along the shorter axis; 0: fits") \
     /* Lens */ \
     X(LENS_RADIUS, 50, "lens-radius", "aperture-radius", NUMBER, 1, 1, "", 0, 1e12, none, RECIPE, \
       "R", "lens radius in scene units; 0: pinhole") \
@@ -155,6 +164,8 @@
       "aperture narrower by this ratio") \
     X(BLUR, 57, "blur", "", NUMBER, 1, 1, "", 0, 1e6, none, PRIVATE, "PX", \
       "lens radius by the blur of points at infinity") \
+    X(TILT, 58, "tilt", "", NUMBER, 2, 1, "0,0", -89, 89, none, RECIPE, "AZIMUTH,ELEVATION", \
+      "the focal plane faces there, degrees; 0,0: the camera") \
     /* Light */ \
     X(LIGHT, 60, "light", "", NUMBER, 6, 64, "", -1e15, 1e15, none, PRIVATE, "X,Y,Z,R,G,B", \
       "add a point light; repeatable") \
@@ -172,6 +183,8 @@
       RECIPE, "S", "its radiance is multiplied by this") \
     X(BOUNCES, 66, "bounces", "", INTEGER, 1, 1, "4", 0, 64, none, RECIPE, "N", \
       "surfaces that light meets on its way; 0: direct light") \
+    X(EMITTERS, 69, "emitters", "", CHOICE, 1, 1, "tree", 0, 0, emitters, RECIPE, "CHOICE", \
+      "how emissive triangles are sampled: tree or power") \
     X(CLAMP, 67, "clamp", "", NUMBER, 1, 1, "0", 0, 1e15, none, RECIPE, "L", \
       "most that a bounce adds to a sample (biased); 0: off") \
     /* Scene file */ \
@@ -185,7 +198,37 @@
     X(THREADS, 81, "threads", "t nthreads", INTEGER, 1, 1, "0", 0, 4096, none, PRIVATE, "N", \
       "CPU threads; 0: all") \
     X(PACKET, 82, "packet", "", INTEGER, 1, 1, "", 1, 16, none, PRIVATE, "W", \
-      "samples traced together: 1, 4, 8 or 16")
+      "samples traced together: 1, 4, 8 or 16") \
+    /* Stopping */ \
+    X(NOISE, 90, "noise", "", NUMBER, 1, 1, "", 1e-6, 1, none, RECORD, "R", \
+      "stop when the picture's relative error is below R") \
+    X(NOISE_PIXEL, 91, "noise-pixel", "", NUMBER, 1, 1, "", 1e-6, 1, none, RECORD, "R", \
+      "stop when 95 % of pixels err less on a screen") \
+    X(TIME, 92, "time", "", NUMBER, 1, 1, "", 0.001, 1e9, none, RECORD, "S", \
+      "stop after S seconds") \
+    X(CHECKPOINT, 93, "checkpoint", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "FILE", \
+      "keep what is rendered there, for --resume") \
+    X(EVERY, 94, "every", "", NUMBER, 1, 1, "60", 0, 1e9, none, PRIVATE, "S", \
+      "seconds between two checkpoints") \
+    X(RESUME, 95, "resume", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
+      "go on from the checkpoint, if there is one") \
+    X(SHARD, 96, "shard", "", TEXT, 1, 1, "", 0, 0, none, RECORD, "K/N", \
+      "part K of N: every Nth replicate, for clshear merge") \
+    /* Motion */ \
+    X(CAMERA_TO, 100, "camera-to", "", NUMBER, 6, 1, "", -1e12, 1e12, none, RECIPE, "EYE,TARGET", \
+      "where the camera is when the shutter closes") \
+    X(TO, 101, "to", "", TEXT, 1, 1, "", 0, 0, none, RECIPE, "FILE", \
+      "the same mesh where the shutter closes") \
+    X(TURNTABLE, 102, "turntable", "", NUMBER, 1, 1, "", -90, 90, none, RECIPE, "DEG", \
+      "the scene turns by DEG while the shutter is open") \
+    X(SHUTTER, 103, "shutter", "", NUMBER, 2, 1, "", -1e6, 1e6, none, RECIPE, "OPEN,CLOSE", \
+      "seconds of the animation, from the frame's time on") \
+    X(SHUTTER_ANGLE, 104, "shutter-angle", "", NUMBER, 1, 1, "180", 0, 360, none, RECIPE, "DEG", \
+      "part of a frame, without --shutter; 360: all of it") \
+    X(FRAME, 105, "frame", "", INTEGER, 1, 1, "", 0, 1e6, none, RECIPE, "N", \
+      "frame of the animation, from 0") \
+    X(FPS, 106, "fps", "", NUMBER, 1, 1, "24", 1e-3, 1e6, none, RECIPE, "N", \
+      "frames per second of the animation")
 /* clang-format on */
 
 #endif

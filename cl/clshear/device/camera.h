@@ -40,19 +40,26 @@ typedef struct cs_optics {
 } cs_optics;
 CS_SHARED_WORDS(cs_optics, 12);
 
-/* A thin-lens camera. Make it by clshear_lens_camera. Lengths are in units of the scene. */
+/* A thin-lens camera. Make it by clshear_lens_camera. Lengths are in units of the scene.
+ *
+ * An orthographic camera has parallel lines of sight, each through the middle of a lens of its own:
+ * a telecentric lens. Its lenses lie in the plane of the eye. */
 typedef struct cs_camera {
     cs_f32 eye[3];         /* centre of the lens */
     cs_f32 right[3];       /* unit vector along the image's rows */
     cs_f32 down[3];        /* unit vector along the image's columns */
     cs_f32 forward[3];     /* unit vector along the optical axis */
-    cs_f32 focal_distance; /* camera depth of the focal plane, above 0 */
-    cs_f32 pixel_width;    /* width of a pixel on the focal plane */
+    cs_f32 focal_distance; /* camera depth of the focal plane on the optical axis, above 0 */
+    cs_f32 pixel_width;    /* width of a pixel at that depth */
     cs_f32 aperture_width; /* length of one unit of the lens coordinates; 0 for a pinhole */
     cs_f32 centre_px[2];   /* raster coordinates of the optical axis, pixels */
+    cs_u32 orthographic;   /* 1: lines of sight are parallel; 0: they meet in the eye */
+    cs_f32 rise[2];        /* slopes of the focal plane on the optical axis, to the right and down:
+                              change of its depth over pixel_width, in focal distances. 0, 0 is
+                              perpendicular to the axis */
     cs_optics optics;      /* aperture and filter */
 } cs_camera;
-CS_SHARED_WORDS(cs_camera, 29);
+CS_SHARED_WORDS(cs_camera, 32);
 
 #include "fp_contract_restore.h"
 

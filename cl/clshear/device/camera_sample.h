@@ -15,6 +15,12 @@ typedef struct cs_camera_sample {
     cs_vfloat v; /* lens coordinate down, 0 in the middle */
 } cs_camera_sample;
 
+/* Velocity of a surface on the film, pixels while the shutter is open. */
+typedef struct cs_velocity {
+    cs_f32 x;
+    cs_f32 y;
+} cs_velocity;
+
 /* Blur, in pixels, below which a surface counts as in focus: the pixel's own width hides it, and
  * the maps divide by it. */
 #define CS_LEAST_BLUR 1e-5f

@@ -44,6 +44,7 @@ typedef CS_VECTOR(uint) cs_vuint;
 #define cs_to_vuint(x) cs_as_vuint(CS_OVER_LANES(convert_int)(x))
 #define cs_mul_hi(a, b) mul_hi((cs_vuint)(a), (cs_vuint)(b))
 #define cs_sqrt(x) sqrt(x)
+#define cs_cbrt(x) cbrt(x)
 #define cs_abs(x) fabs(x)
 #define cs_floor(x) floor(x)
 
@@ -78,6 +79,7 @@ static inline cs_f32 cs_as_vfloat(cs_u32 x)
 #define cs_to_vuint(x) ((cs_u32)(cs_i32)(x))
 #define cs_mul_hi(a, b) ((cs_u32)(((uint64_t)(a) * (uint64_t)(b)) >> 32))
 #define cs_sqrt(x) sqrtf(x)
+#define cs_cbrt(x) cbrtf(x)
 #define cs_abs(x) fabsf(x)
 #define cs_floor(x) floorf(x)
 /* Whether any lane of a mask is true: here there is one. */
@@ -107,6 +109,22 @@ static inline cs_vfloat cs_clamp(cs_vfloat value, cs_vfloat low, cs_vfloat high)
     return cs_min(cs_max(value, low), high);
 }
 
+/* Unions give the lanes one by one. */
+typedef union cs_float_lanes {
+    cs_vfloat all;
+    cs_f32 lane[CS_PACKET];
+} cs_float_lanes;
+
+typedef union cs_int_lanes {
+    cs_vint all;
+    cs_i32 lane[CS_PACKET];
+} cs_int_lanes;
+
+typedef union cs_uint_lanes {
+    cs_vuint all;
+    cs_u32 lane[CS_PACKET];
+} cs_uint_lanes;
+
 #ifdef CS_DEVICE
 
 /* Compiled for the processor itself: translators of SPIR know no reductions. */
@@ -129,22 +147,6 @@ static inline cs_vfloat cs_clamp(cs_vfloat value, cs_vfloat low, cs_vfloat high)
 #ifndef CS_PREFETCH
 #define CS_PREFETCH(address) (void)(address)
 #endif
-
-/* Unions give the lanes one by one. They exist on devices only. */
-typedef union cs_float_lanes {
-    cs_vfloat all;
-    cs_f32 lane[CS_PACKET];
-} cs_float_lanes;
-
-typedef union cs_int_lanes {
-    cs_vint all;
-    cs_i32 lane[CS_PACKET];
-} cs_int_lanes;
-
-typedef union cs_uint_lanes {
-    cs_vuint all;
-    cs_u32 lane[CS_PACKET];
-} cs_uint_lanes;
 
 /* Whether any lane of a mask is true. Compilers with the reduction test a mask register, or move a
  * mask, by one instruction; narrowing does for others what any() makes a chain of extracts of. */

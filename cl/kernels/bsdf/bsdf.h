@@ -19,6 +19,18 @@ static inline cs_vint cs_bsdf_lanes(const cs_surface *surface, cs_i32 kind)
 #endif
 }
 
+/* Lanes whose surface lets light through to the other side. */
+static inline cs_vint cs_lets_through(const cs_surface *surface)
+{
+#if CS_HAS(MATERIALS)
+    return (surface->bsdf != (cs_vint)(CS_BSDF_LAMBERT)) &
+           (surface->parameters[CS_PARAMETER_TRANSMISSION] > 0.0f);
+#else
+    (void)surface;
+    return (cs_vint)(0);
+#endif
+}
+
 /* Takes over the lanes in `mine`. */
 static inline void cs_bsdf_take_value(cs_bsdf_value *value, const cs_bsdf_value *from, cs_vint mine)
 {

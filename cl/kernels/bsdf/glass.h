@@ -1,9 +1,15 @@
 /* Solid glass: light is reflected by its facets or refracted into what is behind them. Shared.
  *
- * Walter et al. 2007, with facets met once: very rough glass is a little dark. The dielectric's
- * transparent part, transmission (1 - metallic), is glass; the rest is the standard surface. The
- * side of the triangle's normal is outside, with the index 1. The base colour tints what is
- * refracted. */
+ * Walter et al. 2007, but that nothing is lost: there, light that its first facet sends towards
+ * other facets ends, a third of all at roughness 0.7 inside of glass. Here it leaves, as if there
+ * were no others; what would go to the wrong side of the surface is mirrored at it. So the value is
+ * the density of what facets that `out` sees do to it, and white is white for every index and
+ * roughness. That depends on `out` alone, so that reciprocity ends with shadowing: it holds as
+ * long as the surface is smooth. (Turquin 2019 scales Walter's value by a table to the same end.)
+ *
+ * The dielectric's transparent part, transmission (1 - metallic), is glass; the rest is the
+ * standard surface. The side of the triangle's normal is outside, with the index 1. The base colour
+ * tints what is refracted. */
 #ifndef CS_BSDF_GLASS_H
 #define CS_BSDF_GLASS_H
 
@@ -56,19 +62,11 @@ static inline cs_vfloat cs_glass_reflectance(const cs_glass *g, cs_vfloat cosine
     return square > 0.0f ? part : (cs_vfloat)(1.0f);
 }
 
-/* The facets' value, in front and behind, and the density with which they draw `in`, unit. */
-typedef struct cs_glass_answer {
-    cs_vfloat value;
-    cs_vfloat density;
-} cs_glass_answer;
-
-static inline cs_glass_answer cs_glass_answer_to(const cs_glass *g, const cs_surface *surface,
-                                                 const cs_vfloat *in)
+/* Density with which visible facets mirror `out` to `in`, unit, or refract it there. */
+static inline cs_vfloat cs_glass_facets(const cs_glass *g, const cs_surface *surface,
+                                        const cs_vfloat *in, cs_vint mirrored)
 {
-    cs_glass_answer answer;
     cs_vfloat sum[3], half_way[3];
-    cs_vfloat cosine = cs_inner(in, surface->normal);
-    cs_vint mirrored = cosine > 0.0f;
     for (int i = 0; i < 3; i++)
         sum[i] = mirrored ? g->out[i] + in[i] : g->index_here * g->out[i] + g->index_beyond * in[i];
     cs_normalised(sum, half_way);
@@ -76,23 +74,46 @@ static inline cs_glass_answer cs_glass_answer_to(const cs_glass *g, const cs_sur
         cs_inner(half_way, surface->normal) < 0.0f ? (cs_vfloat)(-1.0f) : (cs_vfloat)(1.0f);
     for (int i = 0; i < 3; i++)
         half_way[i] *= side;
-    cs_vfloat cos_in = cs_max(cs_abs(cosine), (cs_vfloat)(1e-4f));
     cs_vfloat to_out = cs_inner(g->out, half_way), to_in = cs_inner(in, half_way);
     cs_vfloat reflected = cs_glass_reflectance(g, to_out);
-    cs_vfloat facets = cs_facet_distribution(surface->normal, half_way, g->width) *
-                       cs_facet_visibility_apart(g->cosine, cos_in, g->width);
     cs_vfloat drawn = cs_facet_density(surface->normal, half_way, g->cosine, g->width);
-    /* From solid angles of facets to those of refracted light (equation 17), by both indices. */
+    /* From solid angles of facets to those of refracted light (equation 17). */
     cs_vfloat stretch = g->index_here * to_out + g->index_beyond * to_in;
-    stretch = 4.0f * to_out * cs_abs(to_in) / cs_max(stretch * stretch, (cs_vfloat)(1e-20f));
-    cs_vfloat crosses = (1.0f - reflected) * stretch;
+    stretch = 4.0f * to_out * cs_abs(to_in) * g->index_beyond * g->index_beyond /
+              cs_max(stretch * stretch, (cs_vfloat)(1e-20f));
     cs_vint meets =
         (to_out > 0.0f) & (mirrored ? (cs_vint)(to_in > 0.0f) : (cs_vint)(to_in < 0.0f));
-    answer.value = (mirrored ? reflected : crosses * g->index_here * g->index_here) * facets;
-    answer.density = (mirrored ? reflected : crosses * g->index_beyond * g->index_beyond) * drawn;
-    answer.value = meets ? answer.value : (cs_vfloat)(0.0f);
-    answer.density = meets ? answer.density : (cs_vfloat)(0.0f);
-    return answer;
+    cs_vfloat density = drawn * (mirrored ? reflected : (1.0f - reflected) * stretch);
+    return meets ? density : (cs_vfloat)(0.0f);
+}
+
+/* Density with which glass draws `in`, unit: straight, or mirrored at the surface. */
+static inline cs_vfloat cs_glass_density(const cs_glass *g, const cs_surface *surface,
+                                         const cs_vfloat *in)
+{
+    cs_vfloat cosine = cs_inner(in, surface->normal);
+    cs_vint mirrored = cosine > 0.0f;
+    cs_vfloat straight = cs_glass_facets(g, surface, in, mirrored);
+#ifdef CS_FACETS_OF_MITSUBA
+    return straight;
+#else
+    cs_vfloat other[3];
+    for (int i = 0; i < 3; i++)
+        other[i] = in[i] - 2.0f * cosine * surface->normal[i];
+    return straight + cs_glass_facets(g, surface, other, mirrored);
+#endif
+}
+
+/* The value from that density. Radiance grows with the square of the index. */
+static inline cs_vfloat cs_glass_value(const cs_glass *g, const cs_surface *surface,
+                                       const cs_vfloat *in, cs_vfloat density)
+{
+    cs_vfloat cosine = cs_inner(in, surface->normal), ratio = g->index_here / g->index_beyond;
+    cs_vfloat cos_in = cs_max(cs_abs(cosine), (cs_vfloat)(1e-4f));
+#ifdef CS_FACETS_OF_MITSUBA
+    cos_in = 0.5f * (cos_in + cs_facet_slant(cos_in, g->width));
+#endif
+    return density / cos_in * (cosine > 0.0f ? (cs_vfloat)(1.0f) : ratio * ratio);
 }
 
 static inline cs_bsdf_value cs_bsdf_eval_glass(const cs_surface *surface, const cs_vfloat *out,
@@ -102,11 +123,11 @@ static inline cs_bsdf_value cs_bsdf_eval_glass(const cs_surface *surface, const 
     cs_bsdf_value value;
     cs_vfloat unit[3];
     cs_normalised(in, unit);
-    cs_glass_answer answer = cs_glass_answer_to(&g, surface, unit);
+    cs_vfloat glass = cs_glass_value(&g, surface, unit, cs_glass_density(&g, surface, unit));
     cs_vint behind = cs_inner(unit, surface->normal) < 0.0f;
     value.scale = (cs_vfloat)(1.0f);
     for (int c = 0; c < 3; c++)
-        value.colour[c] = g.part * answer.value * (behind ? surface->albedo[c] : (cs_vfloat)(1.0f));
+        value.colour[c] = g.part * glass * (behind ? surface->albedo[c] : (cs_vfloat)(1.0f));
     if (!cs_any(g.part < 1.0f)) return value;
     cs_surface beside = cs_beside_glass(surface, &g);
     cs_bsdf_value rest = cs_bsdf_eval_standard(&beside, out, unit);
@@ -121,14 +142,14 @@ static inline cs_vfloat cs_bsdf_density_glass(const cs_surface *surface, const c
     cs_glass g = cs_glass_of(surface, out);
     cs_vfloat unit[3];
     cs_normalised(in, unit);
-    cs_vfloat density = g.part * cs_glass_answer_to(&g, surface, unit).density;
+    cs_vfloat density = g.part * cs_glass_density(&g, surface, unit);
     if (!cs_any(g.part < 1.0f)) return density;
     cs_surface beside = cs_beside_glass(surface, &g);
     return density + (1.0f - g.part) * cs_bsdf_density_standard(&beside, out, unit);
 }
 
-/* A direction that a visible facet mirrors or refracts; `choice` says which. The lanes in `lost`
- * found none: it is on the wrong side of the surface. */
+/* A direction that a visible facet mirrors or refracts; `choice` says which. On the wrong side of
+ * the surface, it is mirrored there, or, in the lanes of `lost`, none. */
 static inline void cs_glass_draw(const cs_glass *g, const cs_surface *surface, cs_pair pair,
                                  cs_vfloat choice, cs_vfloat *in, cs_vint *lost)
 {
@@ -144,7 +165,14 @@ static inline void cs_glass_draw(const cs_glass *g, const cs_surface *surface, c
                             : bent * half_way[i] - ratio * g->out[i];
     cs_normalised(drawn, in);
     cs_vfloat side = cs_inner(in, surface->normal);
-    *lost = mirrored ? (cs_vint)(side <= 0.0f) : (cs_vint)(side >= 0.0f);
+    cs_vint wrong = mirrored ? (cs_vint)(side <= 0.0f) : (cs_vint)(side >= 0.0f);
+#ifdef CS_FACETS_OF_MITSUBA
+    *lost = wrong;
+#else
+    for (int i = 0; i < 3; i++)
+        in[i] -= wrong ? 2.0f * side * surface->normal[i] : (cs_vfloat)(0.0f);
+    *lost = side == 0.0f;
+#endif
 }
 
 static inline cs_bsdf_direction cs_bsdf_sample_glass(const cs_surface *surface,

@@ -60,20 +60,13 @@ static inline cs_vfloat cs_facet_slant(cs_vfloat cosine, cs_vfloat width)
     return cs_sqrt(width * width + (1.0f - width * width) * cosine * cosine);
 }
 
-/* Shadowing and masking by 4 times both cosines, as if they had nothing to do with each other
- * (Walter et al. 2007, equation 23). */
-static inline cs_vfloat cs_facet_visibility_apart(cs_vfloat cos_out, cs_vfloat cos_in,
-                                                  cs_vfloat width)
-{
-    return 1.0f /
-           ((cos_out + cs_facet_slant(cos_out, width)) * (cos_in + cs_facet_slant(cos_in, width)));
-}
-
-/* Shadowing and masking of one height by 4 times both cosines. */
+/* Shadowing and masking of one height by 4 times both cosines; for Mitsuba, as if they had nothing
+ * to do with each other (Walter et al. 2007, equation 23). */
 static inline cs_vfloat cs_facet_visibility(cs_vfloat cos_out, cs_vfloat cos_in, cs_vfloat width)
 {
 #ifdef CS_FACETS_OF_MITSUBA
-    return cs_facet_visibility_apart(cos_out, cos_in, width);
+    return 1.0f /
+           ((cos_out + cs_facet_slant(cos_out, width)) * (cos_in + cs_facet_slant(cos_in, width)));
 #else
     return 0.5f /
            (cos_in * cs_facet_slant(cos_out, width) + cos_out * cs_facet_slant(cos_in, width));

@@ -36,19 +36,22 @@ static inline cs_light_sample cs_sample_light_directional(CS_GLOBAL const cs_lig
     return sample;
 }
 
-/* colour: radiant intensity within the inner cone. axis: against the way it shines. parameters:
- * scale and offset from the cosine of the angle from the axis to the square root of the part that
- * is left (Khronos, KHR_lights_punctual, "inner and outer cone angles"). */
+/* colour: radiant intensity within the inner cone. axis: unit, against the way it shines. The
+ * square root of the part that is left falls linearly in the cosine of the angle from the axis
+ * (Khronos, KHR_lights_punctual, "inner and outer cone angles"), and so in the squared distance of
+ * the unit vectors, 2 - 2 cosine, which has digits where the cosine has none: parameters are scale
+ * and offset from that. */
 static inline cs_light_sample cs_sample_light_spot(CS_GLOBAL const cs_light *light,
                                                    const cs_surface *surface)
 {
     cs_light_sample sample = cs_sample_light_point(light, surface);
-    cs_vfloat axis[3];
-    for (int i = 0; i < 3; i++)
-        axis[i] = (cs_vfloat)(light->axis[i]);
     cs_vfloat square = cs_max(cs_dot(sample.towards, sample.towards), (cs_vfloat)(1e-30f));
-    cs_vfloat cosine = cs_dot(axis, sample.towards) / sqrt(square);
-    cs_vfloat inside = cs_clamp(cosine * light->parameters[0] + light->parameters[1],
+    cs_vfloat unit = 1.0f / sqrt(square), apart = (cs_vfloat)(0.0f);
+    for (int i = 0; i < 3; i++) {
+        cs_vfloat step = sample.towards[i] * unit - light->axis[i];
+        apart += step * step;
+    }
+    cs_vfloat inside = cs_clamp(light->parameters[1] - apart * light->parameters[0],
                                 (cs_vfloat)(0.0f), (cs_vfloat)(1.0f));
     sample.weight *= inside * inside;
     return sample;

@@ -6,6 +6,7 @@
 #include "kernels/light/light.h"
 #include "kernels/light/shapes.h"
 
+#if !CS_HAS(EMITTERS)
 /* Density, per steradian, with which the light of emissive triangles draws the point that a ray
  * hit: cs_scene_emitters makes it proportional to luminance. */
 static inline cs_vfloat cs_emitter_density(const cs_scene_buffers *scene, cs_u32 lights,
@@ -18,9 +19,14 @@ static inline cs_vfloat cs_emitter_density(const cs_scene_buffers *scene, cs_u32
     cs_vfloat square = cs_dot(ray->direction, ray->direction) * distance * distance;
     cs_vfloat cosine = fabs(cs_dot(surface->outward, ray->direction)) /
                        sqrt(cs_dot(ray->direction, ray->direction));
-    return per_power * cs_luminance(surface->emission) * square /
-           cs_max(cosine, (cs_vfloat)(1e-20f));
+    cs_vfloat density =
+        per_power * cs_luminance(surface->emission) * square / cs_max(cosine, (cs_vfloat)(1e-20f));
+#if CS_HAS(MATERIALS)
+    density = surface->shines_to == (cs_vint)(CS_SHINES_SAMPLED) ? density : (cs_vfloat)(0.0f);
+#endif
+    return density;
 }
+#endif
 
 /* Light that comes from no surface of the scene. */
 typedef struct cs_escaped {

@@ -4,6 +4,7 @@
 
 #include "kernels/features.h"
 #include "kernels/light/delta.h"
+#include "kernels/light/emitters.h"
 #include "kernels/light/environment.h"
 #include "kernels/light/quad.h"
 #include "kernels/light/sphere.h"

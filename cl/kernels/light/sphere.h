@@ -5,6 +5,7 @@
 #define CS_LIGHT_SPHERE_H
 
 #include "kernels/light/cone.h"
+#include "kernels/light/shape_distance.h"
 
 /* One less the cosine of the half angle of the sphere as seen from `point`; 2, for all directions,
  * from within. towards: from the point to the centre; square: its length squared. */
@@ -24,32 +25,6 @@ static inline cs_vfloat cs_sphere_density(CS_GLOBAL const cs_light *light, const
 {
     cs_vfloat towards[3], square;
     return cs_cone_density(cs_sphere_fall(light, point, towards, &square));
-}
-
-/* Where rays first meet the sphere, in lengths of their direction; INFINITY where they do not. The
- * discriminant is taken from the centre's distance from the ray, which does not cancel (Haines et
- * al. 2019, Ray Tracing Gems, chapter 7). */
-static inline cs_vfloat cs_sphere_distance(CS_GLOBAL const cs_light *light, const cs_vfloat *origin,
-                                           const cs_vfloat *direction)
-{
-    cs_f32 radius = light->parameters[0];
-    cs_vfloat towards[3], apart[3];
-    for (int i = 0; i < 3; i++)
-        towards[i] = light->position[i] - origin[i];
-    cs_vfloat square = cs_dot(direction, direction);
-    cs_vfloat middle = cs_dot(towards, direction) / square;
-    for (int i = 0; i < 3; i++)
-        apart[i] = towards[i] - middle * direction[i];
-    cs_vfloat left = radius * radius - cs_dot(apart, apart);
-    cs_vfloat half_chord = sqrt(cs_max(left, (cs_vfloat)(0.0f)) / square);
-    cs_vfloat outside = cs_dot(towards, towards) - radius * radius;
-    /* The larger root by addition, the other by their product (Press et al., section 5.6). */
-    cs_vfloat large = middle + (middle < 0.0f ? -half_chord : half_chord);
-    cs_vfloat small = outside / (square * large);
-    cs_vfloat near = cs_min(large, small), far = cs_max(large, small);
-    cs_vfloat first = near > 0.0f ? near : far;
-    cs_vint meets = (left > 0.0f) & (first > 0.0f);
-    return meets ? first : (cs_vfloat)(INFINITY);
 }
 
 /* Uniform over the directions that meet the sphere (Shirley, Wang & Zimmerman 1996). */

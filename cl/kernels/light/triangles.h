@@ -1,8 +1,11 @@
-/* All emissive triangles together, as one area light. Device only. */
+/* All emissive triangles together, as one area light: one is chosen by power, wherever it is, and a
+ * point of its area. The feature EMITTERS takes its place (emitters.h). Device only. */
 #ifndef CS_LIGHT_TRIANGLES_H
 #define CS_LIGHT_TRIANGLES_H
 
 #include "kernels/light/sample.h"
+
+#if !CS_HAS(EMITTERS)
 
 /* First emitter whose cumulative probability exceeds `target`. */
 static inline cs_u32 cs_pick_emitter(CS_GLOBAL const cs_emitter *emitters, cs_u32 count,
@@ -27,19 +30,51 @@ typedef struct cs_emitter_points {
     cs_float_lanes density; /* per unit of area */
 } cs_emitter_points;
 
+#if CS_HAS(MOVING)
+/* The emitter at the time of a lane. */
+static inline cs_emitter cs_moved_emitter(const cs_scene_buffers *scene, cs_u32 number, int lane)
+{
+    cs_emitter moved = scene->emitters[number];
+    CS_GLOBAL const cs_triangle_step *step = scene->emitter_steps + number;
+    cs_float_lanes times;
+    cs_f32 square = 0.0f;
+    times.all = scene->time;
+    for (int i = 0; i < 3; i++) {
+        moved.corner[i] += times.lane[lane] * step->corner[i];
+        moved.edge1[i] += times.lane[lane] * step->edge1[i];
+        moved.edge2[i] += times.lane[lane] * step->edge2[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        cs_f32 normal = moved.edge1[j] * moved.edge2[k] - moved.edge1[k] * moved.edge2[j];
+        square += normal * normal;
+    }
+    moved.area = 0.5f * sqrt(max(square, 1e-36f));
+    return moved;
+}
+#endif
+
 /* Fills in lane `lane` from a point (a, b) of the unit square: the emitter in proportion to its
  * power, then a uniform point by the square-root map (Turk 1990). Stretching the rest of `a` keeps
  * the points stratified. */
-static inline void cs_point_on_emitter(CS_GLOBAL const cs_emitter *emitters, cs_u32 count, cs_f32 a,
+static inline void cs_point_on_emitter(const cs_scene_buffers *scene, cs_u32 count, cs_f32 a,
                                        cs_f32 b, int lane, cs_emitter_points *points)
 {
-    CS_GLOBAL const cs_emitter *emitter = emitters + cs_pick_emitter(emitters, count, a);
+    cs_u32 number = cs_pick_emitter(scene->emitters, count, a);
+#if CS_HAS(MOVING)
+    const cs_emitter moved = cs_moved_emitter(scene, number, lane);
+    const cs_emitter *emitter = &moved;
+    const cs_f32 *e1 = emitter->edge1;
+    const cs_f32 *e2 = emitter->edge2;
+#else
+    CS_GLOBAL const cs_emitter *emitter = scene->emitters + number;
+    CS_GLOBAL const cs_f32 *e1 = emitter->edge1;
+    CS_GLOBAL const cs_f32 *e2 = emitter->edge2;
+#endif
     cs_f32 below = emitter->cumulative - emitter->probability;
     cs_f32 stretched = clamp((a - below) / emitter->probability, 0.0f, 1.0f);
     cs_f32 root = sqrt(stretched);
     cs_f32 b1 = root * (1.0f - b), b2 = root * b;
-    CS_GLOBAL const cs_f32 *e1 = emitter->edge1;
-    CS_GLOBAL const cs_f32 *e2 = emitter->edge2;
     for (int axis = 0; axis < 3; axis++) {
         int next = (axis + 1) % 3, last = (axis + 2) % 3;
         points->point[axis].lane[lane] = emitter->corner[axis] + b1 * e1[axis] + b2 * e2[axis];
@@ -61,8 +96,7 @@ static inline cs_light_sample cs_sample_light_triangles(const cs_scene_buffers *
     a.all = pair.x;
     b.all = pair.y;
     for (int lane = 0; lane < CS_PACKET; lane++)
-        cs_point_on_emitter(scene->emitters, light->count, a.lane[lane], b.lane[lane], lane,
-                            &points);
+        cs_point_on_emitter(scene, light->count, a.lane[lane], b.lane[lane], lane, &points);
     cs_light_sample sample;
     cs_vfloat normal[3];
     for (int axis = 0; axis < 3; axis++) {
@@ -79,5 +113,7 @@ static inline cs_light_sample cs_sample_light_triangles(const cs_scene_buffers *
     sample.reach = 0.9999f;
     return sample;
 }
+
+#endif
 
 #endif

@@ -5,13 +5,9 @@
 #include "commands/help.h"
 #include "report/failure.h"
 
-const program_command *const all_commands[] = {&render_command,
-                                               &points_command,
-                                               &spectrum_command,
-                                               &slice_command,
-                                               &predict_command,
-                                               &converge_command,
-                                               NULL};
+const program_command *const all_commands[] = {
+    &render_command,  &points_command,   &spectrum_command, &slice_command,
+    &predict_command, &converge_command, &merge_command,    NULL};
 
 int command_run(const program_command *command, int argc, char **argv)
 {

@@ -10,6 +10,7 @@ extern const program_command spectrum_command;
 extern const program_command slice_command;
 extern const program_command predict_command;
 extern const program_command converge_command;
+extern const program_command merge_command;
 
 /* All of them, the one without a name first; NULL ends the list. */
 extern const program_command *const all_commands[];

@@ -8,6 +8,7 @@
 #include "commands/point_source.h"
 #include "commands/scene_view.h"
 #include "report/failure.h"
+#include "report/map_files.h"
 #include "report/output.h"
 #include "report/series.h"
 #include "report/words.h"
@@ -25,6 +26,7 @@ typedef struct converge_job {
     text_list reference; /* a number or an image */
     text_list out;
     text_list plot;
+    text_list map;
     int keep;
     int local_slopes;
     double reference_value; /* of a number */
@@ -56,6 +58,8 @@ static const program_flag flags[] = {
                "- .csv .json"),
     TEXT_FLAG("plot", "FILE", "draw errors over N, .png or .svg, by gnuplot", "", AT(plot),
               ".png .svg"),
+    FILES_FLAG("map", ".exr .csv .png .tif: slope and gain of each pixel; repeatable", "", AT(map),
+               ".exr .csv .png .jpg .tif"),
     SWITCH_FLAG("local-slopes", "slopes between neighbouring N, each with its interval",
                 AT(local_slopes)),
     SWITCH_FLAG("keep", "leave the plot's data and script beside it", AT(keep)),
@@ -71,9 +75,9 @@ const program_command converge_command = {
              "  clshear converge scenes/cornell.obj --pixels '302,130;146,330' --sampler mj\n",
     .notes = "A pixel's value is the mean of R, G and B. Without --pixels, errors are means\n"
              "over the image: of variances, or of squared differences from a --reference, a\n"
-             "finer render. Slopes are least squares in logarithms, with 95 % intervals by\n"
-             "bootstrap over the replicates, or the image's tiles. --oracle pilot counts as\n"
-             "centre.\n",
+             "finer render; --map shows where. Slopes are least squares in logarithms, with\n"
+             "95 % intervals by bootstrap over the replicates, or the image's tiles. --oracle\n"
+             "pilot counts as centre.\n",
     COMMAND_FLAGS(flags),
     .takes_scene = 1,
     .job_size = sizeof(converge_job),
@@ -230,6 +234,8 @@ static int check_integrand(converge_job *job)
     if (name == NULL) return EXIT_DONE;
     if (job->pixels.count > 0)
         return complain(EXIT_USAGE, "--pixels are of a SCENE, not of an --integrand");
+    if (clshear_settings_is_set(job->options.settings, CLSHEAR_FRESH_SETS))
+        return complain(EXIT_USAGE, "--fresh-sets is of a SCENE, not of an --integrand");
     job->measured.struct_size = sizeof job->measured;
     if (clshear_integrand_find(name, &job->measured) != CLSHEAR_OK) return complain_of_library();
     job->measured.angle_deg = job->angle.items[0];
@@ -246,9 +252,15 @@ static int check(converge_job *job)
     if (code == EXIT_DONE) code = check_lists(job);
     for (size_t i = 0; i < job->pixels.count && code == EXIT_DONE; i += 2)
         code = check_pixel(&job->options, "pixels", job->pixels.items + i);
-    if (job->out.count == 0 && job->plot.count == 0) job->out.items[job->out.count++] = "-";
+    if (code == EXIT_DONE && job->map.count > 0 &&
+        (job->integrand.count > 0 || job->pixels.count > 0))
+        code = complain(EXIT_USAGE, "--map is of a whole image: leave out --%s",
+                        job->pixels.count > 0 ? "pixels" : "integrand");
+    if (job->out.count == 0 && job->plot.count == 0 && job->map.count == 0)
+        job->out.items[job->out.count++] = "-";
     if (code == EXIT_DONE) code = check_places("out", job->out.items, job->out.count);
     if (code == EXIT_DONE) code = check_places("plot", job->plot.items, job->plot.count);
+    if (code == EXIT_DONE) code = check_places("map", job->map.items, job->map.count);
     return code;
 }
 
@@ -261,6 +273,8 @@ static int write_study(const converge_job *job, const error_study *study)
         code =
             write_file(path, has_ending(".json", path) ? study_write_json : study_write_csv, study);
     }
+    for (size_t i = 0; i < job->map.count && code == EXIT_DONE; i++)
+        code = map_write(study, job->map.items[i]);
     return code == EXIT_DONE ? study_draw(study, &plot) : code;
 }
 

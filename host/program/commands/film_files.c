@@ -20,6 +20,17 @@ char *film_files_default_name(const char *scene)
     return path;
 }
 
+char *film_files_numbered_name(const char *path, int number)
+{
+    const char *slash = strrchr(path, '/');
+    const char *dot = strrchr(slash != NULL ? slash : path, '.');
+    const size_t length = dot != NULL ? (size_t)(dot - path) : strlen(path);
+    const size_t size = strlen(path) + sizeof ".999999";
+    char *name = malloc(size);
+    if (name != NULL) snprintf(name, size, "%.*s.%04d%s", (int)length, path, number, path + length);
+    return name;
+}
+
 /* Writes a word as a shell reads it. */
 static void write_word(FILE *stream, const char *word)
 {
@@ -89,18 +100,19 @@ static int is_spared(const film_files *files, const char *path, film_content con
            out.st_ino == base.st_ino && out.st_dev == base.st_dev;
 }
 
-static void tell_interruption(const char *path, int spared, film_content content, int quiet)
+static void tell(const char *event, const char *path, int spared, film_content content, int quiet)
 {
     if (spared && access(path, F_OK) == 0)
-        fprintf(stderr, "clshear: interrupted; %s is left as it was\n", path);
+        fprintf(stderr, "clshear: %s; %s is left as it was\n", event, path);
     else if (spared)
-        fprintf(stderr, "clshear: interrupted before the first samples; %s is not written\n", path);
+        fprintf(stderr, "clshear: %s before the first samples; %s is not written\n", event, path);
     else if (!quiet)
-        fprintf(stderr, "clshear: interrupted; %s holds the samples so far%s\n", path,
+        fprintf(stderr, "clshear: %s; %s holds the samples so far%s\n", event, path,
                 content == SOME_SAMPLES ? "; some pixels have none" : "");
 }
 
-int film_files_write(const film_files *files, const program_options *options, clshear_film *film)
+int film_files_write(const film_files *files, const program_options *options, clshear_film *film,
+                     const char *event)
 {
     clshear_film_info info = {.struct_size = sizeof info};
     clshear_film_describe(film, &info);
@@ -113,7 +125,7 @@ int film_files_write(const film_files *files, const program_options *options, cl
         if (!spared && clshear_film_write(film, path) != CLSHEAR_OK)
             code = complain_of_library();
         else if (!info.complete)
-            tell_interruption(path, spared, content, options->quiet);
+            tell(event, path, spared, content, options->quiet);
     }
     if (files->gain.count > 0 && clshear_film_channel(film, "Gain") != NULL &&
         clshear_film_write_ratio(film, "Gain", files->gain.items[0]) != CLSHEAR_OK)

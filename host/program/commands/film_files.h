@@ -13,8 +13,13 @@ typedef struct film_files {
 /* The scene's name with .exr, in the current folder; freed by the caller. NULL: out of memory. */
 char *film_files_default_name(const char *scene);
 
-/* Writes a film, with the words that made it in its metadata. An interrupted render replaces no
- * file that is worth more. Returns EXIT_DONE or EXIT_FAILED. */
-int film_files_write(const film_files *files, const program_options *options, clshear_film *film);
+/* "img.exr" and 7 become "img.0007.exr"; freed by the caller. NULL: out of memory. */
+char *film_files_numbered_name(const char *path, int number);
+
+/* Writes a film, with the words that made it in its metadata. A render that is not complete
+ * replaces no file that is worth more; `event` says why it is not: "interrupted". Returns EXIT_DONE
+ * or EXIT_FAILED. */
+int film_files_write(const film_files *files, const program_options *options, clshear_film *film,
+                     const char *event);
 
 #endif

@@ -23,14 +23,16 @@ int point_source_check(const point_source *source, const char *flag, size_t exac
     const char *letters = source->letters.count > 0 ? source->letters.items[0] : "xy";
     const size_t length = strlen(letters);
     const int is_drawn = clshear_settings_is_set(settings, CLSHEAR_SAMPLER) ||
-                         clshear_settings_is_set(settings, CLSHEAR_SEED);
+                         clshear_settings_is_set(settings, CLSHEAR_SEED) ||
+                         clshear_settings_is_set(settings, CLSHEAR_FRESH_SETS);
     if (strspn(letters, "xyuvpq") != length || (exact > 0 && length != exact))
         return complain(EXIT_USAGE, "--%s %s: must be %sletters out of xyuvpq", flag, letters,
                         exact > 0 ? "two " : "");
     if (source->in.count == 0 || !(is_drawn || source->count.count > 0 || source->sets.count > 0))
         return EXIT_DONE;
     return complain(EXIT_USAGE,
-                    "--in %s brings its points: leave out --sampler, --n, --sets, --seed",
+                    "--in %s brings its points: leave out --sampler, --n, --sets, --seed, "
+                    "--fresh-sets",
                     source->in.items[0]);
 }
 
@@ -39,10 +41,15 @@ static clshear_status draw(const point_source *source, size_t sets, uint32_t see
                            clshear_points **points)
 {
     char sampler[64];
+    int64_t fresh = 0;
     const size_t count = (size_t)number_or(&source->count, 1024.0);
     clshear_status status = clshear_settings_get_text(source->options.settings, CLSHEAR_SAMPLER,
                                                       sampler, sizeof sampler);
-    if (status == CLSHEAR_OK) status = clshear_points_draw(sampler, count, sets, seed, points);
+    if (status == CLSHEAR_OK)
+        status = clshear_settings_get_integer(source->options.settings, CLSHEAR_FRESH_SETS, &fresh);
+    if (status == CLSHEAR_OK)
+        status = fresh != 0 ? clshear_points_draw_fresh(sampler, count, sets, seed, points)
+                            : clshear_points_draw(sampler, count, sets, seed, points);
     if (status == CLSHEAR_OK && clshear_points_count(*points) != count && !source->options.quiet)
         fprintf(stderr, "clshear: sampler %s has no sets of %zu points: %zu\n", sampler, count,
                 clshear_points_count(*points));

@@ -31,7 +31,7 @@ typedef struct point_source {
                   offsetof(point_source, in), "")
 
 /* Settings that say which points are drawn, for the settings of a command. */
-#define POINT_SOURCE_SETTINGS CLSHEAR_SAMPLER, CLSHEAR_SHEAR, CLSHEAR_SEED
+#define POINT_SOURCE_SETTINGS CLSHEAR_SAMPLER, CLSHEAR_SHEAR, CLSHEAR_SEED, CLSHEAR_FRESH_SETS
 
 /* Whether the flags fit together: EXIT_DONE, or EXIT_USAGE with a line printed. Letters are those
  * of `flag`, and `exact` many unless it is 0. */

@@ -25,6 +25,11 @@ static const program_flag flags[] = {
     WHOLE_FLAG("block", "B", "of a pixel: highest frequency of the block", "8", AT(block), 1, 1, 1,
                15),
     TEXT_FLAG("out o", "FILE", "table, - is standard output", "-", AT(out), ""),
+    FILES_FLAG("map", "of all pixels of SCENE: .csv .exr .png .tif; repeatable", "", AT(map),
+               ".csv .exr .png .jpg .tif"),
+    TEXT_FLAG("plot", "FILE", "measured over predicted, .png or .svg, by gnuplot", "", AT(plot),
+              ".png .svg"),
+    SWITCH_FLAG("keep", "leave the plot's data and script beside it", AT(keep)),
 };
 
 static int run(void *job);
@@ -33,6 +38,7 @@ const program_command predict_command = {
     .name = "predict",
     .usage = "clshear predict --integrand NAME [flags]\n"
              "       clshear predict SCENE --pixel X,Y [flags]\n"
+             "       clshear predict SCENE --map FILE --measure M [flags]\n"
              "Predict the variance of an integral from the spectra of samples and integrand.\n\n"
              "  clshear predict --integrand step --angle 30 --sampler mj --n 64 --measure 4000\n"
              "  clshear predict scenes/cornell.obj --pixel 302,130 --sampler mj --measure 1000\n",
@@ -44,11 +50,17 @@ const program_command predict_command = {
              "(the block), and the tail. The shear, of the oracle or --shear-px, is part of\n"
              "its integrand: x, y, u and v are what the sampler draws. Values are means of R,\n"
              "G and B; an area light is one point. --measure has the variance of sets that\n"
-             "are shifted, and of sets as they are.\n",
+             "are shifted, and of sets as they are.\n\n"
+             "--map and --plot take all pixels of a small image, with fewer samples of each:\n"
+             "predicted beside measured variance. Give few --sets and a low --resolution.\n",
     COMMAND_FLAGS(flags),
     .takes_scene = 1,
     .job_size = sizeof(predict_job),
     .run = run,
+};
+
+enum {
+    CONE_LEVELS = 9 /* up to 256 cones */
 };
 
 typedef struct result {
@@ -67,6 +79,9 @@ static void write_table(FILE *stream, const void *user)
                 clshear_prediction_part_variance(p, k));
     fprintf(stream, "predicted,%.5g\npredicted as isotropic,%.5g\n", clshear_prediction_variance(p),
             clshear_prediction_isotropic(p));
+    for (size_t level = 1; level < CONE_LEVELS; level++)
+        fprintf(stream, "predicted in %d cones,%.5g\n", 1 << level,
+                clshear_prediction_in_cones(p, level));
     if (r->is_measured)
         fprintf(stream, "measured,%.5g\nmeasured 95%% low,%.5g\nmeasured 95%% high,%.5g\n",
                 r->measured.variance, r->measured.variance - 1.96 * r->measured.error,
@@ -147,6 +162,7 @@ static int run(void *user)
     predict_job *job = user;
     clshear_integrand integrand = {.struct_size = sizeof integrand};
     result r = {.is_measured = job->measure.count > 0};
+    if (job->map.count > 0 || job->plot.count > 0) return predict_image(job);
     if (job->pixel.count > 0) return predict_pixel(job);
     int code = check(job, &integrand);
     if (code == EXIT_DONE) code = predict(job, &integrand, &r.prediction);

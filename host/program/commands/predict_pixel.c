@@ -3,22 +3,12 @@
 #include <stdlib.h>
 
 #include "commands/predict.h"
-#include "commands/scene_view.h"
 #include "report/failure.h"
 #include "report/output.h"
 
 enum {
     CHUNK = 1 << 16 /* samples whose radiance is on its way at once */
 };
-
-typedef struct pixel_view {
-    scene_view view;
-    const clshear_settings *settings;
-    int x;
-    int y;
-    float shear_px;
-    float *rgb; /* 3 * CHUNK */
-} pixel_view;
 
 /* The pixel as a function of what a sampler draws: the mean of R, G and B. */
 static clshear_status evaluate(void *user, const float *points, size_t count, float *values)
@@ -35,14 +25,6 @@ static clshear_status evaluate(void *user, const float *points, size_t count, fl
     return CLSHEAR_OK;
 }
 
-typedef struct result {
-    clshear_prediction *prediction;
-    size_t count;
-    int is_measured;
-    measurement shifted;  /* as predicted */
-    measurement rendered; /* as samples come */
-} result;
-
 /* Points without the shear, which is part of the integrand. */
 static clshear_status draw(const predict_job *job, size_t sets, uint32_t seed,
                            clshear_points **points)
@@ -53,7 +35,7 @@ static clshear_status draw(const predict_job *job, size_t sets, uint32_t seed,
     return point_source_make(&source, sets, seed, "xyuv", points);
 }
 
-static int measure(const predict_job *job, pixel_view *v, result *r)
+static int measure(const predict_job *job, pixel_view *v, pixel_result *r)
 {
     const size_t sets = (size_t)job->measure.items[0];
     const uint32_t seed = seed_of(&job->source.options) + 1;
@@ -81,7 +63,7 @@ static void write_measurement(FILE *stream, const char *name, const measurement 
 
 static void write_table(FILE *stream, const void *user)
 {
-    const result *r = user;
+    const pixel_result *r = user;
     const clshear_prediction *p = r->prediction;
     const double energy = clshear_prediction_energy(p);
     fprintf(stream, "part,variance,energy\n");
@@ -95,7 +77,7 @@ static void write_table(FILE *stream, const void *user)
     write_measurement(stream, "measured unshifted", &r->rendered);
 }
 
-static int predict(const predict_job *job, pixel_view *v, result *r)
+static int predict(const predict_job *job, pixel_view *v, size_t reach_points, pixel_result *r)
 {
     const size_t sets = (size_t)number_or(&job->source.sets, 500.0);
     clshear_points *points = NULL;
@@ -106,7 +88,8 @@ static int predict(const predict_job *job, pixel_view *v, result *r)
     const clshear_reach reach = {.struct_size = sizeof reach,
                                  .axis = wanted < 1024 ? 1024 : wanted,
                                  .plane = (uint32_t)job->resolution.items[0] / 2,
-                                 .block = (uint32_t)job->block.items[0]};
+                                 .block = (uint32_t)job->block.items[0],
+                                 .points = reach_points};
     status =
         clshear_predict_variance_4d(v->view.context, points, evaluate, v, &reach, &r->prediction);
     clshear_points_free(points);
@@ -135,24 +118,40 @@ static clshear_status find_shear(const predict_job *job, pixel_view *v)
     return CLSHEAR_OK;
 }
 
+int pixel_view_open(predict_job *job, pixel_view *view)
+{
+    view->settings = job->source.options.settings;
+    view->rgb = malloc((size_t)3 * CHUNK * sizeof *view->rgb);
+    if (view->rgb == NULL) return complain(EXIT_FAILED, "out of memory");
+    return scene_view_open(&job->source.options, &view->view);
+}
+
+void pixel_view_close(pixel_view *view)
+{
+    scene_view_close(&view->view);
+    free(view->rgb);
+}
+
+int pixel_view_predict(const predict_job *job, pixel_view *view, size_t points,
+                       pixel_result *result)
+{
+    result->is_measured = job->measure.count > 0;
+    int code = exit_status_of(find_shear(job, view));
+    if (code == EXIT_DONE) code = predict(job, view, points, result);
+    if (code == EXIT_DONE && result->is_measured) code = measure(job, view, result);
+    return code;
+}
+
 int predict_pixel(predict_job *job)
 {
-    program_options *options = &job->source.options;
     int code = check(job);
     if (code != EXIT_DONE) return code;
-    pixel_view v = {.settings = options->settings,
-                    .x = (int)job->pixel.items[0],
-                    .y = (int)job->pixel.items[1],
-                    .rgb = malloc((size_t)3 * CHUNK * sizeof(float))};
-    result r = {.is_measured = job->measure.count > 0};
-    if (v.rgb == NULL) return complain(EXIT_FAILED, "out of memory");
-    code = scene_view_open(options, &v.view);
-    if (code == EXIT_DONE) code = exit_status_of(find_shear(job, &v));
-    if (code == EXIT_DONE) code = predict(job, &v, &r);
-    if (code == EXIT_DONE && r.is_measured) code = measure(job, &v, &r);
+    pixel_view v = {.x = (int)job->pixel.items[0], .y = (int)job->pixel.items[1]};
+    pixel_result r = {0};
+    code = pixel_view_open(job, &v);
+    if (code == EXIT_DONE) code = pixel_view_predict(job, &v, 0, &r);
     if (code == EXIT_DONE) code = write_file(job->out.items[0], write_table, &r);
     clshear_prediction_free(r.prediction);
-    scene_view_close(&v.view);
-    free(v.rgb);
+    pixel_view_close(&v);
     return code;
 }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "commands/commands.h"
 #include "commands/film_files.h"
@@ -18,6 +19,7 @@ typedef struct render_job {
     program_options options;
     film_files files;
     text_list reference;
+    number_list frames; /* first and last */
     int stats;
     int version;
     int list_devices;
@@ -34,6 +36,8 @@ static const program_flag flags[] = {
               PICTURES),
     TEXT_FLAG("extend", "FILE", "go on from FILE up to --spp; other flags the same", "",
               AT(files.extend), ""),
+    WHOLE_FLAG("frames", "A,B", "frames A to B of the animation, in numbered files", "", AT(frames),
+               2, 1, 0, 999999),
     SWITCH_FLAG("stats", "print sizes, times and rays per second", AT(stats)),
     SWITCH_FLAG("list-samplers", "list the samplers and stop", AT(list_samplers)),
     SWITCH_FLAG("list-devices", "list the OpenCL devices and stop", AT(list_devices)),
@@ -51,7 +55,8 @@ const program_command render_command = {
              "       clshear spectrum [flags]    their power spectra\n"
              "       clshear slice SCENE [flags] the integrand of a pixel\n"
              "       clshear predict [flags]     variance expected from spectra\n"
-             "       clshear converge [flags]    variance against samples\n\n"
+             "       clshear converge [flags]    variance against samples\n"
+             "       clshear merge FILES [flags] shards of a render, put together\n\n"
              "Render SCENE (OBJ, glTF, PLY, STL) with depth of field. Each command has its own\n"
              "--help.\n\n"
              "  clshear scenes/cornell.obj --spp 1024 --out img.exr\n",
@@ -79,8 +84,21 @@ static int list_samplers(void)
     return EXIT_DONE;
 }
 
+static int is_preview_wanted(void *user)
+{
+    (void)user;
+    return preview_wanted();
+}
+
+/* Writes the picture so far; what fails is said, and tried again at the end. */
+static void write_preview(void *user, clshear_film *film)
+{
+    const render_job *job = user;
+    film_files_write(&job->files, &job->options, film, "going on");
+}
+
 /* Renders, or goes on with a film. */
-static clshear_status make_film(const render_job *job, clshear_scene *scene, clshear_film **film)
+static clshear_status make_film(render_job *job, clshear_scene *scene, clshear_film **film)
 {
     clshear_film *base = NULL;
     const text_list *extend = &job->files.extend;
@@ -89,6 +107,7 @@ static clshear_status make_film(const render_job *job, clshear_scene *scene, cls
     if (status != CLSHEAR_OK) return status;
     progress_line progress = progress_start(job->options.quiet);
     clshear_settings_set_progress(job->options.settings, progress_report, &progress);
+    clshear_settings_set_preview(job->options.settings, is_preview_wanted, write_preview, job);
     status = base != NULL ? clshear_render_extend(scene, job->options.settings, base, film)
                           : clshear_render(scene, job->options.settings, film);
     progress_end(&progress);
@@ -96,16 +115,28 @@ static clshear_status make_film(const render_job *job, clshear_scene *scene, cls
     return status;
 }
 
-static int render(const render_job *job, const scene_view *view)
+/* The pictures are written: the checkpoint has nothing that is not in them. */
+static void remove_checkpoint(const clshear_settings *settings)
+{
+    char path[4096];
+    if (clshear_settings_is_set(settings, CLSHEAR_CHECKPOINT) &&
+        clshear_settings_get_text(settings, CLSHEAR_CHECKPOINT, path, sizeof path) == CLSHEAR_OK)
+        remove(path);
+}
+
+static int render(render_job *job, const scene_view *view)
 {
     clshear_film *film = NULL;
     clshear_film_info info = {.struct_size = sizeof info};
     if (make_film(job, view->scene, &film) != CLSHEAR_OK) return complain_of_library();
     clshear_film_describe(film, &info);
-    int code = film_files_write(&job->files, &job->options, film);
+    int code = film_files_write(&job->files, &job->options, film, "interrupted");
     if (code == EXIT_DONE && info.complete && !job->options.quiet)
-        remark_on_picture(film, job->has_lens);
-    if (code == EXIT_DONE && job->stats) report_statistics(view->context, view->scene, film);
+        remark_on_picture(film, job->options.settings, job->has_lens);
+    if (code == EXIT_DONE && !job->options.quiet) remark_on_end(film, job->options.settings);
+    if (code == EXIT_DONE && info.complete) remove_checkpoint(job->options.settings);
+    if (code == EXIT_DONE && job->stats)
+        report_statistics(view->context, view->scene, job->options.settings, film);
     clshear_film_free(film);
     return code == EXIT_DONE && !info.complete ? EXIT_SIGNAL + interrupting_signal() : code;
 }
@@ -130,6 +161,18 @@ static int check_formats(const render_job *job)
     return EXIT_DONE;
 }
 
+/* Channels that no output has room for are told before the render. */
+static void tell_lost_channels(const render_job *job)
+{
+    if (job->options.quiet || !clshear_settings_is_set(job->options.settings, CLSHEAR_AOV)) return;
+    for (size_t i = 0; i < job->files.out.count; i++) {
+        const char *dot = strrchr(job->files.out.items[i], '.');
+        if (dot != NULL && strcasecmp(dot, ".exr") == 0) return;
+    }
+    fprintf(stderr, "clshear: --aov is for .exr, and no output is one: the channels are lost; "
+                    "add --out FILE.exr\n");
+}
+
 /* A lens that opens, and that was not chosen by the program. */
 static int given_a_lens(const clshear_settings *settings)
 {
@@ -140,11 +183,69 @@ static int given_a_lens(const clshear_settings *settings)
            radius > 0.0;
 }
 
+static int check_checkpoint(const clshear_settings *settings)
+{
+    char path[4096];
+    const char *const list[] = {path};
+    if (!clshear_settings_is_set(settings, CLSHEAR_CHECKPOINT)) return EXIT_DONE;
+    clshear_settings_get_text(settings, CLSHEAR_CHECKPOINT, path, sizeof path);
+    return check_places("checkpoint", list, 1);
+}
+
+/* Opens the scene, renders and writes. */
+static int render_scene(render_job *job)
+{
+    scene_view view = {0};
+    int code = scene_view_open(&job->options, &view);
+    if (code == EXIT_DONE) code = render(job, &view);
+    scene_view_close(&view);
+    return code;
+}
+
+/* One frame, with settings of its own: those that the scene completes differ from frame to frame.
+ * The outputs have the frame's number before their endings. */
+static int render_frame(const render_job *job, int frame)
+{
+    render_job one = *job;
+    int code = EXIT_DONE;
+    one.options.settings = NULL;
+    one.files.out.count = 0;
+    for (size_t i = 0; i < job->files.out.count && code == EXIT_DONE; i++) {
+        char *name = film_files_numbered_name(job->files.out.items[i], frame);
+        if (name == NULL) code = complain(EXIT_FAILED, "out of memory");
+        if (name != NULL) one.files.out.items[one.files.out.count++] = name;
+    }
+    if (code == EXIT_DONE &&
+        (clshear_settings_copy(job->options.settings, &one.options.settings) != CLSHEAR_OK ||
+         clshear_settings_set_integer(one.options.settings, CLSHEAR_FRAME, frame) != CLSHEAR_OK))
+        code = complain_of_library();
+    if (code == EXIT_DONE) code = render_scene(&one);
+    for (size_t i = 0; i < one.files.out.count; i++)
+        free((char *)one.files.out.items[i]);
+    clshear_settings_free(one.options.settings);
+    return code;
+}
+
+static int render_frames(render_job *job)
+{
+    if (job->frames.count == 0) return render_scene(job);
+    const int first = (int)job->frames.items[0], last = (int)job->frames.items[1];
+    if (first > last)
+        return complain(EXIT_USAGE, "--frames %d,%d: the first is after the last", first, last);
+    if (job->files.extend.count > 0)
+        return complain(EXIT_USAGE, "--extend goes on with one picture, --frames makes many");
+    if (clshear_settings_is_set(job->options.settings, CLSHEAR_CHECKPOINT))
+        return complain(EXIT_USAGE, "--checkpoint is of one picture, --frames makes many");
+    int code = EXIT_DONE;
+    for (int frame = first; frame <= last && code == EXIT_DONE; frame++)
+        code = render_frame(job, frame);
+    return code;
+}
+
 static int run(void *user)
 {
     render_job *job = user;
     program_options *options = &job->options;
-    scene_view view = {0};
     if (job->version) printf("clshear %s\n", clshear_version());
     if (job->version) return EXIT_DONE;
     if (job->list_devices) return exit_status_of(clshear_list_devices(print_device, NULL));
@@ -161,9 +262,9 @@ static int run(void *user)
     if (code == EXIT_DONE) code = check_formats(job);
     if (code == EXIT_DONE)
         code = check_places("gain", job->files.gain.items, job->files.gain.count);
-    if (code == EXIT_DONE) code = scene_view_open(options, &view);
-    if (code == EXIT_DONE) code = render(job, &view);
-    scene_view_close(&view);
+    if (code == EXIT_DONE) tell_lost_channels(job);
+    if (code == EXIT_DONE) code = check_checkpoint(options->settings);
+    if (code == EXIT_DONE) code = render_frames(job);
     free(name);
     return code;
 }

@@ -39,8 +39,11 @@ typedef struct named_setting {
     const char *flag;
 } named_setting;
 
-static const named_setting camera_parts[] = {
-    {CLSHEAR_EYE, "eye"}, {CLSHEAR_TARGET, "target"}, {CLSHEAR_UP, "up"}, {CLSHEAR_FOV, "fov"}};
+static const named_setting camera_parts[] = {{CLSHEAR_EYE, "eye"},
+                                             {CLSHEAR_TARGET, "target"},
+                                             {CLSHEAR_UP, "up"},
+                                             {CLSHEAR_FOV, "fov"},
+                                             {CLSHEAR_ORTHOGRAPHIC, "orthographic"}};
 static const named_setting light_parts[] = {
     {CLSHEAR_ENVIRONMENT, "environment"}, {CLSHEAR_SUN, "sun"}, {CLSHEAR_LIGHT, "light"}};
 

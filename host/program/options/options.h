@@ -67,7 +67,9 @@ typedef struct program_flag {
 /* What all commands have; the struct that the flags of a command fill begins with it. */
 typedef struct program_options {
     clshear_settings *settings;
-    const char *scene; /* NULL: none */
+    const char *scene;  /* NULL: none */
+    const char **files; /* of a command that takes them */
+    size_t file_count;
     text_list settings_file;
     int quiet;
     int help;
@@ -86,6 +88,7 @@ typedef struct program_command {
     const clshear_setting *settings; /* those that it takes; NULL: all */
     size_t setting_count;
     int takes_scene;
+    int takes_files;       /* any number, instead of a scene */
     size_t job_size;       /* of the struct that its flags fill */
     int (*run)(void *job); /* returns the exit status */
 } program_command;

@@ -200,6 +200,10 @@ static int read_line(parser *p, int argc, char **argv)
         named_flag flag;
         const char *word = argv[i], *nearest;
         if (word[0] != '-' || word[1] == '\0') {
+            if (p->command->takes_files) {
+                options->files[options->file_count++] = word;
+                continue;
+            }
             if (!p->command->takes_scene) return complain(EXIT_USAGE, "%s: not a flag", word);
             if (options->scene != NULL)
                 return complain(EXIT_USAGE, "more than one scene: %s and %s", options->scene, word);
@@ -238,6 +242,8 @@ int options_parse(const program_command *command, const program_command *renders
     parser p = {.command = command, .renders = renders, .options = options};
     options->word_count = argc;
     options->words = argv;
+    options->files = calloc((size_t)argc, sizeof *options->files);
+    if (options->files == NULL) return complain(EXIT_FAILED, "out of memory");
     const clshear_status status = clshear_settings_create(&options->settings);
     if (status != CLSHEAR_OK) return complain_status(status, "");
     p.settings = options->settings;

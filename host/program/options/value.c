@@ -33,6 +33,7 @@ const char *options_text(program_options *options, const char *format, ...)
 void options_free(program_options *options)
 {
     clshear_settings_free(options->settings);
+    free(options->files);
     while (options->kept != NULL) {
         kept_text *next = options->kept->next;
         free(options->kept);

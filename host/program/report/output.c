@@ -17,6 +17,8 @@ static int check_place(const char *flag, const char *path)
     if (strcmp(path, "-") == 0) return EXIT_DONE;
     const char *slash = strrchr(path, '/');
     const int exists = stat(path, &about) == 0;
+    if (!exists && errno == ENAMETOOLONG)
+        return complain(EXIT_FAILED, "--%s %s: the name is too long: shorten it", flag, path);
     if (exists && S_ISDIR(about.st_mode))
         return complain(EXIT_FAILED, "--%s %s: is a folder", flag, path);
     if (slash != NULL) snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);

@@ -7,12 +7,24 @@
 typedef struct survey {
     size_t pixels;
     size_t lit;     /* pixels above 0 */
-    size_t clipped; /* pixels whose three channels are above 1 */
+    size_t clipped; /* pixels whose three channels are above white */
     size_t met;     /* pixels that see the scene */
     float blur_px;  /* the widest circle of confusion */
+    double log_sum; /* of the binary logarithms of the lit pixels' green */
 } survey;
 
-static survey look_at(const clshear_film *film, size_t pixels)
+/* What files of 8 and 16 bits show as white, by the settings of the exposure; infinite if they
+ * adapt to the picture. */
+static float white_of(const clshear_settings *settings)
+{
+    double exposure = 0.0;
+    int64_t is_auto = 0;
+    clshear_settings_get_number(settings, CLSHEAR_EXPOSURE, &exposure);
+    clshear_settings_get_integer(settings, CLSHEAR_AUTO_EXPOSURE, &is_auto);
+    return is_auto ? INFINITY : (float)exp2(-exposure);
+}
+
+static survey look_at(const clshear_film *film, size_t pixels, float white)
 {
     const float *red = clshear_film_channel(film, "R"), *green = clshear_film_channel(film, "G");
     const float *blue = clshear_film_channel(film, "B"), *depth = clshear_film_channel(film, "Z");
@@ -22,18 +34,26 @@ static survey look_at(const clshear_film *film, size_t pixels)
         return (survey){0};
     for (size_t i = 0; i < pixels; i++) {
         found.lit += red[i] > 0.0f || green[i] > 0.0f || blue[i] > 0.0f;
-        found.clipped += red[i] > 1.0f && green[i] > 1.0f && blue[i] > 1.0f;
+        found.clipped += red[i] > white && green[i] > white && blue[i] > white;
+        if (green[i] > 0.0f) found.log_sum += log2((double)green[i]);
         found.met += isfinite(depth[i]);
         if (isfinite(depth[i])) found.blur_px = fmaxf(found.blur_px, blur[i]);
     }
     return found;
 }
 
-void remark_on_picture(const clshear_film *film, int has_lens)
+/* The exposure, in whole stops, that makes the log-average middle grey. */
+static int fitting_exposure(const survey *found)
+{
+    return (int)floor(log2(0.18) - found->log_sum / (double)found->lit);
+}
+
+void remark_on_picture(const clshear_film *film, const clshear_settings *settings, int has_lens)
 {
     clshear_film_info info = {.struct_size = sizeof info};
     clshear_film_describe(film, &info);
-    const survey found = look_at(film, (size_t)info.width * (size_t)info.height);
+    const survey found =
+        look_at(film, (size_t)info.width * (size_t)info.height, white_of(settings));
     if (found.pixels == 0) return;
     if (found.lit == 0 && found.met == 0)
         fprintf(stderr, "clshear: the picture is black: the camera does not see the scene; "
@@ -42,13 +62,41 @@ void remark_on_picture(const clshear_film *film, int has_lens)
         fprintf(stderr, "clshear: the picture is black: no light reaches what it shows; "
                         "--environment 1,1,1 adds light from all around\n");
     if (2 * found.clipped > found.pixels)
-        fprintf(stderr,
-                "clshear: %.0f %% of the picture is brighter than 1, white in all but .exr; weaken "
-                "the light (an environment by --environment-strength)\n",
-                100.0 * (double)found.clipped / (double)found.pixels);
+        fprintf(
+            stderr,
+            "clshear: %.0f %% of the picture is brighter than white in all but .exr; --exposure "
+            "%d or --auto-exposure darkens it, weaker light (an environment by "
+            "--environment-strength) the .exr too\n",
+            100.0 * (double)found.clipped / (double)found.pixels, fitting_exposure(&found));
     if (has_lens && found.met > 0 && found.blur_px < 1.0f)
         fprintf(stderr,
                 "clshear: everything is in focus, blurred by %.2g px at most; a larger "
                 "--lens-radius blurs more (with --fstop: check --unit)\n",
                 (double)found.blur_px);
+}
+
+/* ", noise 1.2 % (1 % promised)" where that was promised. */
+static void print_promise(const clshear_settings *settings, clshear_setting setting,
+                          const char *name, double reached)
+{
+    double promised = 0.0;
+    if (!clshear_settings_is_set(settings, setting) ||
+        clshear_settings_get_number(settings, setting, &promised) != CLSHEAR_OK)
+        return;
+    fprintf(stderr, "; %s %.3g %%, %.3g %% promised", name, 100.0 * reached, 100.0 * promised);
+}
+
+void remark_on_end(const clshear_film *film, const clshear_settings *settings)
+{
+    clshear_film_info info = {.struct_size = sizeof info};
+    clshear_film_describe(film, &info);
+    if (info.stopped_by == NULL) return;
+    const double pixels = (double)info.width * (double)info.height;
+    fprintf(stderr, "clshear: ended by --%s at %.0f samples per pixel", info.stopped_by,
+            (double)info.samples / pixels);
+    print_promise(settings, CLSHEAR_NOISE, "noise", info.noise);
+    print_promise(settings, CLSHEAR_NOISE_PIXEL, "noise of pixels", info.noise_pixel);
+    if (info.spp_expected > 0.0)
+        fprintf(stderr, "; that would take about %.2g samples per pixel", info.spp_expected);
+    fputc('\n', stderr);
 }

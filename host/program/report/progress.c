@@ -3,9 +3,11 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 static volatile sig_atomic_t interrupted;
+static volatile sig_atomic_t asked_for_picture;
 static int hangup_ignored;
 
 static void note_interrupt(int signal_number)
@@ -13,9 +15,26 @@ static void note_interrupt(int signal_number)
     interrupted = signal_number;
 }
 
+static void note_wish(int signal_number)
+{
+    (void)signal_number;
+    asked_for_picture = 1;
+}
+
+static void catch_wishes(void)
+{
+    struct sigaction action;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = note_wish;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGUSR1, &action, NULL);
+}
+
 void progress_note_signals(void)
 {
     struct sigaction given;
+    catch_wishes();
     hangup_ignored = sigaction(SIGHUP, NULL, &given) == 0 && given.sa_handler == SIG_IGN;
 }
 
@@ -32,6 +51,13 @@ static void catch_interrupts(void)
     sigaction(SIGHUP, &action, NULL);
 }
 
+int preview_wanted(void)
+{
+    const int wanted = asked_for_picture;
+    asked_for_picture = 0;
+    return wanted;
+}
+
 int interrupting_signal(void)
 {
     return interrupted;
@@ -43,11 +69,26 @@ progress_line progress_start(int quiet)
         .quiet = quiet, .on_terminal = isatty(STDERR_FILENO), .last_percent = -1};
 }
 
+/* Writes the line over the one before, as far as the terminal has columns: a line that wraps would
+ * stay. */
+static void write_over(const char *line)
+{
+    enum {
+        LONGEST = 44
+    };
+    struct winsize size;
+    int columns = LONGEST;
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 && size.ws_col <= LONGEST)
+        columns = size.ws_col - 1;
+    fprintf(stderr, "\r%-*.*s", columns, columns, line);
+}
+
 int progress_report(void *user, const clshear_progress *progress)
 {
     progress_line *state = user;
     if (progress->fraction > 0.0 && !state->catches) {
         catch_interrupts();
+        catch_wishes(); /* again: LLVM takes this signal, too */
         state->catches = 1;
     }
     if (progress->samples_per_s <= 0.0) return interrupting_signal(); /* still finding depths */
@@ -57,12 +98,16 @@ int progress_report(void *user, const clshear_progress *progress)
     if (state->quiet || (percent / step == state->last_percent / step && state->last_percent >= 0))
         return interrupting_signal();
     state->last_percent = percent;
-    fprintf(stderr, "%s%3d %%  %.2f Msamples/s",
-            state->on_terminal ? "\r" : "clshear: ", percent / step * step,
-            1e-6 * progress->samples_per_s);
+    char line[128];
+    int used = snprintf(line, sizeof line, "%3d %%  %.2f Msamples/s", percent / step * step,
+                        1e-6 * progress->samples_per_s);
     if (progress->fraction > 0.0) /* else a pilot, which does not know what is left */
-        fprintf(stderr, "  %ld:%02ld:%02ld left", left_s / 3600, left_s / 60 % 60, left_s % 60);
-    fputs(state->on_terminal ? "   " : "\n", stderr);
+        snprintf(line + used, sizeof line - (size_t)used, "  %ld:%02ld:%02ld left", left_s / 3600,
+                 left_s / 60 % 60, left_s % 60);
+    if (state->on_terminal)
+        write_over(line);
+    else
+        fprintf(stderr, "clshear: %s\n", line);
     return interrupting_signal();
 }
 

@@ -11,9 +11,12 @@ typedef struct progress_line {
     int catches; /* whether signals are caught */
 } progress_line;
 
-/* Notes that hangups are to be ignored, as nohup asks. Call it first: compilers of OpenCL drivers
- * install handlers of their own. */
+/* Notes that hangups are to be ignored, as nohup asks, and catches SIGUSR1. Call it first:
+ * compilers of OpenCL drivers install handlers of their own. */
 void progress_note_signals(void);
+
+/* Whether SIGUSR1 came since the last call: it asks for the picture so far. */
+int preview_wanted(void);
 
 /* The signal that asked the render to stop; 0: none. */
 int interrupting_signal(void);

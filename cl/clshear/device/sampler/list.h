@@ -31,8 +31,8 @@
     X(SOBOL_PAIRS, "sobol-pairs", net_pairs, net_pair, net_pair, any, index, 1, "(0,2)-sequences, shuffled pairs") \
     X(SZ, "sz", net, net_pair, net_pair, any, sz, 1, "(0,4)-sequence of (0,2)-pairs (after Ahmed et al. 2025)") \
     X(RANK1, "rank1", lattice, partner, partner, any, rank1, 0, "Korobov lattice, shifted at random") \
-    X(POISSON, "poisson", point_set, partner, partner, modest, poisson, 0, "Poisson disk pairs, paired at random") \
-    X(CCVT, "ccvt", point_set, partner, partner, few, ccvt, 0, "equal-capacity Voronoi pairs, paired at random")
+    X(POISSON, "poisson", point_set, point_set, point_set, modest, poisson, 0, "Poisson disk pairs, paired at random") \
+    X(CCVT, "ccvt", point_set, point_set, point_set, few, ccvt, 0, "equal-capacity Voronoi pairs, paired at random")
 /* clang-format on */
 
 #define CS_SAMPLER_IDENTIFIER(identifier, name, draw, light, extra, shape, table, progressive, \

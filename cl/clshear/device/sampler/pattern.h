@@ -12,7 +12,7 @@
 #include "../fp_contract_off.h"
 
 enum {
-    CS_MOST_WORDS = CS_END_LIGHT + 1 /* words that a sample table has for each sample, at most */
+    CS_MOST_WORDS = CS_END_LIGHT + 1 /* words that a part of a sample table has for a sample */
 };
 
 /* Families of keys: each random choice in a pattern has a key of its own, cs_key(key, number). */
@@ -45,7 +45,8 @@ typedef struct cs_pattern {
 CS_SHARED_WORDS(cs_pattern, 19 + CS_MAIN_DIMENSIONS);
 
 /* A sample table: word w of sample i is at table[w * blocks * CS_BLOCK + i]. Its words have a
- * meaning that the sampler gives them. A sampler whose `table` in list.h is `none` reads nothing
+ * meaning that the sampler gives them. A table may have several parts, one after another, each with
+ * the words of all samples. A sampler whose `table` in list.h is `none` reads nothing
  * and takes any pointer. */
 typedef CS_GLOBAL const cs_u32 *cs_sample_table;
 

@@ -1,0 +1,228 @@
+/* Reads images for surfaces, environments and apertures. */
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "base/output_file.h"
+#include "image/oiio.h"
+
+namespace
+{
+
+/* Any number of channels as RGBA: grey is repeated, alpha is 1 where there is none. Colours become
+ * linear; files of integers (`is_integer`) that say nothing of their curve have that of sRGB. */
+ImageBuf linear_rgba(const ImageBuf &source, bool is_integer, bool is_colour)
+{
+    const int channels = source.nchannels();
+    const int alpha = source.spec().alpha_channel;
+    const int grey = channels < (alpha >= 0 ? 4 : 3);
+    const int order[4] = {0, grey ? 0 : 1, grey ? 0 : 2, alpha};
+    const float fill[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+    ImageBuf rgba = OIIO::ImageBufAlgo::channels(source, 4, order, fill);
+    std::string space = source.spec().get_string_attribute("oiio:ColorSpace");
+    if (space.empty()) space = is_integer ? "sRGB" : "linear";
+    if (space != "sRGB" || !is_colour) return rgba;
+    return OIIO::ImageBufAlgo::colorconvert(rgba, "sRGB", "linear", false);
+}
+
+/* An image to read: a file, or `size` bytes of one at `memory` if that is not null. */
+struct Source {
+    const char *path;
+    const char *label; /* what messages call it */
+    const void *memory;
+    size_t size;
+};
+
+/* The usual extension for the first bytes of an image, since OpenImageIO goes by names. */
+const char *extension_for(const void *memory, size_t size)
+{
+    static const struct {
+        const char *magic;
+        size_t length;
+        const char *extension;
+    } known[] = {{"\x89PNG", 4, "png"}, {"\xff\xd8\xff", 3, "jpg"},
+                 {"RIFF", 4, "webp"},   {"\x76\x2f\x31\x01", 4, "exr"},
+                 {"#?", 2, "hdr"},      {"GIF8", 4, "gif"},
+                 {"II*", 3, "tif"},     {"MM", 2, "tif"},
+                 {"BM", 2, "bmp"}};
+    for (const auto &entry : known)
+        if (size >= entry.length && std::memcmp(memory, entry.magic, entry.length) == 0)
+            return entry.extension;
+    return "png";
+}
+
+/* First line of what OpenImageIO says, without the file's name, which our messages begin with. */
+std::string reason_of(const ImageBuf &image, const std::string &path)
+{
+    std::string reason = first_line(image.geterror());
+    const size_t advice = reason.find(" Also, it is not the name of an image format");
+    if (advice != std::string::npos) reason.resize(advice);
+    for (const std::string &named : {"Invalid image file \"" + path + "\": ", " (" + path + ")",
+                                     " (\"" + path + "\")", "\"" + path + "\" ", path})
+        for (size_t at = reason.find(named); at != std::string::npos; at = reason.find(named))
+            reason.erase(at, named.size());
+    return reason.empty() ? "not an image that can be read" : reason;
+}
+
+/* Colours as they are before alpha multiplies them. */
+ImageBuf without_alpha(ImageBuf &&source)
+{
+    const ImageSpec &spec = source.spec();
+    const std::string format(source.file_format_name());
+    const bool associated = format == "openexr" || format == "tiff";
+    if (spec.alpha_channel < 0 || !associated ||
+        spec.get_int_attribute("oiio:UnassociatedAlpha") != 0)
+        return std::move(source);
+    return OIIO::ImageBufAlgo::unpremult(source);
+}
+
+/* Texels in one image: more are a damaged head rather than a picture. */
+constexpr uint64_t most_texels = uint64_t(1) << 28;
+
+/* An image as RGBA, its colours (`is_colour`) linear. */
+clshear_status read_rgba(const Source &from, bool is_colour, ImageBuf &rgba, cs_error *error)
+{
+    if (from.memory == nullptr && cs_is_special_file(from.path))
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: is not a regular file", from.label);
+    std::string path = from.path;
+    if (from.memory != nullptr)
+        path = std::string("embedded.") + extension_for(from.memory, from.size);
+    else
+        forget(from.path);
+    OIIO::Filesystem::IOMemReader reader(const_cast<void *>(from.memory), from.size);
+    ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    ImageBuf source(path, 0, 0, nullptr, &config, from.memory != nullptr ? &reader : nullptr);
+    if (!source.init_spec(path, 0, 0))
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
+                       reason_of(source, path).c_str());
+    const uint64_t width = static_cast<uint64_t>(source.spec().width);
+    const uint64_t height = static_cast<uint64_t>(source.spec().height);
+    if (width == 0 || height == 0 || width > most_texels / height)
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %d x %d texels: must be 1 to 2^28", from.label,
+                       source.spec().width, source.spec().height);
+    if (!source.read(0, 0, true, TypeDesc::FLOAT))
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
+                       reason_of(source, path).c_str());
+    const bool is_integer = !source.nativespec().format.is_floating_point();
+    rgba = linear_rgba(without_alpha(std::move(source)), is_integer, is_colour);
+    if (rgba.has_error())
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
+                       first_line(rgba.geterror()).c_str());
+    return CLSHEAR_OK;
+}
+
+/* Applies base and gain, and converts what are no colours. */
+void convert_texels(const cs_texel_use &use, ImageBuf &rgba)
+{
+    if (use.base != 0.0f || use.gain != 1.0f) {
+        const float gains[4] = {use.gain, use.gain, use.gain, 1.0f};
+        const float bases[4] = {use.base, use.base, use.base, 0.0f};
+        rgba = OIIO::ImageBufAlgo::mad(rgba, OIIO::cspan<float>(gains, 4),
+                                       OIIO::cspan<float>(bases, 4));
+    }
+    if (use.kind == CS_TEXELS_COLOUR || use.kind == CS_TEXELS_DATA) return;
+    std::vector<float> texels(4 * rgba.spec().image_pixels());
+    if (!rgba.get_pixels(rgba.roi(), TypeDesc::FLOAT, texels.data())) return;
+    if (!cs_texels_convert(use.kind, texels.data(), static_cast<size_t>(rgba.spec().width),
+                           static_cast<size_t>(rgba.spec().height)))
+        throw std::bad_alloc();
+    rgba.set_pixels(rgba.roi(), TypeDesc::FLOAT, texels.data());
+}
+
+clshear_status read_texels(const Source &from, const cs_texel_use &use, cs_texels *texels,
+                           cs_error *error)
+{
+    ImageBuf rgba;
+    clshear_status status = read_rgba(from, use.kind == CS_TEXELS_COLOUR, rgba, error);
+    if (status != CLSHEAR_OK) return status;
+    convert_texels(use, rgba);
+    const size_t width = static_cast<size_t>(rgba.spec().width);
+    const size_t height = static_cast<size_t>(rgba.spec().height);
+    auto *halves = static_cast<uint16_t *>(std::malloc(width * height * 4 * sizeof(uint16_t)));
+    if (halves == nullptr) throw std::bad_alloc();
+    if (!rgba.get_pixels(rgba.roi(), TypeDesc::HALF, halves)) {
+        std::free(halves);
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
+                       first_line(rgba.geterror()).c_str());
+    }
+    texels->width = static_cast<uint32_t>(width);
+    texels->height = static_cast<uint32_t>(height);
+    texels->halves = halves;
+    return CLSHEAR_OK;
+}
+
+/* Reduces by summing whole blocks of texels, which preserves the total light. */
+clshear_status read_luminance(const char *path, int most, float **luminance, int *width,
+                              int *height, cs_error *error)
+{
+    ImageBuf rgba;
+    clshear_status status = read_rgba({path, path, nullptr, 0}, true, rgba, error);
+    if (status != CLSHEAR_OK) return status;
+    const int full_width = rgba.spec().width, full_height = rgba.spec().height;
+    const int longer = full_width > full_height ? full_width : full_height;
+    const int step = (longer + most - 1) / most;
+    *width = (full_width + step - 1) / step;
+    *height = (full_height + step - 1) / step;
+    const size_t row = static_cast<size_t>(*width);
+    auto *sums =
+        static_cast<float *>(std::calloc(row * static_cast<size_t>(*height), sizeof(float)));
+    if (sums == nullptr) throw std::bad_alloc();
+    for (ImageBuf::ConstIterator<float> texel(rgba); !texel.done(); ++texel) {
+        const float value = 0.2126f * texel[0] + 0.7152f * texel[1] + 0.0722f * texel[2];
+        const auto x = static_cast<size_t>((texel.x() - rgba.spec().x) / step);
+        const auto y = static_cast<size_t>((texel.y() - rgba.spec().y) / step);
+        if (value > 0.0f) sums[y * row + x] += value;
+    }
+    *luminance = sums;
+    return CLSHEAR_OK;
+}
+
+clshear_status read_colours(const char *path, float **colours, size_t *width, size_t *height,
+                            cs_error *error)
+{
+    ImageBuf rgba;
+    clshear_status status = read_rgba({path, path, nullptr, 0}, true, rgba, error);
+    if (status != CLSHEAR_OK) return status;
+    *width = static_cast<size_t>(rgba.spec().width);
+    *height = static_cast<size_t>(rgba.spec().height);
+    auto *values = static_cast<float *>(std::malloc(*width * *height * 3 * sizeof(float)));
+    if (values == nullptr) throw std::bad_alloc();
+    OIIO::ROI rgb = rgba.roi();
+    rgb.chend = 3;
+    if (!rgba.get_pixels(rgb, TypeDesc::FLOAT, values)) {
+        std::free(values);
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,
+                       first_line(rgba.geterror()).c_str());
+    }
+    *colours = values;
+    return CLSHEAR_OK;
+}
+
+} // namespace
+
+extern "C" clshear_status cs_image_read_texels(const char *path, const char *label,
+                                               const void *memory, size_t size,
+                                               const cs_texel_use *use, cs_texels *texels,
+                                               cs_error *error)
+{
+    return guarded(label, error, [&] {
+        return read_texels({path, label, memory, size}, *use, texels, error);
+    });
+}
+
+clshear_status cs_image_read_luminance(const char *path, int most, float **luminance, int *width,
+                                       int *height, cs_error *error)
+{
+    return guarded(path, error,
+                   [&] { return read_luminance(path, most, luminance, width, height, error); });
+}
+
+extern "C" clshear_status cs_image_read_colours(const char *path, float **colours, size_t *width,
+                                                size_t *height, cs_error *error)
+{
+    return guarded(path, error, [&] { return read_colours(path, colours, width, height, error); });
+}

@@ -1,0 +1,111 @@
+#include "render/motion.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "oracle/oracle.h"
+#include "scene/camera.h"
+
+/* Eye and target of the settings for the end of the shutter; `view` where they are not set. */
+static cs_view closing_view(const cs_job *job, const cs_view *view)
+{
+    const double *origin = job->scene->scene.origin;
+    cs_view closing = *view;
+    if (!cs_is_set(&job->settings, CAMERA_TO)) return closing;
+    const double *given = cs_numbers(&job->settings, CAMERA_TO);
+    for (int i = 0; i < 3; i++) {
+        closing.eye[i] = (float)(given[i] - origin[i]);
+        closing.target[i] = (float)(given[3 + i] - origin[i]);
+    }
+    return closing;
+}
+
+/* The view at `time`, 0 to 1, between two. */
+static cs_view view_between(const cs_view *open, const cs_view *closed, float time)
+{
+    cs_view view = *open;
+    for (int i = 0; i < 3; i++) {
+        view.eye[i] += time * (closed->eye[i] - open->eye[i]);
+        view.target[i] += time * (closed->target[i] - open->target[i]);
+        view.up[i] += time * (closed->up[i] - open->up[i]);
+    }
+    return view;
+}
+
+static cs_camera_motion motion_between(const cs_view *open, const cs_view *closed)
+{
+    cs_camera_motion motion;
+    for (int i = 0; i < 3; i++) {
+        motion.eye_step[i] = closed->eye[i] - open->eye[i];
+        motion.sight[i] = open->target[i] - open->eye[i];
+        motion.sight_step[i] = closed->target[i] - closed->eye[i] - motion.sight[i];
+        motion.up[i] = open->up[i];
+        motion.up_step[i] = closed->up[i] - open->up[i];
+    }
+    return motion;
+}
+
+clshear_status cs_motion_begin(cs_job *job, const cs_view *view, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_shutter_cameras *cameras = &job->cameras;
+    const cs_view closing = closing_view(job, view);
+    const cs_view middle = view_between(view, &closing, 0.5f);
+    cameras->open = job->camera;
+    CS_TRY(cs_camera_frame(&middle, job->width, job->height, &cameras->middle, error));
+    CS_TRY(cs_camera_frame(&closing, job->width, job->height, &cameras->closed, error));
+    cameras->middle.optics = job->camera.optics;
+    cameras->closed.optics = job->camera.optics;
+    job->motion = motion_between(view, &closing);
+    const int scene_moves = cs_scene_moves(&job->scene->scene);
+    job->moves = scene_moves || memcmp(&cameras->open, &cameras->closed, sizeof cameras->open) != 0;
+    if (job->moves) job->features |= CS_FEATURE_MOTION;
+    if (scene_moves) job->features |= CS_FEATURE_MOVING;
+done:
+    return status;
+}
+
+clshear_status cs_motion_find(cs_job *job, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    if (!job->moves) return CLSHEAR_OK;
+    job->velocities_px = malloc(job->pixel_count * sizeof *job->velocities_px);
+    CS_REQUIRE(job->velocities_px != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
+               job->pixel_count);
+    cs_accel_velocity(job->scene->accel, &job->cameras, job->window, job->velocities_px);
+done:
+    return status;
+}
+
+clshear_status cs_motion_upload(const cs_job *job, const uint8_t *rules, cs_buffer **buffer,
+                                cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_velocity *used = NULL;
+    if (!job->moves) return CLSHEAR_OK;
+    used = calloc(job->pixel_count, sizeof *used);
+    CS_REQUIRE(used != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
+               job->pixel_count);
+    for (size_t i = 0; i < job->pixel_count; i++)
+        if (cs_rule_has_velocity((cs_rule)rules[i])) used[i] = job->velocities_px[i];
+    CS_TRY(cs_buffer_create(job->scene->context->device, job->pixel_count * sizeof *used, used,
+                            buffer, error));
+done:
+    free(used);
+    return status;
+}
+
+clshear_status cs_motion_resolve(const cs_job *job, clshear_film *film, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    if (job->velocities_px == NULL) return CLSHEAR_OK;
+    float *x = cs_film_add_channel(film, "Velocity.X");
+    float *y = cs_film_add_channel(film, "Velocity.Y");
+    CS_REQUIRE(x != NULL && y != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
+    for (size_t i = 0; i < job->pixel_count; i++) {
+        x[i] = job->velocities_px[i].x;
+        y[i] = job->velocities_px[i].y;
+    }
+done:
+    return status;
+}

@@ -1,0 +1,26 @@
+/* Renders that may end early. With a progressive sampler all replicates grow together, in rounds:
+ * after each the picture is that of a render with so many samples, evenly spread, and the variance
+ * between the replicates tells its error. Other samplers draw replicate after replicate. Looks are
+ * few, at doublings and where the promised noise is expected. */
+#ifndef CS_RENDER_ROUNDS_H
+#define CS_RENDER_ROUNDS_H
+
+#include "render/render_job.h"
+
+/* Whether a rule can end the job between two looks, and how many samples pilots may count on. Does
+ * nothing for a job without rules. */
+clshear_status cs_rounds_check(cs_job *job, cs_error *error);
+
+/* Draws rounds until a rule ends the job, or all samples are drawn. The job must have a rule. */
+clshear_status cs_rounds_run(cs_job *job, cs_pass *pass, cs_error *error);
+
+/* The states of pixels `first` ... , with what all rounds have drawn for them. */
+clshear_status cs_rounds_read(const cs_job *job, size_t first, size_t count, cs_pixel *pixels,
+                              cs_error *error);
+
+/* What was promised, reached and left, in the metadata. */
+clshear_status cs_rounds_describe(const cs_job *job, clshear_film *film);
+
+void cs_rounds_free(cs_job *job);
+
+#endif

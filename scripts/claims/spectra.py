@@ -1,0 +1,97 @@
+"""Rows on the spectra of samplers. Power is 1 for random points."""
+import math
+import statistics
+
+from measure import clshear, interval, power, spectra
+from rows import group, row
+
+
+
+def sinc2(x):
+    return 1.0 if x == 0 else (math.sin(math.pi * x) / (math.pi * x)) ** 2
+
+
+def over_closed_form(tables, column, radii, form):
+    """Mean ratio of measured to expected power over radii."""
+    return interval([statistics.fmean(float(r[column]) / form(int(r['radius'])) for r in rows
+                                      if int(r['radius']) in radii) for rows in tables])
+
+
+@group
+def planar():
+    words = 'spectrum --n 1024 --sets 40 --projection xy'
+    random = spectra('--sampler random --n 1024 --sets 40')
+    yield row('random-white', 'random points are white', '1', power(random, 'mean', 8, 64),
+              (0.99, 1.01), f'clshear {words} --sampler random')
+    rooks = spectra('--sampler nrooks --n 1024 --sets 40 --direction 1,2 --resolution 512')
+    command = f'clshear {words} --sampler nrooks --direction 1,2 --resolution 512'
+    yield row('nrooks-axis', 'N-rooks: dark lines along the axes …', '→ 0',
+              power(rooks, 'along 1:0', 8, 64), (0, 0.02), command)
+    yield row('nrooks-profile', '… where the power is 1D jitter\'s, 1 - sinc²(f / N), over radii 32 to 255',
+              '1 × that', over_closed_form(rooks, 'along 1:0', range(32, 256),
+                                           lambda f: 1 - sinc2(f / 1024)), 1, command)
+    yield row('nrooks-elsewhere', '… and white elsewhere', '1', power(rooks, 'along 1:2', 8, 64),
+              (0.99, 1.01), command)
+    jittered = spectra('--sampler jittered --n 1024 --sets 40')
+    yield row('jittered-centre', 'jittered: a dark centre; power on the diagonal over 1 - sinc²(x / 32) sinc²(y / 32), '
+              'radii 2 to 24', '1 × that',
+              over_closed_form(jittered, 'along 1:1', range(2, 25), on_diagonal), 1,
+              f'clshear {words} --sampler jittered')
+    mj = spectra('--sampler mj --n 1024 --sets 40')
+    command = f'clshear {words} --sampler mj'
+    yield row('mj-cross', 'multi-jittered, XY: the cross, radii 8 to 64 along x', '→ 0',
+              power(mj, 'along 1:0', 8, 64), (0, 0.02), command)
+    yield row('mj-centre', '… and the dark centre, radii 1 to 8 on the diagonal', '≪ 1',
+              power(mj, 'along 1:1', 1, 8), (0, 0.2), command)
+    yield row('mj-outside', '… and white outside both, radii 48 to 64 on the diagonal', '1',
+              power(mj, 'along 1:1', 48, 64), (0.95, 1.05), command)
+
+
+def on_diagonal(radius):
+    """Closed form of jittering in 32 x 32 strata at the frequency next to the diagonal."""
+    f = round(radius / math.sqrt(2.0))
+    return 1.0 - sinc2(f / 32.0) ** 2
+
+
+@group
+def blue_noise():
+    for sampler, count, low, high, expected, words in [
+            ('poisson', 1024, 1, 8, (0.02, 0.2), 'some power'), ('ccvt', 144, 1, 3, (0, 0.02), '→ 0')]:
+        tables = spectra(f'--sampler {sampler} --n {count} --sets 64 --fresh-sets --resolution 64')
+        yield row(f'{sampler}-centre', f'{sampler}: power left in the centre, radii {low} to {high}',
+                  words, power(tables, 'mean', low, high), expected,
+                  f'clshear spectrum --sampler {sampler} --n {count} --sets 64 --fresh-sets --resolution 64')
+
+
+@group
+def pairs():
+    base = '--sampler mj --n 1024 --sets 40 --direction 1,3'
+    plain = spectra(f'{base} --projection xu')
+    command = f'clshear spectrum {base} --projection xu'
+    yield row('xu-axes', 'multi-jittered pairs, XU: hairlines along the axes …', '→ 0',
+              power(plain, 'along 1:0', 8, 64), (0, 0.02), command)
+    yield row('xu-slant', '… which miss the line of an integrand at a slant, ω_u = 3 ω_x', '1',
+              power(plain, 'along 1:3', 8, 64), (0.97, 1.03), command)
+    for plane in ('xu', 'yv'):
+        tables = spectra(f'{base} --projection {plane} --shear-px 3')
+        yield row(f'{plane}-sheared', f'sheared by 3 pixels, those of {plane.upper()} lie on it', '→ 0',
+                  power(tables, 'along 1:3', 8, 64), (0, 0.03),
+                  f'clshear spectrum {base} --projection {plane} --shear-px 3')
+    for plane in ('xv', 'yu'):
+        tables = spectra(f'{base} --projection {plane} --shear-px 3')
+        yield row(f'{plane}-white', f'no others are sheared: {plane.upper()} stays white on that line',
+                  '1', power(tables, 'along 1:3', 8, 64), (0.97, 1.03),
+                  f'clshear spectrum {base} --projection {plane} --shear-px 3')
+
+
+def pictures(folder, work, mosaic):
+    """Planes of power, and profiles along directions."""
+    names = []
+    for sampler, plane, more in [('nrooks', 'xy', ''), ('jittered', 'xy', ''), ('mj', 'xy', ''),
+                                 ('mj', 'xu', ''), ('mj', 'xu', '--shear-px 3')]:
+        names.append(str(work / f'spectrum-{len(names)}.png'))
+        clshear(f'spectrum --sampler {sampler} --n 256 --projection {plane} --sets 400 --resolution 128 '
+                f'{more} --out {names[-1]}')
+    mosaic(names, '5x1', folder / 'spectra.png', ['--resize:filter=box', '1312x256'])
+    clshear('spectrum --sampler mj --n 1024 --projection xu --shear-px 3 --direction 1,3 --sets 400 '
+            f'--plot {folder}/profiles.png')

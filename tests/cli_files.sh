@@ -1,0 +1,88 @@
+#!/bin/bash
+# What becomes of files when a render is interrupted, and where there is no room; progress.
+# shellcheck source=tests/cli_support.sh
+. "$(dirname "$0")/cli_support.sh"
+
+# Progress: a line per 10 % in a pipe, the last one 100 %.
+output=$("$program" "$cornell" --width 64 --height 64 --spp 256 --out g.exr 2>&1 >/dev/null)
+[ "$(echo "$output" | grep -c ' %')" -le 11 ] || wrong "too many lines of progress"
+case $output in *"100 %"*) ;; *) wrong "never at 100 %: $output" ;; esac
+
+# On a narrow terminal, no longer than it is wide.
+output=$(script -qec "stty cols 20; '$program' '$cornell' --width 64 --height 64 --spp 256 --out g.exr" /dev/null)
+case $output in *"100 %"*) ;; *) wrong "terminal: $output" ;; esac
+longest=$(echo "$output" | tr '\r' '\n' | awk '/ %/ && length > most { most = length } END { print most }')
+[ "$longest" -le 19 ] || wrong "a line of progress has $longest columns of 20"
+
+# Ctrl-C, kill and a closed terminal: what was done is written, with true counts, and the exit code
+# says so.
+for signal in INT:130 TERM:143 HUP:129; do
+    rm -f h.exr h.txt
+    "$program" "$cornell" --spp 200000 --width 64 --height 64 --out h.exr 2>h.txt &
+    child=$!
+    for _ in $(seq 300); do grep -q '10 %' h.txt 2>/dev/null && break; sleep 0.1; done
+    kill -"${signal%:*}" $child
+    wait $child
+    [ $? -eq "${signal#*:}" ] || wrong "$signal: exit code"
+    grep -q "h.exr holds the samples so far" h.txt || wrong "$signal: $(cat h.txt)"
+    [ -s h.exr ] || wrong "$signal: no picture"
+    oiiotool --info h.exr | grep -q "64 x   64, 13 channel" || wrong "$signal: bad file"
+done
+
+# SIGUSR1 asks for the picture so far; the render goes on, and its checkpoint is gone when it is done.
+rm -f h.exr h.txt
+"$program" "$cornell" --spp 4000 --width 64 --height 64 --checkpoint state --every 0 --out h.exr 2>h.txt &
+child=$!
+for _ in $(seq 300); do grep -q '10 %' h.txt 2>/dev/null && break; sleep 0.1; done
+[ -s state ] || wrong "no checkpoint"
+kill -USR1 $child
+wait $child
+[ $? -eq 0 ] || wrong "USR1: exit code"
+grep -q "going on; h.exr holds the samples so far" h.txt || wrong "USR1: $(cat h.txt)"
+case $(oiiotool --info -v h.exr) in *interrupted*) wrong "USR1: the picture is not complete" ;; esac
+[ ! -e state ] || wrong "the checkpoint is left"
+
+# Checkpoints that cannot be written, or are of something else.
+refuse 1 "resume: needs a checkpoint" -- "$cornell" --quiet --resume
+refuse 1 "--checkpoint no/such/state: folder no/such/ cannot be written" -- "$cornell" --quiet --checkpoint no/such/state
+echo "not a checkpoint" >state
+refuse 1 "state: is there already" -- "$cornell" --quiet --checkpoint state
+refuse 1 "state: is no whole checkpoint" -- "$cornell" --quiet --checkpoint state --resume
+rm -f state
+
+# Before the first samples there is nothing to keep: the signal ends the program at once.
+"$program" "$cornell" --spp 1 --width 6000 --height 6000 --out never.exr 2>h.txt &
+child=$!
+sleep 1.5
+kill -TERM $child
+wait $child
+[ $? -eq 143 ] || wrong "early interrupt: exit code, $(cat h.txt)"
+[ ! -e never.exr ] || wrong "early interrupt: a picture"
+
+# A link is written through, also one that leads to no file yet.
+mkdir -p linked
+ln -s linked/new.exr dangling.exr
+expect 0 "" -- "$cornell" $small --quiet --out dangling.exr
+[ -L dangling.exr ] && [ -s linked/new.exr ] || wrong "a dangling link is not written through"
+
+# What nohup starts goes on after a hangup.
+nohup "$program" "$cornell" --spp 4000 --width 64 --height 64 --quiet --out nohup.exr 2>h.txt &
+child=$!
+sleep 1
+kill -HUP $child
+wait $child
+[ $? -eq 0 ] || wrong "nohup: exit code, $(cat h.txt)"
+
+# A full disk: one line, exit 1, the old picture untouched and nothing left behind.
+echo old >kept.exr
+(
+    ulimit -f 2048 # enough for compiled kernels, too little for the picture
+    trap '' XFSZ
+    "$program" "$cornell" --spp 4 --quiet --out kept.exr >full.txt 2>&1
+)
+[ $? -eq 1 ] || wrong "full disk: exit code"
+grep -q "kept.exr: cannot be written" full.txt || wrong "full disk: $(cat full.txt)"
+[ "$(cat kept.exr)" = old ] || wrong "full disk: the old file is gone"
+[ -z "$(ls ./*.part* 2>/dev/null)" ] || wrong "full disk: rest left behind"
+
+finish

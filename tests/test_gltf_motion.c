@@ -1,0 +1,163 @@
+/* Animations of glTF: nodes, skins and morph targets, as vertices at times; and other scenes that
+ * move between two files. */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "import/import.h"
+
+enum {
+    FLOATS = 60,
+    BYTES = 4 * FLOATS + 12,
+    FRAMES = 10
+};
+
+static const float root_half = 0.70710678f;
+
+/* Places of the numbers in the buffer: a triangle, times, rotations, weights, a morph target, a
+ * joint's cubic path, weights of joints; then the joints, as bytes. */
+static void fill(unsigned char *bytes)
+{
+    const float numbers[FLOATS] = {
+        1, 0, 0, 0, 1,    0,         0, 0,         1, /* 0: positions */
+        0, 1,                                         /* 9: times, s */
+        0, 0, 0, 1, 0,    root_half, 0, root_half,    /* 11: rotations, 0 and 90 degrees */
+        0, 1,                                         /* 19: weights of the target */
+        0, 0, 2, 0, 0,    2,         0, 0,         2, /* 21: the target */
+        0, 0, 0, 0, 0,    0,         0, 0,         0, 0, 0, 0,
+        3, 0, 0, 0, 0,    0,                                    /* 30: tangent, place, tangent */
+        1, 0, 0, 0, 0.5f, 0.5f,      0, 0,         0, 1, 0, 0}; /* 48: weights of the joints */
+    const unsigned char joints[12] = {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
+    memcpy(bytes, numbers, sizeof numbers);
+    memcpy(bytes + sizeof numbers, joints, sizeof joints);
+}
+
+static void encode(const unsigned char *bytes, size_t size, char *text)
+{
+    static const char letters[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size; i += 3) { /* sizes are multiples of 3 */
+        const unsigned word = (unsigned)bytes[i] << 16 | (unsigned)bytes[i + 1] << 8 | bytes[i + 2];
+        for (unsigned k = 0; k < 4; k++)
+            *text++ = letters[word >> (18 - 6 * k) & 63];
+    }
+    *text = '\0';
+}
+
+static const char *animated_file(void)
+{
+    static const char head[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1,2,3,4]}],\"nodes\":["
+        "{\"mesh\":0},{\"mesh\":1},{\"mesh\":2,\"skin\":0,\"translation\":[9,9,9]},{},{}],"
+        "\"skins\":[{\"joints\":[3,4]}],\"meshes\":["
+        "{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]},"
+        "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":4}]}]},"
+        "{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":7,\"WEIGHTS_0\":6}}]}],"
+        "\"animations\":[{\"samplers\":[{\"input\":1,\"output\":2},{\"input\":1,\"output\":3},"
+        "{\"input\":1,\"output\":5,\"interpolation\":\"CUBICSPLINE\"}],\"channels\":["
+        "{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"rotation\"}},"
+        "{\"sampler\":1,\"target\":{\"node\":1,\"path\":\"weights\"}},"
+        "{\"sampler\":2,\"target\":{\"node\":4,\"path\":\"translation\"}}]}],\"accessors\":[";
+    static const struct {
+        int offset, count;
+        const char *type;
+    } accessors[] = {{0, 3, "VEC3"},  {9, 2, "SCALAR"}, {11, 2, "VEC4"}, {19, 2, "SCALAR"},
+                     {21, 3, "VEC3"}, {30, 6, "VEC3"},  {48, 3, "VEC4"}, {60, 3, "VEC4"}};
+    unsigned char bytes[BYTES];
+    char data[2 * BYTES], text[8192];
+    fill(bytes);
+    encode(bytes, sizeof bytes, data);
+    size_t used = (size_t)snprintf(text, sizeof text, "%s", head);
+    for (size_t i = 0; i < sizeof accessors / sizeof *accessors; i++)
+        used += (size_t)snprintf(
+            text + used, sizeof text - used,
+            "%s{\"bufferView\":0,\"byteOffset\":%d,\"componentType\":%d,\"count\":%d,\"type\":"
+            "\"%s\"}",
+            i > 0 ? "," : "", 4 * accessors[i].offset, i == 7 ? 5121 : 5126, accessors[i].count,
+            accessors[i].type);
+    snprintf(text + used, sizeof text - used,
+             "],\"bufferViews\":[{\"buffer\":0,\"byteLength\":%d}],\"buffers\":[{\"byteLength\":%d,"
+             "\"uri\":\"data:application/octet-stream;base64,%s\"}]}",
+             BYTES, BYTES, data);
+    return test_file("animated.gltf", text);
+}
+
+/* The nine vertices at a time, 0 to 1 s, as glTF 2.0 (3.11 and appendix C) has them. */
+static void expected_places(double time, double places[9][3])
+{
+    const double angle = 0.5 * 3.14159265358979 * time;
+    const double path = 3.0 * (3.0 * time * time - 2.0 * time * time * time);
+    for (int i = 0; i < 3; i++)
+        for (int axis = 0; axis < 3; axis++) {
+            const double base = i == axis ? 1.0 : 0.0;
+            places[3 + i][axis] = base + (axis == 2 ? 2.0 * time : 0.0);
+            places[6 + i][axis] = base + (axis == 0 ? 0.5 * i * path : 0.0);
+        }
+    const double turned[3][3] = {
+        {cos(angle), 0, -sin(angle)}, {0, 1, 0}, {sin(angle), 0, cos(angle)}};
+    memcpy(places, turned, sizeof turned);
+}
+
+/* Ten frames of the animation, vertex by vertex; beyond the last key it stands still. */
+static void vertices_are_where_the_file_has_them(void **state)
+{
+    (void)state;
+    const char *path = animated_file();
+    for (int frame = 0; frame < FRAMES; frame++) {
+        const cs_log log = {0};
+        cs_import_options options = {.smooth_degrees = -1.0, .is_played = 1};
+        cs_error error = {{0}};
+        cs_scene scene;
+        double places[9][3];
+        options.time_s = frame / 8.0;
+        cs_scene_init(&scene);
+        if (cs_import_here(path, &options, NULL, &scene, &log, &error) != CLSHEAR_OK)
+            fail_msg("%s", error.message);
+        expected_places(fmin(options.time_s, 1.0), places);
+        assert_int_equal(scene.positions.count, 9);
+        for (int i = 0; i < 9; i++)
+            for (int axis = 0; axis < 3; axis++)
+                assert_near(((const float(*)[3])scene.positions.items)[i][axis], places[i][axis],
+                            1e-5);
+        cs_scene_free(&scene);
+    }
+}
+
+/* A file that moves between two files of the same mesh shows what is between them; another mesh is
+ * refused. */
+static void two_files_are_two_ends(void **state)
+{
+    (void)state;
+    static const char text[] = "v %g 0 0\nv %g 1 0\nv %g 0 1\nf 1 2 3\n%s";
+    char from[128], to[128], other[128];
+    snprintf(from, sizeof from, text, 0.0, 0.0, 0.0, "");
+    snprintf(to, sizeof to, text, 1.0, 2.0, 3.0, "");
+    snprintf(other, sizeof other, text, 0.0, 0.0, 0.0, "v 5 5 5\nf 1 2 4\n");
+    const char *path = test_file("from.obj", from);
+    clshear_context *context = test_context();
+    clshear_settings *settings = test_settings(NULL, 8, 8, 16);
+    clshear_scene *scene = NULL;
+    test_set(settings, CLSHEAR_TO, "%s", test_file("to.obj", to));
+    test_set(settings, CLSHEAR_EYE, "0,0.3,5");
+    test_set(settings, CLSHEAR_TARGET, "0,0.3,0");
+    test_ok(clshear_scene_load(context, path, settings, &scene));
+    clshear_film *film = test_render(scene, settings);
+    assert_non_null(clshear_film_channel(film, "Velocity.X"));
+    clshear_film_free(film);
+    clshear_scene_free(scene);
+    test_set(settings, CLSHEAR_TO, "%s", test_file("other.obj", other));
+    test_refused(clshear_scene_load(context, path, settings, &scene), CLSHEAR_BAD_FILE,
+                 "export the same mesh for both");
+    clshear_settings_free(settings);
+    clshear_context_free(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(vertices_are_where_the_file_has_them),
+        cmocka_unit_test(two_files_are_two_ends),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
