@@ -19,6 +19,7 @@
 #define CLSHEAR_DEVICE_WIDE_MAP_H
 
 #include "camera_sample.h"
+#include "disk_fibre.h"
 #include "fibre.h"
 
 #include "fp_contract_off.h"
