@@ -6,7 +6,8 @@
  * (docs/method.md). `toroidal` slides points along the fibres and wraps them around (Singh & Jarosz
  * 2017, section 5). `equal area` maps without wrapping, by Rosenblatt's transform: the fibre
  * coordinate x + s * u depends on the tuple's first pair alone, the second pair moves along the
- * fibre.
+ * fibre. Where blurs are wide, disks and polygons have a quicker map that is nearly as good
+ * (wide_map.h).
  *
  * Programs call cs_shear. Those that map several packets at once, which is faster for a disk, call
  * cs_shear_alone for each of them and then cs_shear_together once. */
@@ -18,6 +19,7 @@
 #include "disk_map.h"
 #include "fibre.h"
 #include "packet.h"
+#include "wide_map.h"
 
 #include "fp_contract_off.h"
 
@@ -95,20 +97,12 @@ static inline cs_camera_sample cs_unsheared(cs_vfloat a, cs_vfloat b, cs_vfloat 
                                             const cs_optics *optics, cs_optics_table table)
 {
     cs_camera_sample point;
+    cs_lens_point(c, d, optics, table, &point.u, &point.v);
     point.x = a;
     point.y = b;
-    point.u = c - 0.5f;
-    point.v = d - 0.5f;
-    if (optics->marginal == CS_MARGINAL_DISK) cs_disk_from_square(&point.u, &point.v);
     if (optics->has_closed_form) return point;
     point.x = cs_filter_quantile(optics, table, a) + 0.5f;
     point.y = cs_filter_quantile(optics, table, b) + 0.5f;
-    if (optics->marginal == CS_MARGINAL_DISK || optics->marginal == CS_MARGINAL_UNIFORM)
-        return point;
-    cs_marginal across = cs_marginal_across(optics, table);
-    point.u = cs_marginal_quantile(&across, c);
-    cs_chord chord = cs_chord_at(optics, table, &across, point.u);
-    point.v = chord.centre + chord.length * cs_marginal_quantile(&chord.marginal, d);
     return point;
 }
 
@@ -153,11 +147,12 @@ static inline cs_camera_sample cs_toroidal(cs_vfloat a, cs_vfloat b, cs_vfloat c
 }
 
 /* Whether cs_shear_together does the mapping, which is so for the equal-area shear of a disk with a
- * box filter one pixel wide; otherwise cs_shear_alone does it. */
-static inline int cs_shears_together(cs_u32 mode, const cs_optics *optics)
+ * box filter one pixel wide, unless the blur is wide; otherwise cs_shear_alone does it. */
+static inline int cs_shears_together(cs_u32 mode, const cs_optics *optics, cs_f32 shear)
 {
     return mode == CS_SHEAR_EQUAL_AREA && optics->has_closed_form &&
-           optics->marginal == CS_MARGINAL_DISK;
+           optics->marginal == CS_MARGINAL_DISK &&
+           !cs_is_wide(optics, cs_blur_of(shear, optics->squeeze));
 }
 
 /* Keeps a point inside the width of the filter, which rounding may leave. */
@@ -179,11 +174,13 @@ static inline cs_camera_sample cs_shear_alone(cs_camera_sample p, cs_u32 mode,
                                               cs_f32 shear)
 {
     cs_blur blur = cs_blur_of(shear, optics->squeeze);
-    if (cs_shears_together(mode, optics)) return p;
+    if (cs_shears_together(mode, optics, shear)) return p;
     if (mode == CS_SHEAR_NONE)
         p = cs_unsheared(p.x, p.y, p.u, p.v, optics, table);
     else if (mode == CS_SHEAR_TOROIDAL)
         p = cs_toroidal(p.x, p.y, p.u, p.v, optics, table, shear);
+    else if (cs_is_wide(optics, blur))
+        p = cs_wide_map(p.x, p.y, p.u, p.v, optics, table, blur);
     else if (!optics->has_closed_form)
         p = cs_equal_area_any(p.x, p.y, p.u, p.v, optics, table, blur);
     else
@@ -192,15 +189,18 @@ static inline cs_camera_sample cs_shear_alone(cs_camera_sample p, cs_u32 mode,
     return p;
 }
 
-/* Maps `count` packets in place, if cs_shears_together, and otherwise leaves them as cs_shear_alone
- * made them. `count` is 1 to CS_TOGETHER; packet k has the shear shears[k]. */
+/* Maps those of `count` packets in place that cs_shears_together, and leaves the others as
+ * cs_shear_alone made them. `count` is 1 to CS_TOGETHER; packet k has the shear shears[k]. */
 static inline void cs_shear_together(cs_camera_sample *points, const cs_f32 *shears, int count,
                                      cs_u32 mode, const cs_optics *optics)
 {
-    if (!cs_shears_together(mode, optics)) return;
-    cs_disk_map(points, shears, count, optics->squeeze);
-    for (int k = 0; k < count; k++)
-        cs_clamp_to_filter(optics, points + k);
+    for (int first = 0, end = 0; first < count; first = end + 1) {
+        for (end = first; end < count; end++)
+            if (!cs_shears_together(mode, optics, shears[end])) break;
+        if (end > first) cs_disk_map(points + first, shears + first, end - first, optics->squeeze);
+        for (int k = first; k < end; k++)
+            cs_clamp_to_filter(optics, points + k);
+    }
 }
 
 /* Maps the tuples (a, b, c, d) of one packet to points of film and lens. The other arguments are
