@@ -49,7 +49,7 @@ static double mean_of(clshear_scene *scene, clshear_settings *settings, double *
 
 /* Irradiance at the origin, facing up, from a polygon of radiance 1 above the horizon (Lambert
  * 1760; Baum, Rushmeier & Winget 1989). */
-static double polygon_irradiance(const double (*corners)[3], int count)
+static double polygon_irradiance(double (*corners)[3], int count)
 {
     double sum = 0.0;
     for (int i = 0; i < count; i++) {
@@ -186,6 +186,7 @@ static void channels_know_shapes(void **state)
         test_set_number(settings, CLSHEAR_FOCAL_DISTANCE, 3.5);
         test_set_number(settings, CLSHEAR_BOUNCES, bounces);
         test_set(settings, CLSHEAR_SPHERE, "0,5,0,1,3,2,1");
+        test_set(settings, CLSHEAR_ORACLE, "centre");
         test_set(settings, CLSHEAR_AOV, "albedo,normal,position,depth,coverage,emission");
         add_quad(settings, corner, right, up);
         clshear_film *film = test_render(scene, settings);

@@ -14,27 +14,26 @@ cs_pass cs_job_pass(const cs_job *job)
 {
     const cs_lighting *lighting = &job->lighting;
     const cs_material_needs *needs = &job->scene->device_scene.needs;
-    return (cs_pass){
-        .scene = job->scene,
-        .launch = {.camera = job->camera,
-                   .motion = job->motion,
-                   .seed = job->seed,
-                   .image_width = (cs_u32)job->width,
-                   .crop_x = (cs_u32)job->window[0],
-                   .crop_y = (cs_u32)job->window[2],
-                   .crop_width = (cs_u32)(job->window[1] - job->window[0]),
-                   .crop_height = (cs_u32)(job->window[3] - job->window[2]),
-                   .shear_mode = cs_shear_mode(job->shear_kind),
-                   .lights = lighting->count,
-                   .area_lights = cs_area_lights(job),
-                   .see_through = (cs_u32)needs->see_through,
-                   .bounces = (cs_u32)cs_integer(&job->settings, BOUNCES),
-                   .clamp = (float)cs_number(&job->settings, CLAMP)},
-        .optics = job->optics_table,
-        .lighting = lighting,
-        .features = job->features,
-        .start_s = cs_now_s(),
-        .rate = 1e5};
+    return (cs_pass){.scene = job->scene,
+                     .launch = {.camera = job->camera,
+                                .motion = job->motion,
+                                .seed = job->seed,
+                                .image_width = (cs_u32)job->width,
+                                .crop_x = (cs_u32)job->window[0],
+                                .crop_y = (cs_u32)job->window[2],
+                                .crop_width = (cs_u32)(job->window[1] - job->window[0]),
+                                .crop_height = (cs_u32)(job->window[3] - job->window[2]),
+                                .shear_mode = cs_shear_mode(job->shear_kind),
+                                .lights = lighting->count,
+                                .area_lights = cs_area_lights(job),
+                                .see_through = (cs_u32)needs->see_through,
+                                .bounces = (cs_u32)cs_integer(&job->settings, BOUNCES),
+                                .clamp = (float)cs_number(&job->settings, CLAMP)},
+                     .optics = job->optics_table,
+                     .lighting = lighting,
+                     .features = job->features,
+                     .start_s = cs_now_s(),
+                     .rate = 1e5};
 }
 
 /* A job in progress: what its pass calls between launches. */
@@ -102,8 +101,9 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
         pass.total += (double)cs_job_patterns(job) * (double)job->batches[b].pixel_count *
                       job->batches[b].pattern.grid.count;
     CS_TRY(cs_checkpoint_load(job, &pass, error));
-    status = cs_stop_has_rules(&job->stop) ? cs_rounds_run(job, &pass, error)
-                                           : run_replicates(job, &pass, error);
+    status = job->adaptive.begin > 0         ? cs_adaptive_run(job, &pass, error)
+             : cs_stop_has_rules(&job->stop) ? cs_rounds_run(job, &pass, error)
+                                             : run_replicates(job, &pass, error);
     if (status == CS_CANCELLED) {
         const clshear_status saved = cs_checkpoint_save(job, &pass, 1, error);
         if (saved != CLSHEAR_OK) status = saved;
