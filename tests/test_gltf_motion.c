@@ -146,6 +146,11 @@ static void two_files_are_two_ends(void **state)
     assert_non_null(clshear_film_channel(film, "Velocity.X"));
     clshear_film_free(film);
     clshear_scene_free(scene);
+    clshear_settings_unset(settings, CLSHEAR_TO);
+    test_set(settings, CLSHEAR_SHUTTER, "0,1");
+    test_ok(clshear_scene_load(context, path, settings, &scene));
+    assert_non_null(strstr(test_warnings(), "nothing in it moves"));
+    clshear_scene_free(scene);
     test_set(settings, CLSHEAR_TO, "%s", test_file("other.obj", other));
     test_refused(clshear_scene_load(context, path, settings, &scene), CLSHEAR_BAD_FILE,
                  "export the same mesh for both");

@@ -272,6 +272,20 @@ static void texel_direction(double x, double y, double rotation_deg, float *dire
     direction[2] = (float)(-sin(polar) * cos(longitude));
 }
 
+static void look(const cs_lat_long *image, const float *direction, float *radiance)
+{
+    float x, y;
+    cs_lat_long_place(image, direction, &x, &y);
+    cs_lat_long_radiance(image, x, y, radiance);
+}
+
+static float density_of(const cs_lat_long *image, const float *direction)
+{
+    float x, y;
+    cs_lat_long_place(image, direction, &x, &y);
+    return cs_lat_long_density(image, x, y);
+}
+
 static void texels_are_where_they_should_be(void **state)
 {
     static const double turns[] = {0.0, 90.0, -133.0};
@@ -282,7 +296,7 @@ static void texels_are_where_they_should_be(void **state)
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             float direction[3], radiance[3];
             texel_direction(i % WIDTH, i / WIDTH, turns[k], direction);
-            cs_lat_long_radiance(&image, direction, radiance);
+            look(&image, direction, radiance);
             for (int c = 0; c < 3; c++)
                 assert_near(radiance[c], image.texels[3 * i + c], 1e-4);
         }
@@ -317,8 +331,8 @@ static void directions_follow_their_density(void **state)
                         (y + 0.5) * HEIGHT / (DOWN * STEPS) - 0.5, 37.0, direction);
         const double top = cos(pi * y / (DOWN * STEPS)),
                      bottom = cos(pi * (y + 1) / (DOWN * STEPS));
-        const double part = (double)cs_lat_long_density(&image, direction) * (top - bottom) * 2.0 *
-                            pi / (ACROSS * STEPS);
+        const double part =
+            (double)density_of(&image, direction) * (top - bottom) * 2.0 * pi / (ACROSS * STEPS);
         expected[y / STEPS * ACROSS + x / STEPS] += part * DRAWS;
         total += part;
     }
@@ -328,9 +342,8 @@ static void directions_follow_their_density(void **state)
         const float density = cs_lat_long_draw(&image, (float)(cs_key(1, i) >> 8) * 0x1p-24f,
                                                (float)(cs_key(2, i) >> 8) * 0x1p-24f, direction);
         cs_lat_long_place(&image, direction, &x, &y);
-        if (i < 1000)
-            assert_near(density, cs_lat_long_density(&image, direction), 1e-3 * (double)density);
-        seen[cs_cell_at(y, DOWN) * ACROSS + cs_cell_at(x, ACROSS)] += 1.0;
+        if (i < 1000) assert_near(density, density_of(&image, direction), 1e-3 * (double)density);
+        seen[cs_cell_at(y * DOWN, DOWN) * ACROSS + cs_cell_at(x * ACROSS, ACROSS)] += 1.0;
     }
     for (int i = 0; i < ACROSS * DOWN; i++) {
         if (expected[i] < 10.0) continue;
@@ -433,7 +446,7 @@ static void image_around_a_floor(void **state)
         const float direction[3] = {(float)(sqrt(s) * cos(a)), (float)sqrt(1.0 - s),
                                     (float)(sqrt(s) * sin(a))};
         float radiance[3];
-        cs_lat_long_radiance(&image, direction, radiance);
+        look(&image, direction, radiance);
         irradiance += pi * (double)radiance[0] / (STEPS * STEPS);
     }
     cs_environment_free(&made);

@@ -247,6 +247,63 @@ static void cameras_are_chosen(void **state)
     clshear_scene_free(scene);
 }
 
+/* A triangle of 3DS: chunks of a number, a length and what is in them. */
+static const char *write_3ds(const float corners[3][3])
+{
+    static const struct {
+        uint16_t number;
+        uint32_t size;
+    } chunks[] = {{0x4d4d, 86}, {0x3d3d, 80}, {0x4000, 74}, {0x4100, 66}};
+    static const uint16_t face[] = {1, 0, 1, 2, 0}, count = 3;
+    unsigned char bytes[86] = {0};
+    size_t used = 0;
+    for (int i = 0; i < 4; i++) {
+        memcpy(bytes + used, &chunks[i].number, 2);
+        memcpy(bytes + used + 2, &chunks[i].size, 4);
+        used += 6;
+        if (chunks[i].number == 0x4000) bytes[used] = 'a'; /* the name of the object, and a zero */
+        if (chunks[i].number == 0x4000) used += 2;
+    }
+    memcpy(bytes + used, &(uint16_t){0x4110}, 2);
+    memcpy(bytes + used + 2, &(uint32_t){44}, 4);
+    memcpy(bytes + used + 6, &count, 2);
+    memcpy(bytes + used + 8, corners, 36);
+    used += 44;
+    memcpy(bytes + used, &(uint16_t){0x4120}, 2);
+    memcpy(bytes + used + 2, &(uint32_t){16}, 4);
+    memcpy(bytes + used + 6, face, 10);
+    return write_file("one.3ds", bytes, sizeof bytes);
+}
+
+/* +Z is up by the format's convention, and coordinates are those of the file. */
+static void up_is_z_in_3ds(void **state)
+{
+    (void)state;
+    static const float corners[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}};
+    static const double ups[2][3] = {{0, 1, 0}, {0, 0, 1}};
+    clshear_scene *scene = load(write_3ds(corners), NULL);
+    clshear_scene_info info = {.struct_size = sizeof info};
+    clshear_scene_describe(scene, &info);
+    for (int axis = 0; axis < 3; axis++) {
+        assert_true(info.low[axis] == 0.0);
+        assert_true(info.high[axis] == axis + 1.0);
+    }
+    for (int z_up = -1; z_up < 2; z_up++) { /* -1: as the format has it */
+        clshear_settings *settings = NULL;
+        double up[3];
+        size_t count = 0;
+        ok(clshear_settings_create(&settings));
+        ok(clshear_settings_set_text(settings, CLSHEAR_ORBIT, "20,0"));
+        if (z_up >= 0) ok(clshear_settings_set_integer(settings, CLSHEAR_Z_UP, z_up));
+        ok(clshear_camera_complete(scene, settings));
+        ok(clshear_settings_get_numbers(settings, CLSHEAR_UP, up, 3, &count));
+        for (int axis = 0; axis < 3; axis++)
+            assert_true(fabs(up[axis] - ups[z_up != 0][axis]) < 1e-6);
+        clshear_settings_free(settings);
+    }
+    clshear_scene_free(scene);
+}
+
 /* Two planes that meet at 90 degrees: beside their edge, the smooth normal faces the light. */
 static void smoothness_is_a_setting(void **state)
 {
@@ -271,7 +328,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(maps_beyond_their_edges), cmocka_unit_test(vertices_have_colours),
         cmocka_unit_test(far_scenes_look_alike),   cmocka_unit_test(cameras_are_chosen),
-        cmocka_unit_test(smoothness_is_a_setting),
+        cmocka_unit_test(up_is_z_in_3ds),          cmocka_unit_test(smoothness_is_a_setting),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
 }

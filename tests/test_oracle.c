@@ -97,6 +97,8 @@ static void without_evidence_the_prior_stays(void **state)
         assert_int_equal(rules[i], CS_RULE_MEDIAN);
 }
 
+static const cs_f32 still[PIXELS]; /* shears of a picture in focus */
+
 /* Allocation keeps the total and the limits, and more variance gets more samples: a block of pixels
  * with 1000 times the variance gets about 1000^0.4 = 16 times the samples. */
 static void samples_follow_variance(void **state)
@@ -111,8 +113,10 @@ static void samples_follow_variance(void **state)
         variance[i] = block ? 1.0f : 1e-3f;
         intensity[i] = 1.0f;
     }
-    const cs_pilot_picture pilot = {variance, intensity, SIDE, SIDE, 16, 4};
-    assert_int_equal(cs_allocate_samples(&pilot, 1000, 1 << 20, samples, &error), CLSHEAR_OK);
+    const cs_pilot_picture pilot = {variance, intensity, variance, intensity, still,
+                                    SIDE,     SIDE,      16,       4};
+    assert_int_equal(cs_allocate_samples(&pilot, &(cs_range){64, 1000, 1 << 20}, samples, &error),
+                     CLSHEAR_OK);
     for (cs_u32 i = 0; i < PIXELS; i++) {
         total += samples[i];
         assert_int_equal(samples[i] & (samples[i] - 1), 0);
@@ -130,28 +134,28 @@ static void samples_follow_variance(void **state)
 static void allocation_keeps_limits(void **state)
 {
     static const struct {
-        cs_u32 mean, limit, least, most;
-    } cases[] = {{1, 1 << 20, 1, 1},           {2, 1 << 20, 2, 2},
-                 {3, 1 << 20, 2, 32},          {100, 1 << 20, 8, 1024},
-                 {100000, 65536, 8192, 65536}, {1 << 20, 1 << 20, 1 << 16, 1 << 20}};
+        cs_range range;
+        cs_u32 most;
+    } cases[] = {{{1, 1, 1 << 20}, 1},           {{2, 2, 1 << 20}, 2},
+                 {{2, 3, 1 << 20}, 32},          {{8, 100, 1 << 20}, 1024},
+                 {{8192, 100000, 65536}, 65536}, {{1 << 16, 1 << 20, 1 << 20}, 1 << 20}};
     static cs_f32 variance[PIXELS], intensity[PIXELS];
     static cs_u32 samples[PIXELS];
     cs_error error;
     (void)state;
     variance[PIXELS / 2] = 1.0f;
-    const cs_pilot_picture pilot = {variance, intensity, SIDE, SIDE, 16, 4};
+    const cs_pilot_picture pilot = {variance, intensity, variance, intensity, still,
+                                    SIDE,     SIDE,      16,       4};
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         double total = 0.0;
-        assert_int_equal(
-            cs_allocate_samples(&pilot, cases[c].mean, cases[c].limit, samples, &error),
-            CLSHEAR_OK);
+        assert_int_equal(cs_allocate_samples(&pilot, &cases[c].range, samples, &error), CLSHEAR_OK);
         for (cs_u32 i = 0; i < PIXELS; i++) {
             total += samples[i];
-            assert_at_least(samples[i], cases[c].least);
+            assert_at_least(samples[i], cases[c].range.least);
             assert_at_most(samples[i], cases[c].most);
         }
-        assert_at_most(total, (double)cases[c].mean * PIXELS);
-        assert_int_equal(samples[0], cases[c].least);
+        assert_at_most(total, (double)cases[c].range.mean * PIXELS);
+        assert_int_equal(samples[0], cases[c].range.least);
         assert_int_equal(samples[PIXELS / 2], cases[c].most);
     }
 }
@@ -168,8 +172,10 @@ static void contrast_gets_samples(void **state)
         variance[i] = 1e-7f;
         intensity[i] = i % SIDE < SIDE / 2 ? 0.2f : 1.0f;
     }
-    const cs_pilot_picture pilot = {variance, intensity, SIDE, SIDE, 16, 4};
-    assert_int_equal(cs_allocate_samples(&pilot, 1000, 1 << 20, samples, &error), CLSHEAR_OK);
+    const cs_pilot_picture pilot = {variance, intensity, variance, intensity, still,
+                                    SIDE,     SIDE,      16,       4};
+    assert_int_equal(cs_allocate_samples(&pilot, &(cs_range){64, 1000, 1 << 20}, samples, &error),
+                     CLSHEAR_OK);
     for (cs_u32 y = 0; y < SIDE; y++) {
         const cs_u32 *row = samples + y * SIDE;
         assert_at_least(row[SIDE / 2 - 1], 8 * row[SIDE / 2 - 2]);

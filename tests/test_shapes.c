@@ -49,7 +49,7 @@ static double mean_of(clshear_scene *scene, clshear_settings *settings, double *
 
 /* Irradiance at the origin, facing up, from a polygon of radiance 1 above the horizon (Lambert
  * 1760; Baum, Rushmeier & Winget 1989). */
-static double polygon_irradiance(const double (*corners)[3], int count)
+static double polygon_irradiance(double (*corners)[3], int count)
 {
     double sum = 0.0;
     for (int i = 0; i < count; i++) {

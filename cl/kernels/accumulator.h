@@ -72,24 +72,4 @@ static inline void cs_accumulator_merge(CS_GLOBAL cs_pixel *pixel,
     pixel->shadow_rays += (cs_u32)cs_reduce_add(accumulator->shadow_rays);
 }
 
-/* Turns a complete pattern into one more independent estimate of the pixel. */
-static inline void cs_finish_pattern(CS_GLOBAL cs_pixel *pixel)
-{
-    cs_f32 patterns = (cs_f32)pixel->patterns;
-    for (int c = 0; c < 3; c++) {
-        cs_f32 mean = (pixel->sum[c] + pixel->carry[c]) / (cs_f32)pixel->pending;
-        cs_exact_sum means = {pixel->pattern_sum[c], pixel->pattern_carry[c]};
-        cs_f32 before = means.sum / cs_max(patterns, 1.0f);
-        cs_moments moments = {patterns, before, pixel->pattern_m2[c]};
-        pixel->pattern_m2[c] = cs_moments_add(moments, mean).m2;
-        means = cs_exact_add(means, mean);
-        pixel->pattern_sum[c] = means.sum;
-        pixel->pattern_carry[c] = means.carry;
-        pixel->sum[c] = 0.0f;
-        pixel->carry[c] = 0.0f;
-    }
-    pixel->patterns++;
-    pixel->pending = 0u;
-}
-
 #endif

@@ -2,7 +2,7 @@
 #ifndef CS_KERNELS_PIXEL_H
 #define CS_KERNELS_PIXEL_H
 
-#include "clshear/device/dialect.h"
+#include "clshear/device/stats.h"
 
 /* What one pixel has gathered. Channels are linear Rec.709 radiance. */
 typedef struct cs_pixel {
@@ -19,5 +19,25 @@ typedef struct cs_pixel {
     cs_u32 shadow_rays;
 } cs_pixel;
 CS_SHARED_WORDS(cs_pixel, 25);
+
+/* Turns a complete pattern into one more independent estimate of the pixel. */
+static inline void cs_finish_pattern(CS_GLOBAL cs_pixel *pixel)
+{
+    cs_f32 patterns = (cs_f32)pixel->patterns;
+    for (int c = 0; c < 3; c++) {
+        cs_f32 mean = (pixel->sum[c] + pixel->carry[c]) / (cs_f32)pixel->pending;
+        cs_exact_sum means = {pixel->pattern_sum[c], pixel->pattern_carry[c]};
+        cs_f32 before = means.sum / (patterns > 1.0f ? patterns : 1.0f);
+        cs_moments moments = {patterns, before, pixel->pattern_m2[c]};
+        pixel->pattern_m2[c] = cs_moments_add(moments, mean).m2;
+        means = cs_exact_add(means, mean);
+        pixel->pattern_sum[c] = means.sum;
+        pixel->pattern_carry[c] = means.carry;
+        pixel->sum[c] = 0.0f;
+        pixel->carry[c] = 0.0f;
+    }
+    pixel->patterns++;
+    pixel->pending = 0u;
+}
 
 #endif

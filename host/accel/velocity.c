@@ -71,9 +71,11 @@ static void velocities_of_range(void *user, size_t begin, size_t end)
 {
     const velocity_work *work = user;
     const size_t width = (size_t)(work->window[1] - work->window[0]);
-    for (size_t i = begin; i < end; i++)
-        work->velocities[i] = velocity_of(work, (cs_f32)work->window[0] + (cs_f32)(i % width),
-                                          (cs_f32)work->window[2] + (cs_f32)(i / width));
+    for (size_t i = begin; i < end; i++) {
+        const size_t row = i / width, column = i - row * width;
+        work->velocities[i] = velocity_of(work, (cs_f32)work->window[0] + (cs_f32)column,
+                                          (cs_f32)work->window[2] + (cs_f32)row);
+    }
 }
 
 void cs_accel_velocity(const cs_accel *accel, const cs_shutter_cameras *cameras, const int *window,

@@ -47,6 +47,17 @@ static merge_kind kind_of(const char *name)
     return MEAN;
 }
 
+/* Whether all pixels have a number of samples that a render can have. */
+static int counts_samples(const clshear_film *film)
+{
+    const float *samples = cs_film_channel(film, "Samples"), most = 2e9f;
+    const size_t pixels = (size_t)film->info.width * (size_t)film->info.height;
+    size_t good = 0;
+    for (size_t i = 0; samples != NULL && i < pixels; i++)
+        good += samples[i] >= 0.0f && samples[i] <= most;
+    return good == pixels;
+}
+
 static clshear_status read_part(const clshear_film *film, size_t number, part *made,
                                 cs_error *error)
 {
@@ -65,6 +76,7 @@ static clshear_status read_part(const clshear_film *film, size_t number, part *m
                 made->patterns < 1 << 30 && !interrupted;
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         whole &= cs_film_channel(film, needed[i]) != NULL;
+    whole &= counts_samples(film);
     if (made->patterns > 1) whole &= cs_film_channel(film, "Variance.G") != NULL;
     if (!whole)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
@@ -227,7 +239,9 @@ static clshear_status describe(const part *parts, size_t count, const cs_shards 
     cs_shards_print(shards, 1, text, size);
     CS_TRY(cs_film_annotate(merged, "clshear.shard", text));
     CS_TRY(cs_film_set_int(merged, "clshear.patterns", patterns));
-    CS_TRY(cs_film_set_int(merged, "samplesPerPixel", (int32_t)(total / (double)pixels + 0.5)));
+    const double mean = total / (double)pixels + 0.5;
+    CS_TRY(
+        cs_film_set_int(merged, "samplesPerPixel", mean < INT32_MAX ? (int32_t)mean : INT32_MAX));
     CS_TRY(cs_film_set_float(merged, "renderTimeSeconds", (float)seconds));
     merged->info.samples = (uint64_t)total;
     merged->info.render_s = seconds;
@@ -249,6 +263,8 @@ static clshear_status join(part *parts, size_t count, cs_shards *shards, int *pa
         const int both = cs_shards_add(shards, &parts[p].shards);
         CS_REQUIRE(both == 0, CLSHEAR_BAD_ARGUMENT, "%s: shard %d is in another of the films, too",
                    parts[p].label, both);
+        CS_REQUIRE(parts[p].patterns < INT32_MAX - *patterns, CLSHEAR_BAD_ARGUMENT,
+                   "%s: has %d patterns, too many to add", parts[p].label, parts[p].patterns);
         *patterns += parts[p].patterns;
     }
 done:

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "helper/node.h"
 #include "import/find_file.h"
@@ -238,6 +239,18 @@ done:
     return status;
 }
 
+/* Assimp turns 3DS, in which +Z is up, so that +Y is. Turns it back: coordinates are the file's,
+ * and a file that breaks the convention, as many do, is shown upright by --z-up=0. */
+static void turn_back(const struct aiScene *file, cs_model *model)
+{
+    const char *dot = strrchr(model->path, '.');
+    struct aiMatrix4x4 back = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1};
+    if (dot == NULL || strcasecmp(dot, ".3ds") != 0) return;
+    model->z_up = 1;
+    aiMultiplyMatrix4(&back, &file->mRootNode->mTransformation);
+    file->mRootNode->mTransformation = back;
+}
+
 /* None of Assimp's own steps, which trust the indices: triangles are made from what was checked. */
 clshear_status cs_read_other(cs_bytes *bytes, cs_model *model, cs_error *error)
 {
@@ -256,6 +269,7 @@ clshear_status cs_read_other(cs_bytes *bytes, cs_model *model, cs_error *error)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %.*s", model->path,
                        (int)strcspn(aiGetErrorString(), "\n"), aiGetErrorString());
     const importing work = {model, file, error};
+    turn_back(file, model);
     clshear_status status = convert(&work);
     if (status == CLSHEAR_OK && model->triangles.count == 0)
         status = cs_fail(error, CLSHEAR_BAD_FILE, "%s: there are no triangles in it", model->path);

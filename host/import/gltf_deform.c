@@ -103,7 +103,7 @@ void gltf_skin_matrix(const gltf_skin *skin, size_t vertex, const double *of_nod
     for (size_t k = 0; skin->which != NULL && k < 4; k++)
         total += (double)skin->weights[4 * vertex + k];
     memcpy(matrix, of_node, 16 * sizeof *matrix);
-    if (!(total > 0.0)) return;
+    if (skin->which == NULL || !(total > 0.0)) return;
     memset(matrix, 0, 16 * sizeof *matrix);
     for (size_t k = 0; k < 4; k++) {
         const double weight = (double)skin->weights[4 * vertex + k] / total;

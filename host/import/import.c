@@ -36,8 +36,8 @@ clshear_status cs_import_here(const char *path, const cs_import_options *options
     CS_TRY(cs_bytes_read(path, &bytes, error));
     CS_REQUIRE(bytes.size > 0, CLSHEAR_BAD_FILE, "%s: is empty", path);
     const cs_other_reader reader = reader_for(&bytes, path, other);
-    scene->z_up = reader == cs_read_stl;
     CS_TRY(reader(&bytes, &model, error));
+    scene->z_up = model.z_up;
     cs_bytes_free(&bytes);
     CS_TRY(cs_model_build(&model, options->smooth_degrees, scene, error));
     CS_TRY(cs_scene_finish(scene, path, error));

@@ -232,6 +232,7 @@ clshear_status cs_read_stl(cs_bytes *bytes, cs_model *model, cs_error *error)
     stl_reader reader = {.model = model, .error = error};
     cs_index_map_init(&reader.corners, sizeof(stl_key));
     clshear_status status = CLSHEAR_OK;
+    model->z_up = 1;
     if (bytes->size > 0 && (unsigned char)bytes->data[0] >= 0xef && !has_binary_size(bytes))
         status = cs_bytes_to_utf8(bytes, model->path, error);
     if (status == CLSHEAR_OK)

@@ -1,7 +1,6 @@
 #include "render/motion.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "oracle/oracle.h"
 #include "scene/camera.h"
@@ -45,6 +44,15 @@ static cs_camera_motion motion_between(const cs_view *open, const cs_view *close
     return motion;
 }
 
+static int differ(const cs_view *open, const cs_view *closed)
+{
+    int different = 0;
+    for (int i = 0; i < 3; i++)
+        different |= open->eye[i] != closed->eye[i] || open->target[i] != closed->target[i] ||
+                     open->up[i] != closed->up[i];
+    return different;
+}
+
 clshear_status cs_motion_begin(cs_job *job, const cs_view *view, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
@@ -58,7 +66,7 @@ clshear_status cs_motion_begin(cs_job *job, const cs_view *view, cs_error *error
     cameras->closed.optics = job->camera.optics;
     job->motion = motion_between(view, &closing);
     const int scene_moves = cs_scene_moves(&job->scene->scene);
-    job->moves = scene_moves || memcmp(&cameras->open, &cameras->closed, sizeof cameras->open) != 0;
+    job->moves = scene_moves || differ(view, &closing);
     if (job->moves) job->features |= CS_FEATURE_MOTION;
     if (scene_moves) job->features |= CS_FEATURE_MOVING;
 done:

@@ -224,6 +224,15 @@ done:
     return status;
 }
 
+/* The smallest allocation for a mean of `mean` samples: mean / 16, rounded up to a power of two,
+ * but at least 4 or, for a smaller mean, the largest power of two up to the mean. */
+static cs_u32 least_count(cs_u32 mean)
+{
+    if (mean < 4) return cs_power_of_two(mean);
+    if (mean <= 64) return 4;
+    return cs_power_of_two(2 * ((mean - 1) / 16) + 1);
+}
+
 clshear_status cs_pilot_samples(cs_job *job, cs_u32 *samples, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
@@ -242,6 +251,9 @@ clshear_status cs_pilot_samples(cs_job *job, cs_u32 *samples, cs_error *error)
     CS_TRY(run(job, &how, NULL, job->pixel_count, size, replicates, &result, error));
     const cs_pilot_picture picture = {.variance = result.variance,
                                       .intensity = result.intensity,
+                                      .near_variance = result.variance,
+                                      .near_intensity = result.intensity,
+                                      .shear_px = job->shear_px,
                                       .width = width,
                                       .height = height,
                                       .pattern = size,
@@ -249,7 +261,9 @@ clshear_status cs_pilot_samples(cs_job *job, cs_u32 *samples, cs_error *error)
     cs_u32 limit = CS_MAX_PATTERN; /* a power of two for which the sampler has a pattern */
     while (cs_sampler_count(sampler, limit) == 0)
         limit /= 2;
-    CS_TRY(cs_allocate_samples(&picture, job->pattern.grid.count, limit, samples, error));
+    const cs_u32 mean = job->pattern.grid.count;
+    const cs_range range = {.least = least_count(mean), .mean = mean, .most = limit};
+    CS_TRY(cs_allocate_samples(&picture, &range, samples, error));
 done:
     free(result.variance);
     free(result.intensity);

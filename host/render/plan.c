@@ -142,6 +142,10 @@ static clshear_status plan_batches(cs_job *job, cs_error *error)
 {
     const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
     const int adaptive = cs_integer(&job->settings, ADAPTIVE) != 0;
+    if (adaptive) {
+        const clshear_status status = cs_adaptive_plan(job, error);
+        if (status != CLSHEAR_OK || job->adaptive.begin > 0) return status;
+    }
     const int shared = adaptive && job->spp >= CS_LEAST_SPP_TO_ALLOCATE;
     if (adaptive && !shared)
         cs_warn(&job->scene->context->log,
@@ -201,6 +205,7 @@ void cs_job_free(cs_job *job)
     free(job->rule);
     free(job->gain);
     free(job->samples);
+    cs_adaptive_free(&job->adaptive);
     cs_resume_free(job);
     cs_rounds_free(job);
     for (size_t b = 0; b < job->batch_count; b++)

@@ -6,13 +6,10 @@
 #include "kernels/launch.h"
 #include "optics/optics.h"
 #include "oracle/oracle.h"
+#include "render/adaptive.h"
 #include "render/lighting.h"
 #include "render/pass.h"
 #include "render/stop.h"
-
-enum {
-    CS_MOST_BATCHES = 24
-};
 
 /* What a pixel has of a pattern that is not finished. */
 typedef struct cs_net {
@@ -61,7 +58,8 @@ typedef struct cs_job {
     cs_depth *depth;
     float *shear_px;
     uint8_t *rule;   /* cs_rule of each pixel */
-    cs_u32 *samples; /* in a pattern of each pixel; NULL: the same for all */
+    cs_u32 *samples; /* in a pattern of each pixel; NULL: the same for all, or `adaptive` */
+    cs_adaptive adaptive;
     float *gain;     /* NULL: not asked for */
     double pilot_samples;
     cs_batch batches[CS_MOST_BATCHES];

@@ -70,6 +70,8 @@ static void resolve_pixel(const cs_job *job, const cs_pixel *pixel, size_t index
         double pending = (double)pixel->sum[c] + (double)pixel->carry[c];
         if (samples > 0.0) pending += cs_resume_missing(job, index, c);
         if (samples > 0.0) all->mean[c][index] = (float)((finished * pattern + pending) / samples);
+        if (job->adaptive.begin > 0)
+            all->mean[c][index] = (float)cs_adaptive_mean(job, pixel, index, c);
         if (patterns > 1.0)
             all->variance[c][index] =
                 (float)((double)pixel->pattern_m2[c] / (patterns * (patterns - 1.0)));
@@ -119,7 +121,9 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
         all->rule[i] = (float)job->rule[i];
         all->blur[i] = fabsf(cs_job_shear(job, i, CS_RULE_CENTRE));
     }
-    if (fewest < 2) drop_variance(film);
+    const cs_adaptive *adaptive = &job->adaptive;
+    const int begins = adaptive->begin > 0 && adaptive->drawn < CS_BEGINNINGS;
+    if (fewest < 2 || begins) drop_variance(film);
 done:
     free(slice);
     return status;

@@ -20,6 +20,17 @@ int cs_shutter_times(const clshear_settings *settings, double times_s[2])
     return 1;
 }
 
+/* Where a camera is at the end, from its view in a scene whose origin is moved by `shift`. */
+static void join_camera(cs_scene_camera *camera, const cs_view *closing, const double *shift)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        camera->eye_to[axis] = (float)((double)closing->eye[axis] + shift[axis]);
+        camera->target_to[axis] = (float)((double)closing->target[axis] + shift[axis]);
+        camera->moves |= camera->eye_to[axis] != camera->view.eye[axis] ||
+                         camera->target_to[axis] != camera->view.target[axis];
+    }
+}
+
 /* Takes the places of another scene with the same vertices over as those of the shutter's end. */
 static clshear_status join(cs_scene *scene, const cs_scene *closing, const char *path,
                            cs_error *error)
@@ -44,15 +55,11 @@ static clshear_status join(cs_scene *scene, const cs_scene *closing, const char 
             to[i][axis] = (float)((double)places[i][axis] + shift[axis]);
         memcpy(normals[i], vertices[i].normal, sizeof normals[i]);
     }
-    cs_scene_camera *cameras = scene->cameras.items;
-    const cs_scene_camera *others = closing->cameras.items;
-    for (size_t i = 0; i < scene->cameras.count && i < closing->cameras.count; i++) {
-        cameras[i].moves = memcmp(&cameras[i].view, &others[i].view, sizeof others[i].view) != 0;
-        for (int axis = 0; axis < 3; axis++) {
-            cameras[i].eye_to[axis] = (float)((double)others[i].view.eye[axis] + shift[axis]);
-            cameras[i].target_to[axis] = (float)((double)others[i].view.target[axis] + shift[axis]);
-        }
-    }
+    const size_t count = scene->cameras.count < closing->cameras.count ? scene->cameras.count
+                                                                       : closing->cameras.count;
+    for (size_t i = 0; i < count; i++)
+        join_camera((cs_scene_camera *)scene->cameras.items + i,
+                    &((const cs_scene_camera *)closing->cameras.items)[i].view, shift);
     return CLSHEAR_OK;
 }
 
@@ -60,13 +67,13 @@ static clshear_status join(cs_scene *scene, const cs_scene *closing, const char 
 static void drop_rest(cs_scene *scene)
 {
     const cs_vertex *vertices = scene->vertices.items;
+    const float(*open)[3] = scene->positions.items, (*closed)[3] = scene->positions_to.items;
     const float(*normals)[3] = scene->normals_to.items;
-    const size_t size = scene->positions_to.count * scene->positions_to.item_size;
-    if (size == 0) return;
-    int moves = memcmp(scene->positions.items, scene->positions_to.items, size) != 0;
-    for (size_t i = 0; i < scene->normals_to.count && !moves; i++)
-        moves = memcmp(vertices[i].normal, normals[i], sizeof normals[i]) != 0;
-    if (!moves) scene->positions_to.count = scene->normals_to.count = 0;
+    for (size_t i = 0; i < scene->positions_to.count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            if (open[i][axis] != closed[i][axis] || vertices[i].normal[axis] != normals[i][axis])
+                return;
+    scene->positions_to.count = scene->normals_to.count = 0;
 }
 
 /* Turns about the vertical through the middle of the bounds, against the clock from above. */
@@ -90,6 +97,15 @@ static clshear_status turn(cs_scene *scene, double degrees, cs_error *error)
         normals[i][along] = (float)(s * n + c * m);
     }
     return CLSHEAR_OK;
+}
+
+static int anything_moves(const cs_scene *scene)
+{
+    const cs_scene_camera *cameras = scene->cameras.items;
+    int moves = cs_scene_moves(scene);
+    for (size_t i = 0; i < scene->cameras.count; i++)
+        moves |= cameras[i].moves;
+    return moves;
 }
 
 static int is_animated_format(const char *path)
@@ -120,6 +136,9 @@ clshear_status cs_scene_read_motion(clshear_scene *scene, const char *path,
     if (settings != NULL && cs_is_set(settings, TURNTABLE) && cs_number(settings, TURNTABLE) != 0.0)
         CS_TRY(turn(&scene->scene, cs_number(settings, TURNTABLE), error));
     drop_rest(&scene->scene);
+    if (at_end.is_played && !anything_moves(&scene->scene))
+        cs_warn(&scene->context->log, "%s: nothing in it moves from %g to %g s", path, times_s[0],
+                times_s[1]);
 done:
     cs_scene_free(&closing);
     return status;

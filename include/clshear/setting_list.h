@@ -191,7 +191,7 @@
     X(SMOOTH, 70, "smooth", "", NUMBER, 1, 1, "", 0, 180, none, PRIVATE, "DEG", \
       "smooth faces without normals that meet at less") \
     X(Z_UP, 71, "z-up", "", SWITCH, 1, 1, "", 0, 1, none, PRIVATE, "", \
-      "+Z is up and -Y in front, as in STL; 0: +Y and +Z") \
+      "+Z up, -Y in front, as in STL and 3DS; 0: +Y and +Z") \
     /* Device */ \
     X(DEVICE, 80, "device", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "NAME", \
       "OpenCL device: number or part of its name") \

@@ -12,6 +12,7 @@
 
 #include "clshear/device/sampler/grid.h"
 #include "kernels/bsdf/value.h"
+#include "kernels/lanes.h"
 #include "kernels/trigonometry.h"
 
 #if CS_HAS(MATERIALS)
@@ -137,16 +138,6 @@ enum {
 typedef struct cs_albedo {
     cs_vfloat plane[CS_ALBEDO_PLANES];
 } cs_albedo;
-
-#ifdef CS_DEVICE
-#define CS_LANE(value) ((value).lane[lane])
-typedef cs_float_lanes cs_float_each;
-#else
-#define CS_LANE(value) ((value).all)
-typedef struct cs_float_each {
-    cs_vfloat all;
-} cs_float_each;
-#endif
 
 /* Linear between the roughnesses and, where `cosine` is not negative, between cosines; else the
  * averages. */

@@ -24,26 +24,15 @@ static inline cs_light_sample cs_sample_light_sun(const cs_scene_buffers *scene,
     return sample;
 }
 
-/* The lanes' directions by an image. */
+/* Directions by an image. */
 static inline void cs_draw_lat_long(const cs_lat_long *image, cs_pair pair, cs_light_sample *sample)
 {
-    cs_float_lanes x, y, density, towards[3], colour[3];
-    x.all = pair.x;
-    y.all = pair.y;
-    for (int lane = 0; lane < CS_PACKET; lane++) {
-        cs_f32 direction[3], radiance[3];
-        density.lane[lane] = cs_lat_long_draw(image, x.lane[lane], y.lane[lane], direction);
-        cs_lat_long_radiance(image, direction, radiance);
-        for (int i = 0; i < 3; i++) {
-            towards[i].lane[lane] = direction[i];
-            colour[i].lane[lane] = radiance[i];
-        }
-    }
-    sample->density = density.all;
-    for (int i = 0; i < 3; i++) {
-        sample->towards[i] = towards[i].all;
-        sample->colour[i] *= colour[i].all;
-    }
+    cs_vfloat x, y, radiance[3];
+    sample->density = cs_lat_long_draw(image, pair.x, pair.y, sample->towards);
+    cs_lat_long_place(image, sample->towards, &x, &y);
+    cs_lat_long_radiance(image, x, y, radiance);
+    for (int c = 0; c < 3; c++)
+        sample->colour[c] *= radiance[c];
 }
 
 /* colour: radiance, times the image's if there is one (light->count above 0, see cs_lat_long_of).

@@ -77,20 +77,12 @@ static inline cs_escaped cs_escape_to_environment(const cs_scene_buffers *scene,
     found.density = cs_max(cosine, (cs_vfloat)(0.0f)) * CS_INVERSE_PI;
     if (light->count == 0u) return found;
     cs_lat_long image = cs_lat_long_of(light, scene->environment);
-    cs_float_lanes towards[3], colour[3], density;
-    for (int i = 0; i < 3; i++)
-        towards[i].all = ray->direction[i];
-    for (int lane = 0; lane < CS_PACKET; lane++) {
-        cs_f32 radiance[3];
-        cs_f32 direction[3] = {towards[0].lane[lane], towards[1].lane[lane], towards[2].lane[lane]};
-        cs_lat_long_radiance(&image, direction, radiance);
-        density.lane[lane] = cs_lat_long_density(&image, direction);
-        for (int i = 0; i < 3; i++)
-            colour[i].lane[lane] = radiance[i];
-    }
-    found.density = density.all;
-    for (int i = 0; i < 3; i++)
-        found.colour[i] *= colour[i].all;
+    cs_vfloat x, y, radiance[3];
+    cs_lat_long_place(&image, ray->direction, &x, &y);
+    cs_lat_long_radiance(&image, x, y, radiance);
+    found.density = cs_lat_long_density(&image, x, y);
+    for (int c = 0; c < 3; c++)
+        found.colour[c] *= radiance[c];
     return found;
 }
 

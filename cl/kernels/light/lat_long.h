@@ -6,6 +6,7 @@
 #ifndef CS_LIGHT_LAT_LONG_H
 #define CS_LIGHT_LAT_LONG_H
 
+#include "kernels/lanes.h"
 #include "kernels/scene.h"
 #include "kernels/trigonometry.h"
 
@@ -58,91 +59,116 @@ static inline cs_u32 cs_pick_cell(CS_GLOBAL const cs_f32 *cumulative, cs_u32 cou
     return low;
 }
 
-/* Cosine of the angle from +Y at the upper edge of a row of cells. */
-static inline cs_f32 cs_row_cosine(const cs_lat_long *image, cs_u32 row)
+/* Cells of the image, one a lane. */
+typedef struct cs_lat_long_cells {
+    cs_float_each row;
+    cs_float_each column;
+    cs_float_each chance; /* of drawing the cell */
+} cs_lat_long_cells;
+
+/* Density, per steradian, of the directions in cells. top, bottom: cosines of the angles from +Y at
+ * the edges of their rows. */
+static inline cs_vfloat cs_cell_density(const cs_lat_long *image, cs_vfloat chance, cs_vfloat top,
+                                        cs_vfloat bottom)
 {
-    return cs_cos((cs_f32)row * (CS_PI / (cs_f32)image->cells_y));
+    return chance * (cs_f32)image->cells_x / (2.0f * CS_PI * (top - bottom));
 }
 
-/* Density, per steradian, of the directions in a cell, given its probability. */
-static inline cs_f32 cs_cell_density(const cs_lat_long *image, cs_u32 row, cs_f32 probability)
+/* Draws directions, unit vectors, by points of the unit square; returns their densities. */
+static inline cs_vfloat cs_lat_long_draw(const cs_lat_long *image, cs_vfloat x, cs_vfloat y,
+                                         cs_vfloat *direction)
 {
-    cs_f32 height = cs_row_cosine(image, row) - cs_row_cosine(image, row + 1u);
-    return probability * (cs_f32)image->cells_x / (2.0f * CS_PI * height);
-}
-
-/* Draws a direction, a unit vector, by a point of the unit square; returns its density. */
-static inline cs_f32 cs_lat_long_draw(const cs_lat_long *image, cs_f32 x, cs_f32 y,
-                                      cs_f32 *direction)
-{
-    cs_f32 down, across, row_chance, column_chance;
-    cs_u32 row = cs_pick_cell(image->rows, image->cells_y, y, &down, &row_chance);
-    cs_u32 column = cs_pick_cell(image->columns + (size_t)row * image->cells_x, image->cells_x, x,
-                                 &across, &column_chance);
-    cs_f32 top = cs_row_cosine(image, row), bottom = cs_row_cosine(image, row + 1u);
-    cs_f32 up = top + down * (bottom - top);
-    cs_f32 outward = 1.0f - up * up;
-    outward = cs_sqrt(outward > 0.0f ? outward : 0.0f);
-    cs_f32 place = ((cs_f32)column + across) / (cs_f32)image->cells_x;
-    cs_f32 longitude = (place - 0.5f) * (2.0f * CS_PI); /* from -Z towards +X */
-    cs_f32 right = outward * cs_sin(longitude), ahead = outward * cs_cos(longitude);
+    cs_lat_long_cells cells;
+    cs_float_each across, down;
+    across.all = x;
+    down.all = y;
+    for (int lane = 0; lane < CS_PACKET; lane++) {
+        cs_f32 along, below, row_chance, column_chance;
+        cs_u32 row = cs_pick_cell(image->rows, image->cells_y, CS_LANE(down), &below, &row_chance);
+        cs_u32 column = cs_pick_cell(image->columns + (size_t)row * image->cells_x, image->cells_x,
+                                     CS_LANE(across), &along, &column_chance);
+        CS_LANE(across) = along;
+        CS_LANE(down) = below;
+        CS_LANE(cells.row) = (cs_f32)row;
+        CS_LANE(cells.column) = (cs_f32)column;
+        CS_LANE(cells.chance) = row_chance * column_chance;
+    }
+    cs_f32 height = CS_PI / (cs_f32)image->cells_y;
+    cs_vfloat top = cs_cos(cells.row.all * height),
+              bottom = cs_cos((cells.row.all + 1.0f) * height);
+    cs_vfloat up = top + down.all * (bottom - top);
+    cs_vfloat outward = cs_sqrt(cs_max(1.0f - up * up, (cs_vfloat)(0.0f)));
+    cs_vfloat place = (cells.column.all + across.all) / (cs_f32)image->cells_x;
+    cs_vfloat longitude = (place - 0.5f) * (2.0f * CS_PI); /* from -Z towards +X */
+    cs_vfloat right = outward * cs_sin(longitude), ahead = outward * cs_cos(longitude);
     direction[0] = image->cosine * right - image->sine * ahead;
     direction[1] = up;
     direction[2] = -image->cosine * ahead - image->sine * right;
-    return cs_cell_density(image, row, row_chance * column_chance);
+    return cs_cell_density(image, cells.chance.all, top, bottom);
 }
 
-/* Where a direction, of any length, is in the image: parts of its width and height. */
-static inline void cs_lat_long_place(const cs_lat_long *image, const cs_f32 *direction, cs_f32 *x,
-                                     cs_f32 *y)
+/* Where directions, of any length, are in the image: parts of its width and height. */
+static inline void cs_lat_long_place(const cs_lat_long *image, const cs_vfloat *direction,
+                                     cs_vfloat *x, cs_vfloat *y)
 {
-    cs_f32 right = image->cosine * direction[0] - image->sine * direction[2];
-    cs_f32 ahead = -image->cosine * direction[2] - image->sine * direction[0];
+    cs_vfloat right = image->cosine * direction[0] - image->sine * direction[2];
+    cs_vfloat ahead = -image->cosine * direction[2] - image->sine * direction[0];
     *x = 0.5f + cs_atan2(right, ahead) * (0.5f * CS_INVERSE_PI);
     *y = cs_atan2(cs_sqrt(right * right + ahead * ahead), direction[1]) * CS_INVERSE_PI;
 }
 
-/* Number of the cell, of `count`, at a part of the whole. */
-static inline cs_u32 cs_cell_at(cs_f32 part, cs_u32 count)
+/* The number of a texel or cell, of `count`, from its place; the last for what is none. */
+static inline cs_u32 cs_cell_at(cs_f32 place, cs_u32 count)
 {
-    cs_u32 cell = (cs_u32)(part * (cs_f32)count);
+    cs_u32 cell = (cs_u32)place;
     return cell < count ? cell : count - 1u;
 }
 
-/* The density with which cs_lat_long_draw draws a direction. */
-static inline cs_f32 cs_lat_long_density(const cs_lat_long *image, const cs_f32 *direction)
+/* The density with which cs_lat_long_draw draws the directions at places in the image. */
+static inline cs_vfloat cs_lat_long_density(const cs_lat_long *image, cs_vfloat x, cs_vfloat y)
 {
-    cs_f32 x, y;
-    cs_lat_long_place(image, direction, &x, &y);
-    cs_u32 row = cs_cell_at(y, image->cells_y), column = cs_cell_at(x, image->cells_x);
-    CS_GLOBAL const cs_f32 *columns = image->columns + (size_t)row * image->cells_x;
-    cs_f32 row_chance = image->rows[row] - (row > 0u ? image->rows[row - 1u] : 0.0f);
-    cs_f32 column_chance = columns[column] - (column > 0u ? columns[column - 1u] : 0.0f);
-    return cs_cell_density(image, row, row_chance * column_chance);
+    cs_float_each column, row, chance;
+    column.all = x * (cs_f32)image->cells_x;
+    row.all = y * (cs_f32)image->cells_y;
+    for (int lane = 0; lane < CS_PACKET; lane++) {
+        cs_u32 down = cs_cell_at(CS_LANE(row), image->cells_y);
+        cs_u32 along = cs_cell_at(CS_LANE(column), image->cells_x);
+        CS_GLOBAL const cs_f32 *columns = image->columns + (size_t)down * image->cells_x;
+        cs_f32 row_chance = image->rows[down] - (down > 0u ? image->rows[down - 1u] : 0.0f);
+        cs_f32 column_chance = columns[along] - (along > 0u ? columns[along - 1u] : 0.0f);
+        CS_LANE(row) = (cs_f32)down;
+        CS_LANE(chance) = row_chance * column_chance;
+    }
+    cs_f32 height = CS_PI / (cs_f32)image->cells_y;
+    return cs_cell_density(image, chance.all, cs_cos(row.all * height),
+                           cs_cos((row.all + 1.0f) * height));
 }
 
-/* Radiance from a direction: bilinear, around the horizon and up to the poles. */
-static inline void cs_lat_long_radiance(const cs_lat_long *image, const cs_f32 *direction,
-                                        cs_f32 *radiance)
+/* Radiance at places in the image: bilinear, around the horizon and up to the poles. */
+static inline void cs_lat_long_radiance(const cs_lat_long *image, cs_vfloat x, cs_vfloat y,
+                                        cs_vfloat *radiance)
 {
-    cs_f32 x, y;
-    cs_lat_long_place(image, direction, &x, &y);
-    x = x * (cs_f32)image->width - 0.5f;
-    y = y * (cs_f32)image->height - 0.5f;
-    y = y < 0.0f ? 0.0f : y;
-    x = x < 0.0f ? x + (cs_f32)image->width : x;
-    cs_u32 left = cs_cell_at(x / (cs_f32)image->width, image->width);
-    cs_u32 above = cs_cell_at(y / (cs_f32)image->height, image->height);
-    cs_f32 across = x - (cs_f32)left, down = y - (cs_f32)above;
-    cs_u32 right = left + 1u < image->width ? left + 1u : 0u;
-    cs_u32 below = above + 1u < image->height ? above + 1u : above;
-    for (cs_u32 c = 0u; c < 3u; c++) {
-        CS_GLOBAL const cs_f32 *upper = image->texels + (size_t)3 * above * image->width + c;
-        CS_GLOBAL const cs_f32 *lower = image->texels + (size_t)3 * below * image->width + c;
-        cs_f32 high = upper[3u * left] + across * (upper[3u * right] - upper[3u * left]);
-        cs_f32 low = lower[3u * left] + across * (lower[3u * right] - lower[3u * left]);
-        radiance[c] = high + down * (low - high);
+    cs_float_each place_x, place_y, found[3];
+    place_x.all = x * (cs_f32)image->width - 0.5f;
+    place_x.all = place_x.all < 0.0f ? place_x.all + (cs_f32)image->width : place_x.all;
+    place_y.all = cs_max(y * (cs_f32)image->height - 0.5f, (cs_vfloat)(0.0f));
+    for (int lane = 0; lane < CS_PACKET; lane++) {
+        cs_u32 left = cs_cell_at(CS_LANE(place_x), image->width);
+        cs_u32 above = cs_cell_at(CS_LANE(place_y), image->height);
+        cs_f32 across = CS_LANE(place_x) - (cs_f32)left, down = CS_LANE(place_y) - (cs_f32)above;
+        cs_u32 right = left + 1u < image->width ? left + 1u : 0u;
+        cs_u32 below = above + 1u < image->height ? above + 1u : above;
+        CS_GLOBAL const cs_f32 *upper = image->texels + (size_t)3 * above * image->width;
+        CS_GLOBAL const cs_f32 *lower = image->texels + (size_t)3 * below * image->width;
+        for (cs_u32 c = 0u; c < 3u; c++) {
+            cs_f32 a = upper[3u * left + c], b = lower[3u * left + c];
+            cs_f32 high = a + across * (upper[3u * right + c] - a);
+            cs_f32 low = b + across * (lower[3u * right + c] - b);
+            CS_LANE(found[c]) = high + down * (low - high);
+        }
     }
+    for (int c = 0; c < 3; c++)
+        radiance[c] = found[c].all;
 }
 
 #endif

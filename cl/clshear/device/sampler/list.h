@@ -35,7 +35,8 @@
     X(CCVT, "ccvt", point_set, point_set, point_set, few, ccvt, 0, "equal-capacity Voronoi pairs, paired at random")
 /* clang-format on */
 
-#define CS_SAMPLER_IDENTIFIER(identifier, name, draw, light, extra, shape, table, progressive, about) \
+#define CS_SAMPLER_IDENTIFIER(identifier, name, draw, light, extra, shape, table, progressive, \
+                              about)                                                           \
     CS_SAMPLER_##identifier,
 
 enum {

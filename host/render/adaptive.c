@@ -1,0 +1,274 @@
+#include "render/adaptive.h"
+
+#include <stdlib.h>
+
+#include "oracle/choose_rule.h"
+#include "pattern/pattern.h"
+#include "render/render_job.h"
+#include "render/resume.h"
+
+enum {
+    SLICE = 1 << 16 /* pixels on their way at once */
+};
+
+/* Samples of a beginning: an eighth of a pattern, but enough to tell something. */
+static cs_u32 beginning_of(cs_u32 pattern)
+{
+    const cs_u32 least = CS_LEAST_TO_SHARE_OUT / 2, part = cs_power_of_two(pattern) / 8;
+    return part > least ? part : least;
+}
+
+/* Stop rules, shards and checkpoints need all patterns to be planned before the first sample. */
+static int is_planned_ahead(const cs_job *job)
+{
+    return job->base != NULL || job->shards > 1 || cs_stop_has_rules(&job->stop) ||
+           cs_is_set(&job->settings, CHECKPOINT);
+}
+
+static int can_share_out(const cs_job *job)
+{
+    return cs_sampler_is_progressive(job->pattern.sampler) && job->replicates == CS_BEGINNINGS &&
+           job->pattern.grid.count >= CS_LEAST_TO_SHARE_OUT && !is_planned_ahead(job);
+}
+
+clshear_status cs_adaptive_plan(cs_job *job, cs_error *error)
+{
+    if (!can_share_out(job)) return CLSHEAR_OK;
+    job->adaptive.begin = beginning_of(job->pattern.grid.count);
+    for (int k = 0; k < CS_BEGINNINGS; k++) {
+        cs_share *share = &job->adaptive.shares[k];
+        share->samples = malloc(job->pixel_count * sizeof *share->samples);
+        share->beginning = malloc(3 * job->pixel_count * sizeof *share->beginning);
+        if (share->samples == NULL || share->beginning == NULL)
+            return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
+                           job->pixel_count);
+    }
+    return cs_adaptive_reserve_aovs(job, error);
+}
+
+static void free_batches(cs_share *share)
+{
+    for (size_t b = 0; b < share->batch_count; b++)
+        cs_batch_free(&share->batches[b]);
+    share->batch_count = 0;
+}
+
+void cs_adaptive_free(cs_adaptive *adaptive)
+{
+    for (int k = 0; k < CS_BEGINNINGS; k++) {
+        cs_share *share = &adaptive->shares[k];
+        free_batches(share);
+        free(share->samples);
+        free(share->beginning);
+        free(share->aovs);
+    }
+    free(adaptive->aov_means);
+}
+
+/* What is done to the state of a pixel on the host. */
+typedef struct change {
+    void (*apply)(cs_job *job, void *user, size_t index, cs_pixel *pixel);
+    void *user;
+} change;
+
+static clshear_status change_pixels(cs_job *job, const change *change, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_pixel *slice = malloc(SLICE * sizeof *slice);
+    CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    for (size_t first = 0; first < job->pixel_count; first += SLICE) {
+        const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
+        CS_TRY(cs_pixels_read(&job->pixels, first, count, slice, error));
+        for (size_t i = 0; i < count; i++)
+            change->apply(job, change->user, first + i, &slice[i]);
+        CS_TRY(cs_pixels_write(&job->pixels, first, count, slice, error));
+    }
+done:
+    free(slice);
+    return status;
+}
+
+/* Where a beginning's statistics go, each a value for each pixel. */
+typedef struct finding {
+    cs_exact_sum *sums;
+    cs_f32 *variance;
+    cs_f32 *intensity;
+} finding;
+
+/* Takes a beginning out of the pixel: its two halves are the pixel's patterns. */
+static void take_out(cs_job *job, void *user, size_t index, cs_pixel *pixel)
+{
+    const finding *found = user;
+    const cs_f32 half = 0.5f * (cs_f32)job->adaptive.begin; /* a power of two: products are exact */
+    cs_f32 m2 = 0.0f, sum = 0.0f;
+    for (size_t c = 0; c < 3; c++) {
+        m2 += pixel->pattern_m2[c];
+        sum += pixel->pattern_sum[c];
+        found->sums[3 * index + c] =
+            (cs_exact_sum){half * pixel->pattern_sum[c], half * pixel->pattern_carry[c]};
+        pixel->pattern_m2[c] = pixel->pattern_sum[c] = pixel->pattern_carry[c] = 0.0f;
+    }
+    pixel->patterns = 0;
+    found->variance[index] = m2 / 3.0f;
+    found->intensity[index] = sum / 6.0f;
+}
+
+/* Draws the beginning of a replicate, in halves. */
+static clshear_status draw_beginning(cs_job *job, cs_pass *pass, cs_u32 replicate, finding *found,
+                                     cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
+    const cs_u32 half = job->adaptive.begin / 2;
+    const change taking = {take_out, found};
+    cs_batch batch = {0};
+    for (cs_u32 part = 0; part < 2; part++) {
+        const cs_pattern pattern = cs_pattern_of(job->pattern.sampler, part * half, half);
+        CS_TRY(cs_batch_create(job->scene->context, &pattern, NULL, job->pixel_count, width, 0,
+                               &batch, error));
+        CS_TRY(cs_pass_replicate(pass, &batch, 1, replicate, error));
+        cs_batch_free(&batch);
+    }
+    CS_TRY(change_pixels(job, &taking, error));
+    CS_TRY(cs_adaptive_take_aovs(job, replicate, error));
+    job->adaptive.drawn++;
+done:
+    cs_batch_free(&batch);
+    return status;
+}
+
+/* The sizes of a replicate's patterns, powers of two from that of the beginning on: by what the
+ * other's beginning has found in the pixel, and both in its neighbours (`near`). */
+static clshear_status size_patterns(cs_job *job, const finding *other, const finding *near,
+                                    cs_u32 *samples, cs_error *error)
+{
+    const cs_pilot_picture picture = {.variance = other->variance,
+                                      .intensity = other->intensity,
+                                      .near_variance = near->variance,
+                                      .near_intensity = near->intensity,
+                                      .shear_px = job->shear_px,
+                                      .width = job->window[1] - job->window[0],
+                                      .height = job->window[3] - job->window[2],
+                                      .pattern = job->adaptive.begin / 2,
+                                      .replicates = 2};
+    const cs_range range = {.least = job->adaptive.begin,
+                            .mean = job->pattern.grid.count,
+                            .most = cs_sampler_most(job->pattern.sampler)};
+    return cs_allocate_samples(&picture, &range, samples, error);
+}
+
+/* Batches of the pixels whose patterns go on after the beginning, one for each size. */
+static clshear_status make_batches(cs_job *job, cs_share *share, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
+    const cs_u32 height = (cs_u32)(job->pixel_count / width);
+    cs_u32 *list = malloc(job->pixel_count * sizeof *list);
+    CS_REQUIRE(list != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
+               job->pixel_count);
+    const cs_u32 had = job->adaptive.begin;
+    for (cs_u32 size = 2 * had; size <= CS_MAX_PATTERN; size *= 2) {
+        size_t count = 0;
+        for (size_t i = 0; i < job->pixel_count; i++) {
+            const cs_u32 pixel = cs_tiled_pixel((cs_u32)i, width, height);
+            if (share->samples[pixel] == size) list[count++] = pixel;
+        }
+        if (count == 0) continue;
+        const cs_pattern pattern = cs_pattern_of(job->pattern.sampler, had, size - had);
+        share->batch_count++; /* first, so that what a failure leaves is freed */
+        CS_TRY(cs_batch_create(job->scene->context, &pattern, list, count, width, 0,
+                               &share->batches[share->batch_count - 1], error));
+    }
+done:
+    free(list);
+    return status;
+}
+
+/* Puts a beginning back into the pixel, and finishes the pattern where that is all of it. */
+static void put_back(cs_job *job, void *user, size_t index, cs_pixel *pixel)
+{
+    const cs_share *share = user;
+    for (size_t c = 0; c < 3; c++) {
+        pixel->sum[c] = share->beginning[3 * index + c].sum;
+        pixel->carry[c] = share->beginning[3 * index + c].carry;
+    }
+    pixel->pending = job->adaptive.begin;
+    if (share->samples[index] == job->adaptive.begin) cs_finish_pattern(pixel);
+}
+
+/* The beginnings, and what they decide. */
+static clshear_status begin(cs_job *job, cs_pass *pass, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const size_t count = job->pixel_count;
+    cs_f32 *memory = malloc(2 * (CS_BEGINNINGS + 1) * count * sizeof *memory);
+    finding found[CS_BEGINNINGS], both = {.variance = memory, .intensity = memory + count};
+    CS_REQUIRE(memory != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", count);
+    for (cs_u32 k = 0; k < CS_BEGINNINGS; k++) {
+        cs_f32 *values = memory + 2 * (k + 1) * count;
+        found[k] = (finding){job->adaptive.shares[k].beginning, values, values + count};
+        CS_TRY(draw_beginning(job, pass, k, &found[k], error));
+    }
+    for (size_t i = 0; i < count; i++) {
+        both.variance[i] = 0.5f * (found[0].variance[i] + found[1].variance[i]);
+        both.intensity[i] = 0.5f * (found[0].intensity[i] + found[1].intensity[i]);
+    }
+    for (cs_u32 k = 0; k < CS_BEGINNINGS; k++)
+        CS_TRY(size_patterns(job, &found[1 - k], &both, job->adaptive.shares[k].samples, error));
+done:
+    free(memory);
+    return status;
+}
+
+/* Draws the rest of a replicate. */
+static clshear_status draw_replicate(cs_job *job, cs_pass *pass, cs_u32 replicate, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_share *share = &job->adaptive.shares[replicate];
+    const change putting = {put_back, share};
+    CS_TRY(make_batches(job, share, error));
+    CS_TRY(change_pixels(job, &putting, error));
+    CS_TRY(cs_adaptive_put_aovs(job, replicate, error));
+    job->adaptive.begun = replicate + 1;
+    CS_TRY(cs_resume_begin(job, replicate, error));
+    CS_TRY(cs_pass_replicate(pass, share->batches, share->batch_count, replicate, error));
+    CS_TRY(cs_resume_end(job, replicate, error));
+    CS_TRY(cs_adaptive_close_aovs(job, replicate, error));
+    job->adaptive.closed = replicate + 1;
+done:
+    return status;
+}
+
+clshear_status cs_adaptive_run(cs_job *job, cs_pass *pass, cs_error *error)
+{
+    pass->total = (double)job->spp * (double)job->pixel_count;
+    clshear_status status = begin(job, pass, error);
+    for (cs_u32 r = 0; r < job->replicates && status == CLSHEAR_OK; r++)
+        status = draw_replicate(job, pass, r, error);
+    if (status != CLSHEAR_OK && status != CS_CANCELLED) return status;
+    const clshear_status settled = cs_adaptive_settle_aovs(job, error);
+    return settled == CLSHEAR_OK ? status : settled;
+}
+
+double cs_adaptive_mean(const cs_job *job, const cs_pixel *pixel, size_t index, int colour)
+{
+    const cs_adaptive *adaptive = &job->adaptive;
+    const double finished =
+        (double)pixel->pattern_sum[colour] + (double)pixel->pattern_carry[colour];
+    const double pending = (double)pixel->sum[colour] + (double)pixel->carry[colour];
+    /* Beginnings that no pattern contains yet. */
+    double sum = 0.0, count = 0.0;
+    for (cs_u32 r = adaptive->begun; r < adaptive->drawn; r++) {
+        const cs_exact_sum *beginning = &adaptive->shares[r].beginning[3 * index + (size_t)colour];
+        sum += ((double)beginning->sum + (double)beginning->carry) / adaptive->begin;
+        count++;
+    }
+    if (adaptive->drawn == CS_BEGINNINGS) {
+        sum += finished + (pixel->pending > 0 ? pending / pixel->pending : 0.0);
+        count += pixel->patterns + (pixel->pending > 0 ? 1.0 : 0.0);
+    } else { /* in a beginning, whose halves are patterns */
+        sum = sum * adaptive->begin + 0.5 * finished * adaptive->begin + pending;
+        count = pixel->samples;
+    }
+    return count > 0.0 ? sum / count : 0.0;
+}
