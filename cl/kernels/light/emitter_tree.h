@@ -135,38 +135,63 @@ static inline cs_angle cs_angle_beyond(cs_angle first, cs_angle second)
     return left;
 }
 
+/* How the spheres of nodes appear from the vantage points. */
+typedef struct cs_sight {
+    cs_vfloat towards[3]; /* unit, to the centre */
+    cs_vfloat square;     /* of the distance, at least of the radius */
+    cs_angle spread;      /* half angle of the sphere */
+    cs_vint within;       /* lanes inside the sphere */
+} cs_sight;
+
+static inline cs_sight cs_sight_of(const cs_node_lanes *node, const cs_vfloat *point)
+{
+    cs_sight sight;
+    for (int i = 0; i < 3; i++)
+        sight.towards[i] = node->centre[i].all - point[i];
+    cs_vfloat radius = node->radius.all;
+    cs_vfloat square = cs_max(cs_dot(sight.towards, sight.towards), (cs_vfloat)(1e-30f));
+    cs_vfloat inverse = 1.0f / cs_sqrt(square);
+    for (int i = 0; i < 3; i++)
+        sight.towards[i] *= inverse;
+    sight.square = cs_max(square, radius * radius);
+    sight.within = square <= radius * radius;
+    sight.spread.sine = cs_min(radius * inverse, (cs_vfloat)(1.0f));
+    sight.spread.cosine = cs_sine_of(sight.spread.sine);
+    return sight;
+}
+
+/* The largest cosine, at least 0, of an angle that changes by up to the spread. */
+static inline cs_vfloat cs_largest_cosine(cs_angle angle, const cs_sight *sight)
+{
+    cs_vfloat cosine = cs_angle_beyond(angle, sight->spread).cosine;
+    return sight->within ? (cs_vfloat)(1.0f) : cs_max(cosine, (cs_vfloat)(0.0f));
+}
+
 /* Upper bounds, up to rounding and to the distance within a node's sphere, of the luminance that
- * arrives from nodes: power times both cosines by the square of the distance. */
+ * arrives from nodes: power times both cosines by the square of the distance; for a single triangle
+ * its solid angle takes the place of all but the second cosine. */
 static inline cs_vfloat cs_node_light(const cs_emitter_tree *tree, cs_int_lanes index,
                                       const cs_vantage *vantage)
 {
     cs_node_lanes node;
-    cs_vfloat to[3], along = (cs_vfloat)(0.0f), above = (cs_vfloat)(0.0f);
-    cs_load_nodes(tree, index, &node);
-    for (int i = 0; i < 3; i++) {
-        to[i] = node.centre[i].all - vantage->point[i];
-        along += to[i] * node.axis[i].all;
-        above += to[i] * vantage->normal[i];
-    }
-    cs_vfloat radius = node.radius.all;
-    cs_vfloat square = cs_max(cs_dot(to, to), (cs_vfloat)(1e-30f));
-    cs_vfloat inverse = 1.0f / cs_sqrt(square);
-    cs_vint within = square <= radius * radius;
-    above = vantage->through ? cs_abs(above) : above;
-    cs_angle spread;
-    spread.sine = cs_min(radius * inverse, (cs_vfloat)(1.0f));
-    spread.cosine = cs_sine_of(spread.sine);
-    cs_angle turned = cs_angle_of(cs_min(cs_abs(along) * inverse, (cs_vfloat)(1.0f)));
-    turned = cs_angle_beyond(cs_angle_beyond(turned, cs_angle_of(node.cosine.all)), spread);
-    cs_angle tilted = cs_angle_beyond(
-        cs_angle_of(cs_clamp(above * inverse, (cs_vfloat)(-1.0f), (cs_vfloat)(1.0f))), spread);
-    cs_vfloat leaving = within ? (cs_vfloat)(1.0f) : cs_max(turned.cosine, (cs_vfloat)(0.0f));
-    cs_vfloat arriving = within ? (cs_vfloat)(1.0f) : cs_max(tilted.cosine, (cs_vfloat)(0.0f));
-    cs_vfloat light = node.power.all * leaving * arriving / cs_max(square, radius * radius);
     cs_int_lanes emitter;
+    cs_vfloat light = (cs_vfloat)(0.0f), axis[3];
+    cs_load_nodes(tree, index, &node);
+    cs_sight sight = cs_sight_of(&node, vantage->point);
+    cs_vfloat above = cs_dot(sight.towards, vantage->normal);
+    above =
+        cs_clamp(vantage->through ? cs_abs(above) : above, (cs_vfloat)(-1.0f), (cs_vfloat)(1.0f));
+    cs_vfloat arriving = cs_largest_cosine(cs_angle_of(above), &sight);
     cs_vint is_leaf = node.child.all >= (cs_vint)(CS_LEAF);
-    emitter.all = is_leaf ? node.child.all - (cs_vint)(CS_LEAF) : (cs_vint)(0);
+    if (cs_any(node.child.all < (cs_vint)(CS_LEAF))) {
+        for (int i = 0; i < 3; i++)
+            axis[i] = node.axis[i].all;
+        cs_vfloat along = cs_min(cs_abs(cs_dot(sight.towards, axis)), (cs_vfloat)(1.0f));
+        cs_angle turned = cs_angle_beyond(cs_angle_of(along), cs_angle_of(node.cosine.all));
+        light = node.power.all * cs_largest_cosine(turned, &sight) * arriving / sight.square;
+    }
     if (!cs_any(is_leaf)) return light;
+    emitter.all = is_leaf ? node.child.all - (cs_vint)(CS_LEAF) : (cs_vint)(0);
     cs_emitter_lanes loaded;
     cs_seen_triangle seen = cs_see_emitters(tree, emitter, vantage->point, &loaded);
     return is_leaf ? loaded.luminance.all * seen.solid_angle * arriving : light;
