@@ -19,6 +19,7 @@ clshear_status cs_render(clshear_scene *scene, const clshear_settings *settings,
     passes = cs_job_plan(&job, error);
     if (passes == CLSHEAR_OK) passes = cs_job_run_passes(&job, error);
     if (passes != CS_CANCELLED) CS_TRY(passes);
+    job.is_over = 1;
     CS_TRY(cs_job_resolve(&job, &film, error));
     film->info.complete = passes == CLSHEAR_OK;
     film->info.render_s = cs_now_s() - start_s;

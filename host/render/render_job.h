@@ -65,6 +65,7 @@ typedef struct cs_job {
     cs_batch batches[CS_MOST_BATCHES];
     size_t batch_count;
     cs_pixels pixels;
+    int is_over; /* no more passes: resolving may give the pixels back */
     cs_buffer *shears;
     cs_velocity *velocities_px; /* NULL where nothing moves, as `velocities` */
     cs_buffer *velocities;      /* of the chosen rules */

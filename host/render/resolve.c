@@ -111,7 +111,7 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
             film->info.shadow_rays += slice[i].shadow_rays;
             if (slice[i].patterns < fewest) fewest = slice[i].patterns;
         }
-        cs_pixels_release(&job->pixels, first + count); /* the film takes its place */
+        if (job->is_over) cs_pixels_release(&job->pixels, first + count); /* the film takes over */
     }
     for (size_t i = 0; i < job->pixel_count; i++) {
         all->depth[0][i] = job->depth[i].centre;
