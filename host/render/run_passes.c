@@ -14,27 +14,26 @@ cs_pass cs_job_pass(const cs_job *job)
 {
     const cs_lighting *lighting = &job->lighting;
     const cs_material_needs *needs = &job->scene->device_scene.needs;
-    return (cs_pass){
-        .scene = job->scene,
-        .launch = {.camera = job->camera,
-                   .motion = job->motion,
-                   .seed = job->seed,
-                   .image_width = (cs_u32)job->width,
-                   .crop_x = (cs_u32)job->window[0],
-                   .crop_y = (cs_u32)job->window[2],
-                   .crop_width = (cs_u32)(job->window[1] - job->window[0]),
-                   .crop_height = (cs_u32)(job->window[3] - job->window[2]),
-                   .shear_mode = cs_shear_mode(job->shear_kind),
-                   .lights = lighting->count,
-                   .area_lights = cs_area_lights(job),
-                   .see_through = (cs_u32)needs->see_through,
-                   .bounces = (cs_u32)cs_integer(&job->settings, BOUNCES),
-                   .clamp = (float)cs_number(&job->settings, CLAMP)},
-        .optics = job->optics_table,
-        .lighting = lighting,
-        .features = job->features,
-        .start_s = cs_now_s(),
-        .rate = 1e5};
+    return (cs_pass){.scene = job->scene,
+                     .launch = {.camera = job->camera,
+                                .motion = job->motion,
+                                .seed = job->seed,
+                                .image_width = (cs_u32)job->width,
+                                .crop_x = (cs_u32)job->window[0],
+                                .crop_y = (cs_u32)job->window[2],
+                                .crop_width = (cs_u32)(job->window[1] - job->window[0]),
+                                .crop_height = (cs_u32)(job->window[3] - job->window[2]),
+                                .shear_mode = cs_shear_mode(job->shear_kind),
+                                .lights = lighting->count,
+                                .area_lights = cs_area_lights(job),
+                                .see_through = (cs_u32)needs->see_through,
+                                .bounces = (cs_u32)cs_integer(&job->settings, BOUNCES),
+                                .clamp = (float)cs_number(&job->settings, CLAMP)},
+                     .optics = job->optics_table,
+                     .lighting = lighting,
+                     .features = job->features,
+                     .start_s = cs_now_s(),
+                     .rate = 1e5};
 }
 
 /* A job in progress: what its pass calls between launches. */
