@@ -60,7 +60,7 @@ typedef struct cs_job {
     uint8_t *rule;   /* cs_rule of each pixel */
     cs_u32 *samples; /* in a pattern of each pixel; NULL: the same for all, or `adaptive` */
     cs_adaptive adaptive;
-    float *gain;     /* NULL: not asked for */
+    float *gain; /* NULL: not asked for */
     double pilot_samples;
     cs_batch batches[CS_MOST_BATCHES];
     size_t batch_count;

@@ -105,7 +105,6 @@ clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_erro
 /* The same, appended to the scene. */
 clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error);
 
-
 /* How the triangle moves while the shutter is open. */
 cs_triangle_step cs_scene_step(const cs_scene *scene, size_t triangle);
 
