@@ -22,8 +22,8 @@ static int run(void *job);
 const program_command merge_command = {
     .name = "merge",
     .usage = "clshear merge FILES [flags]\n"
-             "Put shards of a render together: EXR files of the same flags but for --shard K/N,\n"
-             "in any order, or merges of some.\n\n"
+             "Put shards of a render together: EXR files of the same flags but for --shard\n"
+             "K/N, in any order, or merges of some.\n\n"
              "  clshear merge shard-*.exr --out img.exr\n",
     .notes = "The picture is that of a render with all replicates. Shards that are missing are\n"
              "named, and what is there is merged.\n",
