@@ -31,9 +31,9 @@ done
 
 # SIGUSR1 asks for the picture so far; the render goes on, and its checkpoint is gone when it is done.
 rm -f h.exr h.txt
-"$program" "$cornell" --spp 4000 --width 64 --height 64 --checkpoint state --every 0 --out h.exr 2>h.txt &
+"$program" "$cornell" --spp 60000 --width 64 --height 64 --checkpoint state --every 0 --out h.exr 2>h.txt &
 child=$!
-for _ in $(seq 300); do grep -q '10 %' h.txt 2>/dev/null && break; sleep 0.1; done
+for _ in $(seq 600); do [ -s state ] && break; sleep 0.05; done
 [ -s state ] || wrong "no checkpoint"
 kill -USR1 $child
 wait $child
