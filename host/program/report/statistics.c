@@ -25,8 +25,7 @@ static void report_scene(const clshear_scene *scene)
            world.triangles, world.degenerate, world.references, world.nodes);
     printf("geometry     %.1f bytes per triangle on the device\n",
            (double)world.device_bytes / (double)world.triangles);
-    printf("lights       %zu of the file, %zu emissive triangles\n", world.lights,
-           world.emitters);
+    printf("lights       %zu of the file, %zu emissive triangles\n", world.lights, world.emitters);
     printf("load         %.3f s\n", world.load_s);
     printf("build        %.3f s\n", world.build_s);
 }
