@@ -152,6 +152,7 @@ done
     expect 0 "--orthographic 2.16" -- bare.obj $small --orthographic 0 --orbit 0,0 --out k.exr
     expect 0 "--fov is not used: --orthographic comes after it" -- bare.obj $small --fov 30 --orthographic 3 --out k.exr
     refuse 2 "--tilt 90,0: must be two numbers" -- bare.obj --tilt 90,0
+    refuse 1 "shutter 1,0: closes before it opens" -- bare.obj --shutter 1,0
     refuse 1 "tilt 80,0: at focal distance" -- bare.obj --quiet --orthographic 9 --focal-distance 2 --tilt 80,0
     expect 0 "--aov is for .exr, and no output is one" -- bare.obj $small --aov albedo --out k.png
     expect 0 "" -- bare.obj $small --aov albedo --out k.png --out k.EXR

@@ -3,8 +3,8 @@
  *
  * A surface that moves over the film by v pixels while the shutter is open, with the circle of
  * confusion s, shows the same point along the fibres x + s * u - v * time = const. The first two of
- * the five choose the fibre; the others move along it. A wrong v or s costs variance, never bias:
- * the maps preserve measure whatever they are told.
+ * the five choose the fibre; the others move along it. Each map preserves measure for any v and s,
+ * so that wrong ones raise the variance and leave the mean unbiased.
  *
  * pinhole     Time and pixel are two boxes, as lens and pixel are without motion: exact.
  * chain       For a square lens. Exact for motion along an axis; else the fibre's y leaks by at
@@ -30,8 +30,8 @@ typedef struct cs_moving_sample {
     cs_vfloat time;
 } cs_moving_sample;
 
-/* What a map of five numbers starts from: the fibre's pair, the fibre's places, the time's place.
- */
+/* The five numbers in [0, 1) that a map starts from. a and b choose the fibre; c, d and tau choose
+ * a place on it. */
 typedef struct cs_moving_tuple {
     cs_vfloat a;   /* of the fibre, along the axis of the larger motion */
     cs_vfloat b;   /* of the fibre, along the other axis */
@@ -47,9 +47,11 @@ typedef struct cs_moving_axis {
     cs_vfloat time;
 } cs_moving_axis;
 
-/* One axis of the chain: film + blur * lens + speed * time. across: picks the fibre; narrow: the
- * narrower of film and lens; tau: the time among those that are left, whose bounds go to `low` and
- * `high`. blur: above 0; speed: above 0. */
+/* One axis of the chain, whose fibre is film + blur * lens + speed * time.
+ *
+ * across, narrow, tau: in [0, 1). `across` chooses the fibre, `narrow` the narrower of film and
+ * lens, `tau` a time between `low` and `high`. low, high: receive the first and the last time that
+ * the fibre leaves, in [0, 1]. blur, speed: pixels, above 0. */
 static inline cs_moving_axis cs_chain_axis(cs_vfloat across, cs_vfloat narrow, cs_vfloat tau,
                                            cs_f32 blur, cs_vfloat speed, cs_vfloat *low,
                                            cs_vfloat *high)
@@ -69,9 +71,10 @@ static inline cs_moving_axis cs_chain_axis(cs_vfloat across, cs_vfloat narrow, c
     return axis;
 }
 
-/* The chain: t_x, the narrower of film and lens along x, the times that are then possible; t_y with
- * the motion in those times; the narrower along y; the time; what is left of both axes. Speeds and
- * blurs are magnitudes; those of x belong to the axis of the larger motion. */
+/* The chain. The x axis comes first and limits the times; the y axis moves during those times alone
+ * and chooses one of them; then x moves on to that time.
+ *
+ * blur_x, blur_y, speed_x, speed_y: magnitudes, pixels. speed_x is the larger speed. */
 static inline void cs_chain(const cs_moving_tuple *z, cs_f32 blur_x, cs_f32 blur_y, cs_f32 speed_x,
                             cs_f32 speed_y, cs_moving_axis *x, cs_moving_axis *y)
 {

@@ -189,8 +189,9 @@ static inline cs_camera_sample cs_shear_alone(cs_camera_sample p, cs_u32 mode,
     return p;
 }
 
-/* Maps those of `count` packets in place that cs_shears_together, and leaves the others as
- * cs_shear_alone made them. `count` is 1 to CS_TOGETHER; packet k has the shear shears[k]. */
+/* Maps each packet of `points` for which cs_shears_together is true, in place, and leaves the
+ * others as cs_shear_alone made them. count: packets, 1 to CS_TOGETHER. shears: of each packet,
+ * pixels. */
 static inline void cs_shear_together(cs_camera_sample *points, const cs_f32 *shears, int count,
                                      cs_u32 mode, const cs_optics *optics)
 {

@@ -9,10 +9,10 @@
  *   is exact. The second axis has its chord at the new coordinate of the first, so within half a
  *   pixel of the rim its fibre still depends on the second pair a little.
  * - Any symmetrical filter, any shape: fold. The film gets a place x by the filter, and the lens
- *   moves to u - x / blur. Where that is not on the aperture, -x and u are taken instead: there t
- * is off by x. This keeps measure, because the pairs (x, u) with u - x / blur off the aperture and
- *   those with u + x / blur off it, which nothing else reaches, are each other's images under x ->
- *   -x.
+ *   moves to u - x / blur. Where that point is off the aperture, the map takes -x and u instead,
+ *   and t changes by x. This keeps measure: the moves reach every pair (x, u) but those with
+ *   u + x / blur off the aperture, and x -> -x takes the pairs with u - x / blur off the aperture
+ *   to exactly those.
  *
  * Both keep measure to rounding. The share of tuples whose fibre is not exact falls as 1 / blur. */
 #ifndef CLSHEAR_DEVICE_WIDE_MAP_H
