@@ -43,7 +43,7 @@ clshear_status cs_scene_read(clshear_scene *scene, const char *path,
     double times_s[2];
     options.is_played = cs_shutter_times(settings, times_s);
     options.time_s = times_s[0];
-    if (times_s[1] < times_s[0])
+    if (settings != NULL && times_s[1] < times_s[0])
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "shutter %g,%g: closes before it opens; give the earlier time first",
                        cs_numbers(settings, SHUTTER)[0], cs_numbers(settings, SHUTTER)[1]);
