@@ -1,6 +1,7 @@
 #include "render/render.h"
 
 #include "render/checkpoint.h"
+#include "render/live.h"
 #include "render/resume.h"
 #include "render/rounds.h"
 
@@ -16,6 +17,7 @@ clshear_status cs_render(clshear_scene *scene, const clshear_settings *settings,
     CS_TRY(cs_resume_check(&job, error));
     CS_TRY(cs_rounds_check(&job, error));
     CS_TRY(cs_checkpoint_check(&job, error));
+    CS_TRY(cs_live_begin(&job, error));
     passes = cs_job_plan(&job, error);
     if (passes == CLSHEAR_OK) passes = cs_job_run_passes(&job, error);
     if (passes != CS_CANCELLED) CS_TRY(passes);
@@ -25,6 +27,7 @@ clshear_status cs_render(clshear_scene *scene, const clshear_settings *settings,
     film->info.render_s = cs_now_s() - start_s;
     CS_TRY(cs_film_set_float(film, "renderTimeSeconds", (float)film->info.render_s));
     if (!film->info.complete) CS_TRY(cs_film_set_int(film, "clshear.interrupted", 1));
+    cs_live_end(&job, film);
     *result = film;
     film = NULL;
 done:
