@@ -14,9 +14,9 @@ clshear_status cs_address_read(const char *text, cs_address *address, cs_error *
     const char *colon = strrchr(text, ':');
     const char *host = text;
     size_t length = colon != NULL ? (size_t)(colon - text) : 0;
-    if (length > 2 && host[0] == '[' && host[length - 1] == ']') {
+    if (length > 0 && host[0] == '[') {
+        length = host[length - 1] == ']' ? length - 2 : 0;
         host++;
-        length -= 2;
     } else if (memchr(host, ':', length) != NULL) {
         length = 0; /* an IPv6 address, and no brackets to say which colon is the port's */
     }
