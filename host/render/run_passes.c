@@ -86,6 +86,7 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
         pass.total += (double)cs_job_patterns(job) * (double)job->batches[b].pixel_count *
                       job->batches[b].pattern.grid.count;
     CS_TRY(cs_checkpoint_load(job, &pass, error));
+    cs_rounds_tell(job, &pass);
     status = job->adaptive.begin > 0         ? cs_adaptive_run(job, &pass, error)
              : cs_stop_has_rules(&job->stop) ? cs_rounds_run(job, &pass, error)
                                              : run_replicates(job, &pass, error);
