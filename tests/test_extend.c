@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "clshear/analysis.h"
+
 static clshear_settings *settings_of(test_fixture *made, const char *sampler, uint32_t spp)
 {
     clshear_settings *settings = test_settings(made->settings, 24, 24, spp);
@@ -233,6 +235,7 @@ int main(void)
         cmocka_unit_test(an_extension_that_never_began_is_whole),
         cmocka_unit_test(the_choice_of_the_pilot_stays),
         cmocka_unit_test(mismatched_bases_are_refused),
+        cmocka_unit_test(another_environment_is_refused),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);
 }
