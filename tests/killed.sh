@@ -2,7 +2,7 @@
 # kill -9 at random moments: killed.sh PROGRAM ROOT SCRATCH KILLS. Each of three renders is killed that
 # often and resumed, and begun anew where it ends before. It ends with the bits of one that was left alone,
 # and never loses more than what was drawn since the last checkpoint: the part that is done, as the first
-# line of progress of the next run says, does not come down.
+# line of progress of the next run says, does not come down by more than a tenth, in which progress is told.
 # Moments are counted in the processor's time of the program, so that the test does the same on a machine
 # that is busy: it needs half a second to begin, and some seconds to end.
 set -u

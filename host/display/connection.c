@@ -44,23 +44,30 @@ int cs_wait_to_send(int file, double patience_s)
     }
 }
 
-/* Connects to one of a host's addresses. Returns the descriptor, or -1 with errno. */
-static int connect_to(const struct addrinfo *place, double patience_s)
+/* How a connection that is being made has ended: 0, or errno. */
+static int reason_of(int file)
 {
     int reason = 0;
     socklen_t size = sizeof reason;
+    return getsockopt(file, SOL_SOCKET, SO_ERROR, &reason, &size) == 0 ? reason : errno;
+}
+
+/* Makes the socket one that does not wait, and connects it. Returns 0, or errno. */
+static int connect_socket(int file, const struct addrinfo *place, double patience_s)
+{
+    if (fcntl(file, F_SETFD, FD_CLOEXEC) != 0 || fcntl(file, F_SETFL, O_NONBLOCK) != 0)
+        return errno;
+    if (connect(file, place->ai_addr, place->ai_addrlen) == 0) return 0;
+    if (errno != EINPROGRESS) return errno;
+    return cs_wait_to_send(file, patience_s) ? reason_of(file) : ETIMEDOUT;
+}
+
+/* Connects to one of a host's addresses. Returns the descriptor, or -1 with errno. */
+static int connect_to(const struct addrinfo *place, double patience_s)
+{
     const int file = socket(place->ai_family, place->ai_socktype, place->ai_protocol);
     if (file < 0) return -1;
-    if (fcntl(file, F_SETFD, FD_CLOEXEC) != 0 || fcntl(file, F_SETFL, O_NONBLOCK) != 0)
-        reason = errno;
-    else if (connect(file, place->ai_addr, place->ai_addrlen) == 0)
-        return file;
-    else if (errno != EINPROGRESS)
-        reason = errno;
-    else if (!cs_wait_to_send(file, patience_s))
-        reason = ETIMEDOUT;
-    else if (getsockopt(file, SOL_SOCKET, SO_ERROR, &reason, &size) != 0)
-        reason = errno;
+    const int reason = connect_socket(file, place, patience_s);
     if (reason == 0) return file;
     close(file);
     errno = reason;
