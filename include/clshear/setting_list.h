@@ -62,7 +62,8 @@
  *
  * number    value of the enumerator; never reused, because compiled programs depend on it. It also
  *           gives the group in lists: 1 samples, 20 image, 40 camera, 50 lens, 60 light,
- *           70 reading, 80 device, 90 stopping, 100 motion, and all numbers up to the next group
+ *           70 reading, 80 device, 90 stopping, 100 motion, 112 device,
+ *           114 motion, and all numbers up to the next group
  * name      name of the flag, without dashes
  * aliases   other names of the flag, separated by spaces
  * kind      SWITCH (0 or 1), INTEGER, NUMBER, CHOICE (a name out of `choices`), TEXT
@@ -199,6 +200,10 @@
       "CPU threads; 0: all") \
     X(PACKET, 82, "packet", "", INTEGER, 1, 1, "", 1, 16, none, PRIVATE, "W", \
       "samples traced together: 1, 4, 8 or 16") \
+    X(RECORD, 112, "record", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "FILE", \
+      "capsule of the launches, for tools/replay.c") \
+    X(FORCE, 113, "force", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
+      "use a device that fails its test") \
     /* Stopping */ \
     X(NOISE, 90, "noise", "", NUMBER, 1, 1, "", 1e-6, 1, none, RECORD, "R", \
       "stop when the picture's relative error is below R") \
