@@ -88,6 +88,7 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
                       job->batches[b].pattern.grid.count;
     CS_TRY(cs_checkpoint_load(job, &pass, error));
     before = pass.done;
+    cs_rounds_tell(job, &pass);
     status = job->adaptive.begin > 0         ? cs_adaptive_run(job, &pass, error)
              : cs_stop_has_rules(&job->stop) ? cs_rounds_run(job, &pass, error)
                                              : run_replicates(job, &pass, error);
