@@ -1,10 +1,11 @@
 /* What the shear of lens and time gains over unsheared samples, as a Markdown table: a Cornell box
  * with a checkered wall, whose camera moves while the shutter is open.
  *
- *   bench_motion [--scene FILE] [--aperture square|disk] [--lens-radius R] [--move-x X] [--move-y Y]
+ *   bench_motion [--scene FILE] [--aperture square|disk] [--lens-radius R] [--move-x X] [--move-y
+ * Y]
  *                [--most N] [--seeds K] [--oracle RULE] [--size PX]
  *
- * Sixteen crops of a picture of PX x PX pixels, focus 900. Columns: variance of the mean of one
+ * Crops all over a picture of PX x PX pixels, focus 900. Columns: variance of the mean of one
  * pattern of N samples, averaged over the colours of the darker 95 % of the pixels (the others lie
  * next to the light); for N = 64, 256 ... up to --most; and its slope. Below: the gain of the
  * sheared `sobol` over `mj` and over the best unsheared sampler, mean and standard error over K
@@ -18,8 +19,9 @@
 #include "measure.h"
 
 enum {
-    CROP = 12, /* pixels along the side of a crop */
-    CROPS = 16,
+    CROP = 6, /* pixels along the side of a crop */
+    ACROSS = 8,
+    CROPS = ACROSS * ACROSS,
     PIXELS = CROPS * CROP * CROP,
     PATTERNS = 8,
     MOST_SEEDS = 32,
@@ -57,8 +59,8 @@ static double limit_of(const pixels *p)
 static void render_crop(clshear_scene *scene, clshear_settings *settings, int crop, int size,
                         pixels *p, double *speed)
 {
-    const int x = (2 * (crop % 4) + 1) * size / 8 - CROP / 2;
-    const int y = (2 * (crop / 4) + 1) * size / 8 - CROP / 2;
+    const int x = (2 * (crop % ACROSS) + 1) * size / (2 * ACROSS) - CROP / 2;
+    const int y = (2 * (crop / ACROSS) + 1) * size / (2 * ACROSS) - CROP / 2;
     const double window[4] = {x, x + CROP, y, y + CROP};
     static const char *const names[6] = {"R", "G", "B", "Variance.R", "Variance.G", "Variance.B"};
     bench_must(clshear_settings_set_numbers(settings, CLSHEAR_CROP, window, 4));
@@ -68,8 +70,7 @@ static void render_crop(clshear_scene *scene, clshear_settings *settings, int cr
         p->variance[at] = 0.0;
         for (int c = 0; c < 3; c++) {
             p->mean[at] += (double)clshear_film_channel(film, names[c])[i] / 3.0;
-            p->variance[at] +=
-                (double)clshear_film_channel(film, names[c + 3])[i] * PATTERNS / 3.0;
+            p->variance[at] += (double)clshear_film_channel(film, names[c + 3])[i] * PATTERNS / 3.0;
         }
         speed[at] = hypot((double)clshear_film_channel(film, "Velocity.X")[i],
                           (double)clshear_film_channel(film, "Velocity.Y")[i]);
@@ -161,15 +162,12 @@ int main(int argc, char **argv)
     const char *path = "scenes/cornell.obj", *aperture = "square", *oracle = NULL;
     double radius = 30.0, move[2] = {11.0, 5.5};
     int most = 1024, seeds = 6, size = 512;
-    const bench_flag flags[] = {{"scene", &path, NULL, NULL, NULL},
-                                {"aperture", &aperture, NULL, NULL, NULL},
-                                {"oracle", &oracle, NULL, NULL, NULL},
-                                {"lens-radius", NULL, NULL, NULL, &radius},
-                                {"move-x", NULL, NULL, NULL, &move[0]},
-                                {"move-y", NULL, NULL, NULL, &move[1]},
-                                {"most", NULL, NULL, &most, NULL},
-                                {"seeds", NULL, NULL, &seeds, NULL},
-                                {"size", NULL, NULL, &size, NULL}};
+    const bench_flag flags[] = {
+        {"scene", &path, NULL, NULL, NULL},     {"aperture", &aperture, NULL, NULL, NULL},
+        {"oracle", &oracle, NULL, NULL, NULL},  {"lens-radius", NULL, NULL, NULL, &radius},
+        {"move-x", NULL, NULL, NULL, &move[0]}, {"move-y", NULL, NULL, NULL, &move[1]},
+        {"most", NULL, NULL, &most, NULL},      {"seeds", NULL, NULL, &seeds, NULL},
+        {"size", NULL, NULL, &size, NULL}};
     static table t;
     clshear_context *context = NULL;
     clshear_scene *scene = NULL;
@@ -177,8 +175,9 @@ int main(int argc, char **argv)
     t.seeds = seeds < 2 ? 2 : seeds > MOST_SEEDS ? MOST_SEEDS : seeds;
     for (int n = 64; n <= most && t.sizes < MOST_SIZES; n *= 4)
         t.sizes++;
-    if (t.sizes == 0 || size < 8 * CROP) {
-        fprintf(stderr, "bench_motion: --most must be 64 or more, --size %d or more\n", 8 * CROP);
+    if (t.sizes == 0 || size < ACROSS * CROP) {
+        fprintf(stderr, "bench_motion: --most must be 64 or more, --size %d or more\n",
+                ACROSS * CROP);
         return 2;
     }
     clshear_settings *settings = bench_settings("scenes/cornell.flags");
