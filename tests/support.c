@@ -233,3 +233,16 @@ const cs_aperture_image *test_aperture_image(void)
     static const cs_aperture_image image = {luminance, 5, 4};
     return &image;
 }
+
+void test_base64(const void *data, size_t size, char *text)
+{
+    static const char letters[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const unsigned char *bytes = data;
+    for (size_t i = 0; i < size; i += 3) {
+        const unsigned word = (unsigned)bytes[i] << 16 | (unsigned)bytes[i + 1] << 8 | bytes[i + 2];
+        for (unsigned k = 0; k < 4; k++)
+            *text++ = letters[word >> (18 - 6 * k) & 63];
+    }
+    *text = '\0';
+}
