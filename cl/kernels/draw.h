@@ -48,15 +48,24 @@ typedef struct cs_drawn {
 #endif
 } cs_drawn;
 
+/* Whether a shear leaves the second pair of its tuples nothing but the place on the fibre. A disk
+ * or a polygon with a shear of exactly 0 has none: the rule of its pixel is not to shear. */
+static inline int cs_keeps_fibre(const cs_launch *launch, cs_f32 shear)
+{
+    return launch->shear_mode == (cs_u32)CS_SHEAR_EQUAL_AREA &&
+           (shear != 0.0f || !cs_has_chord_map(&launch->camera.optics));
+}
+
 /* The pair of samples `index` for area lights. Under the equal-area shear it takes the place of the
  * lens's pair in `point`, a tuple, and the lens gets the light's own: the first pair decides what
  * is seen and the light's pair whether it is lit, while the lens's only moves along the fibre. So
  * those two should be the pair that the sampler makes together. */
 static inline cs_pair cs_draw_light(const cs_launch *launch, cs_sample_table sample_table,
-                                    cs_u32 key, cs_vuint index, cs_camera_sample *point)
+                                    cs_u32 key, cs_vuint index, cs_f32 shear,
+                                    cs_camera_sample *point)
 {
     cs_pair light = cs_draw_extra(&launch->pattern, sample_table, key, index, CS_SLOT_LIGHT);
-    if (launch->shear_mode != (cs_u32)CS_SHEAR_EQUAL_AREA) return light;
+    if (!cs_keeps_fibre(launch, shear)) return light;
     cs_pair lens = light;
     light.x = point->u;
     light.y = point->v;
@@ -85,7 +94,8 @@ static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sampl
     drawn->light[k].x = (cs_vfloat)(0.0f);
     drawn->light[k].y = (cs_vfloat)(0.0f);
     if (launch->area_lights > 0u)
-        drawn->light[k] = cs_draw_light(launch, sample_table, place->key, index, &point);
+        drawn->light[k] =
+            cs_draw_light(launch, sample_table, place->key, index, place->shear, &point);
     drawn->place[k] = number;
     drawn->active[k] = active;
 #if CS_HAS(MOTION)

@@ -68,6 +68,7 @@ static inline cs_vfloat cs_slide(cs_film_box box, cs_span span, cs_f32 blur, int
                                  cs_vfloat *lens)
 {
     cs_f32 sign = blur < 0.0f ? -1.0f : 1.0f;
+    cs_f32 inverse = 1.0f / blur;
     cs_vfloat length = cs_max(span.length, (cs_vfloat)(1e-6f));
     cs_vfloat place = cs_clamp(sign * (*lens - span.centre) / length + 0.5f, (cs_vfloat)(0.0f),
                                (cs_vfloat)(1.0f));
@@ -84,7 +85,7 @@ static inline cs_vfloat cs_slide(cs_film_box box, cs_span span, cs_f32 blur, int
     cs_vfloat part = least + (cs_min(t, narrow) - least) * along; /* of the narrower */
     cs_vfloat rest = t - part;
     cs_vint is_narrow = blurred < box.width;
-    *lens = span.centre + ((is_narrow ? part : rest) / blur - (0.5f * sign) * length);
+    *lens = span.centre + ((is_narrow ? part : rest) * inverse - (0.5f * sign) * length);
     return (is_narrow ? rest : part) - 0.5f * box.width;
 }
 
