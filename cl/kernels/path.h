@@ -252,11 +252,11 @@ static inline void cs_path_shadow(const cs_scene_buffers *scene, cs_ray *ray, co
 }
 
 /* Adds what one light reflects towards the path, as cs_add_light does for direct light alone. */
-static inline void cs_path_add_light(const cs_scene_buffers *scene, const cs_surface *surface,
-                                     const cs_vfloat *origin, const cs_vfloat *out,
-                                     const cs_light_sample *light, const cs_draws *draws,
-                                     cs_path *path)
+static inline void cs_path_add_light(const cs_scene_buffers *scene, const cs_bsdf_view *view,
+                                     const cs_vfloat *origin, const cs_light_sample *light,
+                                     const cs_draws *draws, cs_path *path)
 {
+    const cs_surface *surface = view->surface;
     cs_vint facing = cs_is_open(surface, light->towards) & (light->weight != 0.0f);
     if (!cs_any(facing)) return;
     cs_ray shadow;
@@ -269,11 +269,10 @@ static inline void cs_path_add_light(const cs_scene_buffers *scene, const cs_sur
     cs_hit blocked;
     blocked.distance = facing ? (cs_vfloat)(light->reach) : (cs_vfloat)(-1.0f);
     cs_path_shadow(scene, &shadow, draws, path, &blocked);
-    cs_bsdf_value bsdf = cs_bsdf_eval(surface, out, light->towards);
+    cs_bsdf_value bsdf = cs_bsdf_eval(view, light->towards);
     /* Lights that no direction finds have density 0: their sample counts whole. */
-    cs_vfloat other = cs_bsdf_density(surface, out, light->towards);
     cs_vfloat share =
-        light->density > 0.0f ? cs_power_weight(light->density, other) : (cs_vfloat)(1.0f);
+        light->density > 0.0f ? cs_power_weight(light->density, bsdf.density) : (cs_vfloat)(1.0f);
     cs_vfloat weight =
         blocked.distance > 0.0f ? fabs(light->weight) * bsdf.scale * share : (cs_vfloat)(0.0f);
     cs_vfloat colour[3];
@@ -323,20 +322,21 @@ static inline void cs_path_cross(const cs_surface *surface, const cs_vfloat *in,
 #endif
 
 /* Turns the ray into one that leaves the surface as the BSDF draws it. */
-static inline void cs_path_scatter(const cs_surface *surface, const cs_vfloat *origin,
-                                   const cs_vfloat *out, const cs_draws *draws, cs_path *path)
+static inline void cs_path_scatter(const cs_bsdf_view *view, const cs_vfloat *origin,
+                                   const cs_draws *draws, cs_path *path)
 {
+    const cs_surface *surface = view->surface;
     cs_pair pair = cs_draw_at(draws, path->depth, CS_DRAW_BSDF);
     cs_pair choice = cs_draw_at(draws, path->depth, CS_DRAW_CHOICE);
-    cs_bsdf_direction drawn = cs_bsdf_sample(surface, out, pair, choice.x);
+    cs_bsdf_direction drawn = cs_bsdf_sample(view, pair, choice.x);
     cs_vfloat cosine = fabs(cs_dot(surface->normal, drawn.in));
-    path->alive = cs_is_open(surface, drawn.in) & (drawn.density > 0.0f);
+    path->alive = cs_is_open(surface, drawn.in) & (drawn.value.density > 0.0f);
     cs_leave_towards(surface, origin, drawn.in, path->ray.origin);
-    cs_vfloat weight = path->alive ? cosine * drawn.value.scale / drawn.density : (cs_vfloat)(0.0f);
+    cs_vfloat weight = path->alive ? cosine * drawn.value.scale / drawn.value.density : (cs_vfloat)(0.0f);
 #if CS_HAS(EMITTERS)
     path->left = cs_vantage_of(surface);
 #endif
-    path->density = drawn.density;
+    path->density = drawn.value.density;
     path->cosine = cs_dot(surface->normal, drawn.in);
     for (int i = 0; i < 3; i++) {
         path->throughput[i] *= weight * drawn.value.colour[i];
@@ -393,15 +393,16 @@ static inline int cs_path_advance(const cs_scene_buffers *scene, const cs_launch
     cs_leave_surface(&surface, hit.distance, origin);
     for (int i = 0; i < 3; i++)
         out[i] = -path->ray.direction[i];
+    cs_bsdf_view view = cs_bsdf_view_of(&surface, out);
     cs_pair pair = light_pair;
     if (path->depth > 0u && launch->area_lights > 0u)
         pair = cs_draw_at(draws, path->depth, CS_DRAW_LIGHT);
     for (cs_u32 i = 0u; i < launch->lights; i++) {
         cs_light_sample light = cs_sample_light(scene, scene->lights + i, &surface, pair);
-        cs_path_add_light(scene, &surface, origin, out, &light, draws, path);
+        cs_path_add_light(scene, &view, origin, &light, draws, path);
     }
     if (path->depth == launch->bounces && launch->area_lights == 0u) return 0;
-    cs_path_scatter(&surface, origin, out, draws, path);
+    cs_path_scatter(&view, origin, draws, path);
     path->depth++;
     path->radiance.shadow_rays += path->alive ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
     return cs_any(path->alive);
