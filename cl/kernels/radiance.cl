@@ -2,6 +2,7 @@
 #include "clshear/device/lens.h"
 #include "clshear/device/shear.h"
 #include "kernels/path.h"
+#include "kernels/radiance.h"
 #include "launch.h"
 
 /* One work-item computes CS_PACKET points. Global size: count / CS_PACKET; `count` is a multiple of
@@ -43,8 +44,14 @@ __kernel void cs_radiance_at(const cs_launch launch, const uint x, const uint y,
     for (int plane = 1; plane < CS_DIMENSIONS; plane++)
         number = cs_hash_lanes(number + cs_as_vuint(point[plane]));
     cs_draws draws = {&launch.pattern, 0, launch.seed, number};
-    cs_radiance found =
-        cs_path_along(&scene, &launch, &ray, light, &draws, point[CS_AT_FILM] == point[CS_AT_FILM]);
+    cs_paths paths;
+    paths.launch = &launch;
+    cs_path_begin(&paths, 0, &ray, light, &draws, point[CS_AT_FILM] == point[CS_AT_FILM]);
+#if CS_HAS(MOVING)
+    paths.path[0].time = scene.time;
+#endif
+    cs_follow_paths(&scene, &paths, 1);
+    cs_radiance found = paths.found[0];
 #else
     cs_radiance found = cs_radiance_along(&scene, launch.lights, &ray, light,
                                           point[CS_AT_FILM] == point[CS_AT_FILM]);

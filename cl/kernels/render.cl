@@ -4,36 +4,88 @@
 #include "clshear/device/lens.h"
 #include "kernels/draw.h"
 #include "kernels/path.h"
+#include "kernels/radiance.h"
 
-static inline void cs_trace_packet(const cs_launch *launch, const cs_scene_buffers *scene,
-                                   cs_sample_table sample_table, const cs_place *place,
-                                   const cs_drawn *drawn, int packet, cs_radiance *radiance)
+/* A packet's camera: at rest, or where it is at the lanes' times. */
+static inline cs_eye cs_eye_of(const cs_launch *launch, const cs_drawn *drawn, int packet)
 {
-#if CS_HAS(MOVING)
-    cs_scene_buffers moved = *scene;
-    moved.time = drawn->time[packet];
-    scene = &moved;
-#endif
-    cs_camera_sample point = drawn->point[packet];
 #if CS_HAS(MOTION)
-    const cs_eye eye = cs_eye_at(launch, drawn->time[packet]);
-    cs_ray ray = cs_eye_ray(launch, &eye, point.x + (cs_f32)place->x, point.y + (cs_f32)place->y,
-                            point.u, point.v);
+    return cs_eye_at(launch, drawn->time[packet]);
 #else
-    const cs_eye eye = launch->camera;
-    cs_ray ray = cs_lens_ray(launch->camera, point.x + (cs_f32)place->x, point.y + (cs_f32)place->y,
-                             point.u, point.v);
+    (void)drawn;
+    (void)packet;
+    return launch->camera;
 #endif
+}
+
+static inline cs_ray cs_camera_ray(const cs_launch *launch, const cs_eye *eye,
+                                   const cs_place *place, cs_camera_sample point)
+{
+#if CS_HAS(MOTION)
+    return cs_eye_ray(launch, eye, point.x + (cs_f32)place->x, point.y + (cs_f32)place->y, point.u,
+                      point.v);
+#else
+    (void)eye;
+    return cs_lens_ray(launch->camera, point.x + (cs_f32)place->x, point.y + (cs_f32)place->y,
+                       point.u, point.v);
+#endif
+}
+
 #if CS_HAS(PATHS)
-    cs_draws draws = {&launch->pattern, sample_table, place->key, drawn->index[packet]};
-    *radiance =
-        cs_path_along(scene, launch, &ray, drawn->light[packet], &draws, drawn->active[packet]);
+
+/* Traces the packets from number `first` on that are samples of one pixel; returns the number of
+ * the one behind them. */
+static inline int cs_trace_pixel(const cs_launch *launch, const cs_scene_buffers *scene,
+                                 cs_sample_table sample_table, const cs_place *places,
+                                 const cs_drawn *drawn, int first, cs_radiance *radiance)
+{
+    cs_paths paths;
+    const cs_place *place = places + drawn->place[first];
+    int end = first;
+    paths.launch = launch;
+    for (; end < drawn->count && drawn->place[end] == drawn->place[first]; end++) {
+        cs_draws draws = {&launch->pattern, sample_table, place->key, drawn->index[end]};
+        const cs_eye eye = cs_eye_of(launch, drawn, end);
+        cs_ray ray = cs_camera_ray(launch, &eye, place, drawn->point[end]);
+        cs_path_begin(&paths, end - first, &ray, drawn->light[end], &draws, drawn->active[end]);
+#if CS_HAS(MOVING)
+        paths.path[end - first].time = drawn->time[end];
+#endif
+    }
+    cs_follow_paths(scene, &paths, end - first);
+    for (int packet = first; packet < end; packet++)
+        radiance[packet] = paths.found[packet - first];
+    return end;
+}
+
+#endif
+
+/* Traces the packets; `radiance` is of each of them. */
+static inline void cs_trace_packets(const cs_launch *launch, const cs_scene_buffers *scene,
+                                    cs_sample_table sample_table, const cs_place *places,
+                                    const cs_drawn *drawn, cs_radiance *radiance)
+{
+#if CS_HAS(PATHS)
+    for (int packet = 0; packet < drawn->count;)
+        packet = cs_trace_pixel(launch, scene, sample_table, places, drawn, packet, radiance);
 #else
     (void)sample_table;
-    *radiance =
-        cs_radiance_along(scene, launch->lights, &ray, drawn->light[packet], drawn->active[packet]);
+    for (int packet = 0; packet < drawn->count; packet++) {
+        const cs_eye eye = cs_eye_of(launch, drawn, packet);
+        cs_ray ray =
+            cs_camera_ray(launch, &eye, places + drawn->place[packet], drawn->point[packet]);
+        cs_scene_buffers at = *scene;
+#if CS_HAS(MOVING)
+        at.time = drawn->time[packet];
 #endif
-    cs_note_depth(&eye, radiance);
+        radiance[packet] = cs_radiance_along(&at, launch->lights, &ray, drawn->light[packet],
+                                             drawn->active[packet]);
+    }
+#endif
+    for (int packet = 0; packet < drawn->count; packet++) {
+        const cs_eye eye = cs_eye_of(launch, drawn, packet);
+        cs_note_depth(&eye, radiance + packet);
+    }
 }
 
 /* Samples at places `start` to `end` of the order of a few pixels, gathered and merged into them.
@@ -44,6 +96,7 @@ static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *sc
                              CS_GLOBAL cs_pixel *pixels, CS_GLOBAL cs_exact_sum *aovs)
 {
     cs_drawn drawn;
+    cs_radiance radiance[CS_TOGETHER];
     cs_accumulator accumulator;
 #if CS_HAS(AOVS)
     cs_aov_sums sums;
@@ -54,14 +107,14 @@ static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *sc
     for (; start < end; start += (cs_u32)(CS_TOGETHER * CS_PACKET)) {
         int more = count == 1 && start + (cs_u32)(CS_TOGETHER * CS_PACKET) < end;
         cs_draw_packets(launch, sample_table, lens_table, places, count, start, end, &drawn);
+        cs_trace_packets(launch, scene, sample_table, places, &drawn, radiance);
         for (int packet = 0; packet < drawn.count; packet++) {
             const cs_place *place = places + drawn.place[packet];
-            cs_radiance radiance;
-            cs_trace_packet(launch, scene, sample_table, place, &drawn, packet, &radiance);
-            cs_accumulator_add(&accumulator, radiance.channel, radiance.shadow_rays,
+            const cs_radiance *found = radiance + packet;
+            cs_accumulator_add(&accumulator, found->channel, found->shadow_rays,
                                drawn.active[packet], first);
 #if CS_HAS(AOVS)
-            cs_aov_sums_add(&sums, &radiance, drawn.active[packet], first);
+            cs_aov_sums_add(&sums, found, drawn.active[packet], first);
 #endif
             first =
                 packet + 1 < drawn.count ? drawn.place[packet + 1] != drawn.place[packet] : !more;

@@ -163,6 +163,15 @@ static inline cs_hit cs_walk_octant(CS_GLOBAL const cs_node *nodes,
     }
 }
 
+/* The octants of directions: a bit for each axis, set where the direction is negative along it. */
+static inline cs_vint cs_octants(const cs_vfloat *direction)
+{
+    cs_vint octants = (cs_vint)(0);
+    for (int axis = 0; axis < 3; axis++)
+        octants += direction[axis] < 0.0f ? (cs_vint)(1 << axis) : (cs_vint)(0);
+    return octants;
+}
+
 /* Traces the lanes whose hit->distance is positive, up to that distance. Closest hit: `hit` gets
  * the nearest triangle and its distance. Any hit: the distance of a lane that is blocked becomes
  * negative. `any_hit` must be a literal. */

@@ -1,0 +1,104 @@
+/* Paths: where they are, what they carry, and where what they find is kept. Device only.
+ *
+ * A packet's paths may be of any samples of the pixel: they are sorted anew at every surface
+ * (sort.h). */
+#ifndef CS_PATH_STATE_H
+#define CS_PATH_STATE_H
+
+#include "kernels/draws.h"
+#include "kernels/found.h"
+#include "kernels/launch.h"
+#include "kernels/light/escaped.h"
+
+/* Lanes only: sorting moves them as words. */
+typedef struct cs_path {
+    cs_ray ray;
+    cs_vint alive;           /* lanes whose ray is to be followed */
+    cs_vint home;            /* the sample: CS_PACKET times its packet, and its lane there */
+    cs_vuint index;          /* of the sample in the pattern */
+    cs_vfloat throughput[3]; /* radiance at the lens for one at the end of the ray */
+    cs_vfloat density;       /* with which the BSDF drew the ray; of camera rays it is not used */
+    cs_vfloat cosine;        /* of the ray at the surface that it left; negative behind it */
+#if CS_HAS(EMITTERS)
+    cs_vantage left; /* the surface behind the path's end */
+#endif
+#if CS_HAS(MATERIALS)
+    cs_vfloat squeezed; /* by which solids, that the path is in, lower the throughput */
+#endif
+#if CS_HAS(MOVING)
+    cs_vfloat time;
+#endif
+} cs_path;
+
+/* What a surface on a path draws. */
+typedef struct cs_numbers {
+    cs_pair light;  /* the place on area lights */
+    cs_pair bsdf;   /* the direction that goes on */
+    cs_pair choice; /* between the lobes of a BSDF; whether the path goes on */
+} cs_numbers;
+
+/* The paths of the samples of one pixel, all of them at the same depth. */
+typedef struct cs_paths {
+    const cs_launch *launch;
+    cs_draws draws[CS_TOGETHER];     /* of each packet of samples */
+    cs_numbers numbers[CS_TOGETHER]; /* of each, for the next surface */
+    cs_radiance found[CS_TOGETHER];  /* of each, so far */
+    int samples;                     /* packets of them */
+    cs_path path[CS_TOGETHER];
+    int count;          /* packets of paths */
+    int sorted;         /* whether paths have left their sample's lane */
+    cs_u32 depth;       /* surfaces behind the paths */
+    cs_vfloat rays;     /* traced after the first, a lane */
+} cs_paths;
+
+/* Weight of a sample with density `own` where another way would have drawn it with `other`. The
+ * ratio keeps squares within floats. */
+static inline cs_vfloat cs_power_weight(cs_vfloat own, cs_vfloat other)
+{
+    cs_vfloat ratio = other / cs_max(own, (cs_vfloat)(1e-30f));
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+/* Adds radiance at the lens to the samples. met: surfaces that this light met. */
+static inline void cs_samples_add(cs_paths *paths, cs_vint home, cs_u32 met, cs_vint lit,
+                                  const cs_vfloat *radiance)
+{
+    cs_int_lanes to, wanted;
+    cs_float_lanes light[3];
+    to.all = home;
+    if (!paths->sorted) {
+        for (int c = 0; c < 3; c++)
+            cs_radiance_add(paths->found + to.lane[0] / CS_PACKET, met, c,
+                            lit ? radiance[c] : (cs_vfloat)(0.0f));
+        return;
+    }
+    wanted.all = lit;
+    for (int c = 0; c < 3; c++)
+        light[c].all = radiance[c];
+    for (int lane = 0; lane < CS_PACKET; lane++) {
+        if (!wanted.lane[lane]) continue;
+        for (int c = 0; c < 3; c++)
+            cs_radiance_add_lane(paths->found + to.lane[lane] / CS_PACKET,
+                                 to.lane[lane] % CS_PACKET, met, c, light[c].lane[lane]);
+    }
+}
+
+/* Adds `colour` times `weight` at the end of the paths; lanes with weight 0 add nothing. met:
+ * surfaces that this light met. */
+static inline void cs_path_add(cs_paths *paths, const cs_path *path, cs_u32 met, cs_vfloat weight,
+                               const cs_vfloat *colour)
+{
+    cs_vfloat added[3], scale = (cs_vfloat)(1.0f);
+    cs_f32 clamp = paths->launch->clamp;
+    for (int c = 0; c < 3; c++)
+        added[c] = path->throughput[c] * weight * colour[c];
+    if (clamp > 0.0f && paths->depth > 0u) {
+        cs_vfloat most = cs_max(added[0], cs_max(added[1], added[2]));
+        scale = most > clamp ? clamp / most : scale;
+    }
+    for (int c = 0; c < 3; c++)
+        added[c] *= scale;
+    cs_samples_add(paths, path->home, met, weight > 0.0f, added);
+}
+
+#endif
