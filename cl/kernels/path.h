@@ -10,7 +10,6 @@
 #include "kernels/path/emission.h"
 #include "kernels/path/scatter.h"
 #include "kernels/path/shadow.h"
-#include "kernels/path/sort.h"
 
 /* Draws for the next surfaces, packet by packet of samples: samplers draw consecutive ones. The
  * first surface has the tuple's own pair for lights. */
@@ -28,7 +27,8 @@ static inline void cs_draw_numbers(cs_paths *paths)
 static inline cs_numbers cs_numbers_of(const cs_paths *paths, int packet)
 {
 #if CS_PACKET > 1
-    if (paths->sorted) return cs_sorted_numbers(paths, paths->path + packet);
+    if (paths->depth > 0u && paths->samples > 1)
+        return cs_sorted_numbers(paths, paths->path + packet);
 #endif
     return paths->numbers[packet];
 }
@@ -101,7 +101,7 @@ static inline void cs_follow_paths(const cs_scene_buffers *scene, cs_paths *path
 {
     paths->samples = samples;
     paths->count = samples;
-    paths->sorted = 0;
+    paths->shadows = 0;
     paths->rays = (cs_vfloat)(0.0f);
     for (paths->depth = 0u; paths->count > 0; paths->depth++) {
         cs_draw_numbers(paths);
@@ -112,6 +112,7 @@ static inline void cs_follow_paths(const cs_scene_buffers *scene, cs_paths *path
 #endif
             cs_path_advance(&at, paths, p);
         }
+        cs_trace_shadows(scene, paths);
 #if CS_PACKET > 1
         if (samples > 1) {
             cs_sort_paths(paths);

@@ -33,7 +33,7 @@ static inline void cs_path_add_emission(const cs_scene_buffers *scene, cs_paths 
 #endif
         weight = cs_power_weight(path->density, density);
     }
-    cs_path_add(paths, path, paths->depth, shines ? weight : (cs_vfloat)(0.0f), surface->emission);
+    cs_path_add(paths, path, shines ? weight : (cs_vfloat)(0.0f), surface->emission);
 }
 
 #if CS_HAS(LIGHTS)
@@ -59,7 +59,7 @@ static inline void cs_path_add_escaped(const cs_scene_buffers *scene, cs_paths *
             continue;
         cs_vfloat weight = (cs_vfloat)(1.0f);
         if (paths->depth > 0u) weight = cs_power_weight(path->density, found.density);
-        cs_path_add(paths, path, paths->depth, escaped ? weight : (cs_vfloat)(0.0f), found.colour);
+        cs_path_add(paths, path, escaped ? weight : (cs_vfloat)(0.0f), found.colour);
     }
 }
 #endif

@@ -46,21 +46,25 @@ enum {
     CS_MOST_PASSED = 64 /* surfaces that a ray passes because of their alpha */
 };
 
-/* Lanes that pass the surface: alpha is the chance that they do not (Enderton et al. 2010). key:
- * cs_passing_key. index: of the samples. */
-static inline cs_vint cs_passes(const cs_surface *surface, cs_u32 key, cs_vuint index)
+/* Lanes that pass the surface: alpha is the chance that they do not (Enderton et al. 2010). bits:
+ * random. */
+static inline cs_vint cs_passes(const cs_surface *surface, cs_vuint bits)
 {
-    cs_vint thin = surface->hit & (surface->alpha < 1.0f);
-    if (!cs_any(thin)) return thin;
-    return thin & (cs_unit(cs_key_lanes(key, index)) >= surface->alpha);
+    return surface->hit & (surface->alpha < 1.0f) & (cs_unit(bits) >= surface->alpha);
 }
 
-/* Keys of the choices to pass surface number `passed` on the way of the ray that goes on (0), or
- * to a light (from 1 on); apart from all patterns of a path. */
-static inline cs_u32 cs_passing_key(const cs_paths *paths, cs_u32 ray, cs_u32 passed)
+/* Random bits for the choices to pass surfaces on the way of the ray that goes on (0), or to a
+ * light (from 1 on); apart from all patterns of a path. */
+static inline cs_vuint cs_passing(const cs_paths *paths, cs_u32 ray, cs_vuint index)
 {
-    cs_u32 number = (paths->depth * 256u + ray) * (cs_u32)CS_MOST_PASSED + passed;
-    return cs_key(paths->draws[0].key, 0x70617373u + number);
+    cs_u32 key = 0x70617373u + paths->depth * 0x10000u + ray;
+    return cs_key_lanes(cs_key(paths->draws[0].key, key), index);
+}
+
+/* Those for surface number `passed`. */
+static inline cs_vuint cs_passing_bits(cs_vuint passing, cs_u32 passed)
+{
+    return cs_hash_lanes(passing + 0x9e3779b9u * passed);
 }
 #endif
 
@@ -71,11 +75,12 @@ static inline cs_vint cs_path_hit(const cs_scene_buffers *scene, const cs_paths 
 {
     cs_vint seen = cs_find_surfaces(scene, paths->launch->lights, &path->ray, hit, surface);
 #if CS_HAS(MATERIALS)
+    cs_vuint passing = cs_passing(paths, 0u, path->index);
     cs_vint passes = seen; /* lanes that stopped once have stopped */
     cs_vfloat passed = (cs_vfloat)(0.0f);
     cs_ray ray = path->ray;
     for (cs_u32 n = 0u; cs_any(seen) && n < (cs_u32)CS_MOST_PASSED; n++) {
-        passes = passes & cs_passes(surface, cs_passing_key(paths, 0u, n), path->index);
+        passes = passes & cs_passes(surface, cs_passing_bits(passing, n));
         if (!cs_any(passes)) break;
         cs_vfloat origin[3], from[3];
         cs_leave_surface(surface, hit->distance, origin);

@@ -1,9 +1,9 @@
-/* Which paths are followed together. Device only.
+/* Which rays are followed together. Device only.
  *
  * Behind the first surface, paths of a packet end, and those that go on diverge. So before each
  * surface the paths that are left fill packets anew, those of one octant of directions beside each
- * other: a packet walks the hierarchy once for each octant that it has (traverse.h). What a path
- * finds does not depend on its lane. */
+ * other: a packet walks the hierarchy once for each octant that it has (traverse.h). So do rays to
+ * lights. What a ray finds does not depend on its lane. */
 #ifndef CS_PATH_SORT_H
 #define CS_PATH_SORT_H
 
@@ -13,79 +13,120 @@
 
 enum {
     CS_PATH_WORDS = sizeof(cs_path) / sizeof(cs_vint),
-    CS_NUMBER_WORDS = sizeof(cs_numbers) / sizeof(cs_vint)
+    CS_SHADOW_WORDS = sizeof(cs_shadow) / sizeof(cs_vint),
+    CS_NUMBER_WORDS = sizeof(cs_numbers) / sizeof(cs_vint),
+    CS_NO_OCTANT = 8 /* of lanes without a ray; they come last */
 };
 
-/* A packet's lanes one by one, whatever they hold. */
+/* Packets as lanes, whatever they hold. */
 typedef union cs_path_words {
-    cs_path path;
+    cs_path all;
     cs_int_lanes word[CS_PATH_WORDS];
 } cs_path_words;
 
+typedef union cs_shadow_words {
+    cs_shadow all;
+    cs_int_lanes word[CS_SHADOW_WORDS];
+} cs_shadow_words;
+
 typedef union cs_number_words {
-    cs_numbers numbers;
+    cs_numbers all;
     cs_int_lanes word[CS_NUMBER_WORDS];
 } cs_number_words;
 
-/* Writes the places, CS_PACKET times packet and lane, of the living paths by octant; returns how
- * many there are. */
-static inline int cs_order_paths(const cs_paths *paths, int *order)
+/* The lane at place `from`, CS_PACKET times packet and lane, of packets of `words` words becomes a
+ * lane of `after`. */
+static inline void cs_move_lane(const cs_int_lanes *packets, int words, int from, int lane,
+                                cs_int_lanes *after)
 {
-    cs_int_lanes octants[CS_TOGETHER];
-    int next[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0}, total = 0;
-    for (int p = 0; p < paths->count; p++) {
-        const cs_path *path = paths->path + p;
-        octants[p].all = path->alive ? cs_octants(path->ray.direction) : (cs_vint)(8);
+    const cs_int_lanes *packet = packets + from / CS_PACKET * words;
+    for (int w = 0; w < words; w++)
+        after[w].lane[lane] = packet[w].lane[from % CS_PACKET];
+}
+
+/* Fills a packet with the lanes at 16 places, or however many lanes there are. */
+static inline void cs_fill_packet(const cs_int_lanes *packets, int words, const int *from,
+                                  cs_int_lanes *after)
+{
+    int whole = from[0] % CS_PACKET == 0;
+    for (int lane = 1; lane < CS_PACKET; lane++)
+        whole &= from[lane] == from[0] + lane;
+    if (whole) {
+        for (int w = 0; w < words; w++)
+            after[w] = packets[from[0] / CS_PACKET * words + w];
+        return;
+    }
+    for (int lane = 0; lane < CS_PACKET; lane++)
+        cs_move_lane(packets, words, from[lane], lane, after);
+}
+
+/* Writes the places of lanes by octant, as they come within one; returns how many have a ray. */
+static inline int cs_order_lanes(const cs_int_lanes *octants, int count, int *order)
+{
+    int next[CS_NO_OCTANT + 1], total = 0;
+    for (int octant = 0; octant <= CS_NO_OCTANT; octant++)
+        next[octant] = 0;
+    for (int p = 0; p < count; p++)
         for (int lane = 0; lane < CS_PACKET; lane++)
             next[octants[p].lane[lane]]++;
+    for (int octant = 0; octant <= CS_NO_OCTANT; octant++) {
+        int own = next[octant];
+        next[octant] = total;
+        total += own;
     }
-    for (int octant = 0; octant < 8; octant++) {
-        int begin = total;
-        total += next[octant];
-        next[octant] = begin;
-    }
-    next[8] = total;
-    for (int p = 0; p < paths->count; p++)
+    total = next[CS_NO_OCTANT];
+    for (int p = 0; p < count; p++)
         for (int lane = 0; lane < CS_PACKET; lane++)
             order[next[octants[p].lane[lane]]++] = p * CS_PACKET + lane;
     return total;
 }
 
-/* Fills packets anew. */
 static inline void cs_sort_paths(cs_paths *paths)
 {
     int order[CS_TOGETHER * CS_PACKET];
+    cs_int_lanes octants[CS_TOGETHER];
     cs_path_words before[CS_TOGETHER], after;
-    int total = cs_order_paths(paths, order);
-    for (int p = 0; p < paths->count; p++)
-        before[p].path = paths->path[p];
-    paths->count = (total + CS_PACKET - 1) / CS_PACKET;
-    paths->sorted = 1;
     for (int p = 0; p < paths->count; p++) {
-        for (int lane = 0; lane < CS_PACKET; lane++) {
-            int from = order[p * CS_PACKET + lane];
-            const cs_path_words *packet = before + from / CS_PACKET;
-            for (int w = 0; w < CS_PATH_WORDS; w++)
-                after.word[w].lane[lane] = packet->word[w].lane[from % CS_PACKET];
-        }
-        paths->path[p] = after.path;
+        before[p].all = paths->path[p];
+        octants[p].all = before[p].all.alive ? cs_octants(before[p].all.ray.direction)
+                                             : (cs_vint)(CS_NO_OCTANT);
+    }
+    int total = cs_order_lanes(octants, paths->count, order);
+    paths->count = (total + CS_PACKET - 1) / CS_PACKET;
+    for (int p = 0; p < paths->count; p++) {
+        cs_fill_packet((const cs_int_lanes *)before, CS_PATH_WORDS, order + p * CS_PACKET, after.word);
+        paths->path[p] = after.all;
+    }
+}
+
+static inline void cs_sort_shadows(cs_paths *paths)
+{
+    int order[CS_SHADOWS * CS_PACKET];
+    cs_int_lanes octants[CS_SHADOWS];
+    cs_shadow_words before[CS_SHADOWS], after;
+    for (int p = 0; p < paths->shadows; p++) {
+        before[p].all = paths->shadow[p];
+        octants[p].all = before[p].all.reach > 0.0f ? cs_octants(before[p].all.ray.direction)
+                                                    : (cs_vint)(CS_NO_OCTANT);
+    }
+    int total = cs_order_lanes(octants, paths->shadows, order);
+    paths->shadows = (total + CS_PACKET - 1) / CS_PACKET;
+    for (int p = 0; p < paths->shadows; p++) {
+        cs_fill_packet((const cs_int_lanes *)before, CS_SHADOW_WORDS, order + p * CS_PACKET, after.word);
+        paths->shadow[p] = after.all;
     }
 }
 
 /* The numbers of the paths in their lanes. */
 static inline cs_numbers cs_sorted_numbers(const cs_paths *paths, const cs_path *path)
 {
+    const cs_int_lanes *drawn = (const cs_int_lanes *)paths->numbers;
     cs_number_words words;
     cs_int_lanes home;
     home.all = path->home;
-    for (int lane = 0; lane < CS_PACKET; lane++) {
-        int from = home.lane[lane];
-        const cs_number_words *drawn =
-            (const cs_number_words *)(paths->numbers + from / CS_PACKET);
-        for (int w = 0; w < CS_NUMBER_WORDS; w++)
-            words.word[w].lane[lane] = drawn->word[w].lane[from % CS_PACKET];
-    }
-    return words.numbers;
+    for (int lane = 0; lane < CS_PACKET; lane++)
+        cs_move_lane(drawn, CS_NUMBER_WORDS, home.lane[lane], lane, words.word);
+    return words.all;
 }
 
 #endif

@@ -30,6 +30,27 @@ typedef struct cs_path {
 #endif
 } cs_path;
 
+/* Rays to lights, of any samples of the pixel. Lanes only, too. */
+typedef struct cs_shadow {
+    cs_ray ray;
+    cs_vfloat reach;    /* where the light is, in lengths of the direction; negative: no ray */
+    cs_vfloat light[3]; /* radiance at the lens if nothing is in the way */
+    cs_vint home;       /* as in cs_path */
+#if CS_HAS(MATERIALS)
+    cs_vuint passing; /* what choices to pass a surface are made of */
+#endif
+#if CS_HAS(MOVING)
+    cs_vfloat time;
+#endif
+} cs_shadow;
+
+/* Packets of them that wait for each other. */
+#if CS_PACKET == 1
+#define CS_SHADOWS 1
+#else
+#define CS_SHADOWS (2 * CS_TOGETHER)
+#endif
+
 /* What a surface on a path draws. */
 typedef struct cs_numbers {
     cs_pair light;  /* the place on area lights */
@@ -45,10 +66,11 @@ typedef struct cs_paths {
     cs_radiance found[CS_TOGETHER];  /* of each, so far */
     int samples;                     /* packets of them */
     cs_path path[CS_TOGETHER];
-    int count;          /* packets of paths */
-    int sorted;         /* whether paths have left their sample's lane */
-    cs_u32 depth;       /* surfaces behind the paths */
-    cs_vfloat rays;     /* traced after the first, a lane */
+    int count;      /* packets of paths */
+    cs_u32 depth;   /* surfaces behind the paths */
+    cs_vfloat rays; /* traced after the first, a lane */
+    cs_shadow shadow[CS_SHADOWS];
+    int shadows; /* packets of them */
 } cs_paths;
 
 /* Weight of a sample with density `own` where another way would have drawn it with `other`. The
@@ -59,14 +81,22 @@ static inline cs_vfloat cs_power_weight(cs_vfloat own, cs_vfloat other)
     return 1.0f / (1.0f + ratio * ratio);
 }
 
-/* Adds radiance at the lens to the samples. met: surfaces that this light met. */
+/* Whether lanes are those of one packet, in order. */
+static inline int cs_is_packet(cs_int_lanes home)
+{
+    cs_vint first = (cs_vint)(home.lane[0]);
+    return home.lane[0] % CS_PACKET == 0 &&
+           !cs_any(home.all != first + cs_as_vint(CS_LANE_INDEX));
+}
+
+/* Adds radiance at the lens to the samples of the lanes in `lit`. met: surfaces that it met. */
 static inline void cs_samples_add(cs_paths *paths, cs_vint home, cs_u32 met, cs_vint lit,
                                   const cs_vfloat *radiance)
 {
     cs_int_lanes to, wanted;
     cs_float_lanes light[3];
     to.all = home;
-    if (!paths->sorted) {
+    if (cs_is_packet(to)) {
         for (int c = 0; c < 3; c++)
             cs_radiance_add(paths->found + to.lane[0] / CS_PACKET, met, c,
                             lit ? radiance[c] : (cs_vfloat)(0.0f));
@@ -83,22 +113,30 @@ static inline void cs_samples_add(cs_paths *paths, cs_vint home, cs_u32 met, cs_
     }
 }
 
-/* Adds `colour` times `weight` at the end of the paths; lanes with weight 0 add nothing. met:
- * surfaces that this light met. */
-static inline void cs_path_add(cs_paths *paths, const cs_path *path, cs_u32 met, cs_vfloat weight,
-                               const cs_vfloat *colour)
+/* Radiance at the lens for `colour` times `weight` at the end of the paths; what `clamp` leaves of
+ * it behind the first surface. */
+static inline void cs_path_carry(const cs_paths *paths, const cs_path *path, cs_vfloat weight,
+                                 const cs_vfloat *colour, cs_vfloat *light)
 {
-    cs_vfloat added[3], scale = (cs_vfloat)(1.0f);
+    cs_vfloat scale = (cs_vfloat)(1.0f);
     cs_f32 clamp = paths->launch->clamp;
     for (int c = 0; c < 3; c++)
-        added[c] = path->throughput[c] * weight * colour[c];
+        light[c] = path->throughput[c] * weight * colour[c];
     if (clamp > 0.0f && paths->depth > 0u) {
-        cs_vfloat most = cs_max(added[0], cs_max(added[1], added[2]));
+        cs_vfloat most = cs_max(light[0], cs_max(light[1], light[2]));
         scale = most > clamp ? clamp / most : scale;
     }
     for (int c = 0; c < 3; c++)
-        added[c] *= scale;
-    cs_samples_add(paths, path->home, met, weight > 0.0f, added);
+        light[c] *= scale;
+}
+
+/* Adds what the paths' rays found; lanes with weight 0 add nothing. */
+static inline void cs_path_add(cs_paths *paths, const cs_path *path, cs_vfloat weight,
+                               const cs_vfloat *colour)
+{
+    cs_vfloat light[3];
+    cs_path_carry(paths, path, weight, colour, light);
+    cs_samples_add(paths, path->home, paths->depth, weight > 0.0f, light);
 }
 
 #endif
