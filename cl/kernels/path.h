@@ -17,6 +17,13 @@ static inline void cs_draw_numbers(cs_paths *paths)
 {
     for (int p = 0; p < paths->samples; p++) {
         cs_numbers *numbers = paths->numbers + p;
+        cs_vint living = (cs_vint)(0);
+        for (int k = 0; k < paths->count; k++) {
+            const cs_path *path = paths->path + k;
+            living = living | (path->alive & (path->home >= p * CS_PACKET) &
+                               (path->home < (p + 1) * CS_PACKET));
+        }
+        if (!cs_any(living)) continue;
         if (paths->depth > 0u && paths->launch->area_lights > 0u)
             numbers->light = cs_draw_at(paths->draws + p, paths->depth, CS_DRAW_LIGHT);
         numbers->bsdf = cs_draw_at(paths->draws + p, paths->depth, CS_DRAW_BSDF);
@@ -104,7 +111,8 @@ static inline void cs_follow_paths(const cs_scene_buffers *scene, cs_paths *path
     paths->shadows = 0;
     paths->rays = (cs_vfloat)(0.0f);
     for (paths->depth = 0u; paths->count > 0; paths->depth++) {
-        cs_draw_numbers(paths);
+        /* The last rays turn nowhere. */
+        if (paths->depth <= paths->launch->bounces) cs_draw_numbers(paths);
         for (int p = 0; p < paths->count; p++) {
             cs_scene_buffers at = *scene;
 #if CS_HAS(MOVING)

@@ -9,9 +9,9 @@
 #include "kernels/hits.h"
 #include "kernels/light/escaped.h"
 
-/* Adds what a light reflects from the surface that is in view. The shadow ray begins at `origin`, off
- * the surface, and ends where `light->towards` does: what the light gives does not shift. lights:
- * their number. */
+/* Adds what a light reflects from the surface that is in view. The shadow ray begins at `origin`,
+ * off the surface, and ends where `light->towards` does: what the light gives does not shift.
+ * lights: their number. */
 static inline void cs_add_light(const cs_scene_buffers *scene, cs_u32 lights,
                                 const cs_bsdf_view *view, const cs_vfloat *origin,
                                 const cs_light_sample *light, cs_radiance *radiance)

@@ -44,10 +44,9 @@ static inline cs_vfloat cs_angle_to(cs_vfloat y, cs_vfloat x)
     cs_vint far = low > 0.414213562f * high;
     cs_vfloat slope = (far ? low - high : low) / (far ? low + high : high);
     cs_vfloat square = slope * slope;
-    cs_vfloat rest = ((8.05374449538e-2f * square - 1.38776856032e-1f) * square +
-                      1.99777106478e-1f) *
-                         square -
-                     3.33329491539e-1f;
+    cs_vfloat rest =
+        ((8.05374449538e-2f * square - 1.38776856032e-1f) * square + 1.99777106478e-1f) * square -
+        3.33329491539e-1f;
     cs_vfloat angle = slope + slope * square * rest;
     angle = far ? angle + 0.25f * CS_PI : angle;
     angle = rise > run ? 0.5f * CS_PI - angle : angle;

@@ -45,8 +45,7 @@ static inline cs_bsdf_view cs_bsdf_view_of(const cs_surface *surface, const cs_v
     /* What of a solid is not glass is opaque. */
     if (cs_any(needed))
         view.standard = cs_standard_of(
-            surface, out,
-            p[CS_PARAMETER_METALLIC] / cs_max(1.0f - glass, (cs_vfloat)(1e-6f)),
+            surface, out, p[CS_PARAMETER_METALLIC] / cs_max(1.0f - glass, (cs_vfloat)(1e-6f)),
             solid ? (cs_vfloat)(0.0f) : p[CS_PARAMETER_TRANSMISSION]);
 #endif
     return view;
@@ -98,15 +97,15 @@ static inline cs_bsdf_direction cs_bsdf_sample(const cs_bsdf_view *view, cs_pair
     drawn.value = cs_bsdf_nothing();
     for (int axis = 0; axis < 3; axis++)
         drawn.in[axis] = view->surface->normal[axis];
-#define CS_BSDF_SAMPLE(identifier, name, suffix)                                  \
-    {                                                                             \
-        cs_vint mine = cs_bsdf_lanes(view->surface, CS_BSDF_##identifier);        \
-        if (CS_BSDF_KINDS == 1 || cs_any(mine)) {                                 \
-            cs_bsdf_direction its = cs_bsdf_sample_##suffix(view, pair, choice);  \
-            cs_bsdf_take_value(&drawn.value, &its.value, mine);                   \
-            for (int axis = 0; axis < 3; axis++)                                  \
-                drawn.in[axis] = mine ? its.in[axis] : drawn.in[axis];            \
-        }                                                                         \
+#define CS_BSDF_SAMPLE(identifier, name, suffix)                                 \
+    {                                                                            \
+        cs_vint mine = cs_bsdf_lanes(view->surface, CS_BSDF_##identifier);       \
+        if (CS_BSDF_KINDS == 1 || cs_any(mine)) {                                \
+            cs_bsdf_direction its = cs_bsdf_sample_##suffix(view, pair, choice); \
+            cs_bsdf_take_value(&drawn.value, &its.value, mine);                  \
+            for (int axis = 0; axis < 3; axis++)                                 \
+                drawn.in[axis] = mine ? its.in[axis] : drawn.in[axis];           \
+        }                                                                        \
     }
     CS_BSDF_LIST(CS_BSDF_SAMPLE)
 #undef CS_BSDF_SAMPLE

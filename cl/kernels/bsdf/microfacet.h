@@ -153,10 +153,9 @@ static inline cs_albedo_place cs_albedo_place_of(cs_vfloat cosine, cs_vfloat rou
     cs_albedo_place at;
     cs_vfloat across = cs_clamp(roughness, (cs_vfloat)(0.0f), (cs_vfloat)(1.0f)) *
                        (cs_f32)(CS_ALBEDO_ROUGHNESSES - 1);
-    cs_vfloat row =
-        cs_min(cs_floor(across), (cs_vfloat)((cs_f32)(CS_ALBEDO_ROUGHNESSES - 2)));
-    cs_vfloat along = cs_clamp(cosine, (cs_vfloat)(0.0f), (cs_vfloat)(1.0f)) *
-                      (cs_f32)(CS_ALBEDO_COSINES - 1);
+    cs_vfloat row = cs_min(cs_floor(across), (cs_vfloat)((cs_f32)(CS_ALBEDO_ROUGHNESSES - 2)));
+    cs_vfloat along =
+        cs_clamp(cosine, (cs_vfloat)(0.0f), (cs_vfloat)(1.0f)) * (cs_f32)(CS_ALBEDO_COSINES - 1);
     cs_vfloat cell = cs_min(cs_floor(along), (cs_vfloat)((cs_f32)(CS_ALBEDO_COSINES - 2)));
     at.across = across - row;
     at.along = along - cell;

@@ -64,8 +64,7 @@ static inline void cs_standard_above(const cs_surface *surface, cs_standard *s)
     s->coat_albedo = (cs_vfloat)(0.0f);
     s->fibres = (cs_vfloat)(0.0f);
     if (s->has_coat) {
-        cs_albedo of =
-            cs_albedo_at(surface->albedos, s->cosine, p[CS_PARAMETER_COAT_ROUGHNESS]);
+        cs_albedo of = cs_albedo_at(surface->albedos, s->cosine, p[CS_PARAMETER_COAT_ROUGHNESS]);
         s->coat_width = cs_facet_width(p[CS_PARAMETER_COAT_ROUGHNESS]);
         s->coat_albedo = CS_COAT_F0 * of.plane[CS_ALBEDO_ALL] +
                          (1.0f - CS_COAT_F0) * of.plane[CS_ALBEDO_SCHLICK];
@@ -126,7 +125,8 @@ static inline cs_vfloat cs_met_again(const cs_standard *s, const cs_albedo *seen
 #endif
 }
 
-/* A direction as the surface meets it: mirrored to this side, with what the lobes have in common. */
+/* A direction as the surface meets it: mirrored to this side, with what the lobes have in common.
+ */
 typedef struct cs_meeting {
     cs_vfloat in[3];       /* unit, on this side */
     cs_vfloat cosine;      /* of the direction itself, negative behind */
@@ -199,8 +199,7 @@ static inline void cs_standard_behind(const cs_standard *s, const cs_meeting *m,
 static inline cs_vfloat cs_standard_density(const cs_standard *s, const cs_meeting *m,
                                             cs_vfloat coat)
 {
-    cs_vfloat facets =
-        m->facets * cs_facet_part(s->cosine, s->width);
+    cs_vfloat facets = m->facets * cs_facet_part(s->cosine, s->width);
     cs_vfloat even = cs_abs(m->cosine) * CS_INVERSE_PI;
     cs_vfloat rest =
         1.0f - s->chance_facets - s->chance_coat - s->chance_through - s->chance_behind;

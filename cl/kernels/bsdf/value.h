@@ -32,7 +32,7 @@ typedef struct cs_standard {
     cs_vfloat through;    /* part of the base that is transparent */
     cs_albedo albedo;     /* seen from `out` */
     cs_albedo average;
-    cs_vfloat below; /* part that coat and sheen leave */
+    cs_vfloat below;  /* part that coat and sheen leave */
     cs_vfloat fibres; /* what the sheen is scaled by: at grazing angles it would give too much */
     cs_vfloat coat;
     cs_vfloat coat_width;
@@ -66,7 +66,7 @@ typedef struct cs_bsdf_value {
 
 /* A direction that was drawn from a density. */
 typedef struct cs_bsdf_direction {
-    cs_vfloat in[3]; /* unit vector, from the surface to where light comes from */
+    cs_vfloat in[3];     /* unit vector, from the surface to where light comes from */
     cs_bsdf_value value; /* its density is 0 where nothing was drawn */
 } cs_bsdf_direction;
 

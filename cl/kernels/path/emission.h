@@ -29,7 +29,8 @@ static inline void cs_path_add_emission(const cs_scene_buffers *scene, cs_paths 
         cs_vfloat density = cs_emitters_density(scene, &path->left, surface);
         (void)distance;
 #else
-        cs_vfloat density = cs_emitter_density(scene, paths->launch->lights, surface, &path->ray, distance);
+        cs_vfloat density =
+            cs_emitter_density(scene, paths->launch->lights, surface, &path->ray, distance);
 #endif
         weight = cs_power_weight(path->density, density);
     }

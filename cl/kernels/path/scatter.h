@@ -58,7 +58,8 @@ static inline void cs_path_scatter(const cs_paths *paths, const cs_bsdf_view *vi
     cs_vfloat cosine = fabs(cs_dot(surface->normal, drawn.in));
     path->alive = cs_is_open(surface, drawn.in) & (drawn.value.density > 0.0f);
     cs_leave_towards(surface, origin, drawn.in, path->ray.origin);
-    cs_vfloat weight = path->alive ? cosine * drawn.value.scale / drawn.value.density : (cs_vfloat)(0.0f);
+    cs_vfloat weight =
+        path->alive ? cosine * drawn.value.scale / drawn.value.density : (cs_vfloat)(0.0f);
 #if CS_HAS(EMITTERS)
     path->left = cs_vantage_of(surface);
 #endif

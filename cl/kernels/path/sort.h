@@ -88,13 +88,14 @@ static inline void cs_sort_paths(cs_paths *paths)
     cs_path_words before[CS_TOGETHER], after;
     for (int p = 0; p < paths->count; p++) {
         before[p].all = paths->path[p];
-        octants[p].all = before[p].all.alive ? cs_octants(before[p].all.ray.direction)
-                                             : (cs_vint)(CS_NO_OCTANT);
+        octants[p].all =
+            before[p].all.alive ? cs_octants(before[p].all.ray.direction) : (cs_vint)(CS_NO_OCTANT);
     }
     int total = cs_order_lanes(octants, paths->count, order);
     paths->count = (total + CS_PACKET - 1) / CS_PACKET;
     for (int p = 0; p < paths->count; p++) {
-        cs_fill_packet((const cs_int_lanes *)before, CS_PATH_WORDS, order + p * CS_PACKET, after.word);
+        cs_fill_packet((const cs_int_lanes *)before, CS_PATH_WORDS, order + p * CS_PACKET,
+                       after.word);
         paths->path[p] = after.all;
     }
 }
@@ -112,7 +113,8 @@ static inline void cs_sort_shadows(cs_paths *paths)
     int total = cs_order_lanes(octants, paths->shadows, order);
     paths->shadows = (total + CS_PACKET - 1) / CS_PACKET;
     for (int p = 0; p < paths->shadows; p++) {
-        cs_fill_packet((const cs_int_lanes *)before, CS_SHADOW_WORDS, order + p * CS_PACKET, after.word);
+        cs_fill_packet((const cs_int_lanes *)before, CS_SHADOW_WORDS, order + p * CS_PACKET,
+                       after.word);
         paths->shadow[p] = after.all;
     }
 }

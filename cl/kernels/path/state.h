@@ -85,8 +85,7 @@ static inline cs_vfloat cs_power_weight(cs_vfloat own, cs_vfloat other)
 static inline int cs_is_packet(cs_int_lanes home)
 {
     cs_vint first = (cs_vint)(home.lane[0]);
-    return home.lane[0] % CS_PACKET == 0 &&
-           !cs_any(home.all != first + cs_as_vint(CS_LANE_INDEX));
+    return home.lane[0] % CS_PACKET == 0 && !cs_any(home.all != first + cs_as_vint(CS_LANE_INDEX));
 }
 
 /* Adds radiance at the lens to the samples of the lanes in `lit`. met: surfaces that it met. */
