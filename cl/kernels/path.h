@@ -11,33 +11,18 @@
 #include "kernels/path/scatter.h"
 #include "kernels/path/shadow.h"
 
-/* Draws for the next surfaces, packet by packet of samples: samplers draw consecutive ones. The
- * first surface has the tuple's own pair for lights. */
-static inline void cs_draw_numbers(cs_paths *paths)
+/* What a surface on a path draws; the first one has the tuple's own pair for lights. */
+static inline cs_numbers cs_draw_numbers(const cs_paths *paths, int p)
 {
-    for (int p = 0; p < paths->samples; p++) {
-        cs_numbers *numbers = paths->numbers + p;
-        cs_vint living = (cs_vint)(0);
-        for (int k = 0; k < paths->count; k++) {
-            const cs_path *path = paths->path + k;
-            living = living | (path->alive & (path->home >= p * CS_PACKET) &
-                               (path->home < (p + 1) * CS_PACKET));
-        }
-        if (!cs_any(living)) continue;
-        if (paths->depth > 0u && paths->launch->area_lights > 0u)
-            numbers->light = cs_draw_at(paths->draws + p, paths->depth, CS_DRAW_LIGHT);
-        numbers->bsdf = cs_draw_at(paths->draws + p, paths->depth, CS_DRAW_BSDF);
-        numbers->choice = cs_draw_at(paths->draws + p, paths->depth, CS_DRAW_CHOICE);
-    }
-}
-
-static inline cs_numbers cs_numbers_of(const cs_paths *paths, int packet)
-{
-#if CS_PACKET > 1
-    if (paths->depth > 0u && paths->samples > 1)
-        return cs_sorted_numbers(paths, paths->path + packet);
-#endif
-    return paths->numbers[packet];
+    const cs_launch *launch = paths->launch;
+    const cs_draws draws = {&launch->pattern, paths->table, paths->key, paths->path[p].index};
+    cs_numbers numbers;
+    numbers.light = paths->light[p];
+    if (paths->depth > 0u && launch->area_lights > 0u)
+        numbers.light = cs_draw_at(&draws, paths->depth, CS_DRAW_LIGHT);
+    numbers.bsdf = cs_draw_at(&draws, paths->depth, CS_DRAW_BSDF);
+    numbers.choice = cs_draw_at(&draws, paths->depth, CS_DRAW_CHOICE);
+    return numbers;
 }
 
 /* Adds packet `p` of samples: camera rays in the lanes that are active. light: the tuple's pair for
@@ -57,8 +42,9 @@ static inline void cs_path_begin(cs_paths *paths, int p, const cs_ray *ray, cs_p
 #endif
     for (int c = 0; c < 3; c++)
         path->throughput[c] = (cs_vfloat)(1.0f);
-    paths->draws[p] = *draws;
-    paths->numbers[p].light = light;
+    paths->table = draws->table;
+    paths->key = draws->key;
+    paths->light[p] = light;
     paths->found[p] = cs_radiance_begin();
 }
 
@@ -92,7 +78,7 @@ static inline void cs_path_advance(const cs_scene_buffers *scene, cs_paths *path
     for (int i = 0; i < 3; i++)
         out[i] = -path->ray.direction[i];
     cs_bsdf_view view = cs_bsdf_view_of(&surface, out);
-    cs_numbers numbers = cs_numbers_of(paths, p);
+    cs_numbers numbers = cs_draw_numbers(paths, p);
     for (cs_u32 i = 0u; i < launch->lights; i++) {
         cs_light_sample light = cs_sample_light(scene, scene->lights + i, &surface, numbers.light);
         cs_path_add_light(scene, paths, path, &view, origin, &light, i);
@@ -106,13 +92,10 @@ static inline void cs_path_advance(const cs_scene_buffers *scene, cs_paths *path
  * packets of them. */
 static inline void cs_follow_paths(const cs_scene_buffers *scene, cs_paths *paths, int samples)
 {
-    paths->samples = samples;
     paths->count = samples;
     paths->shadows = 0;
     paths->rays = (cs_vfloat)(0.0f);
     for (paths->depth = 0u; paths->count > 0; paths->depth++) {
-        /* The last rays turn nowhere. */
-        if (paths->depth <= paths->launch->bounces) cs_draw_numbers(paths);
         for (int p = 0; p < paths->count; p++) {
             cs_scene_buffers at = *scene;
 #if CS_HAS(MOVING)

@@ -31,45 +31,53 @@ static inline cs_ray cs_camera_ray(const cs_launch *launch, const cs_eye *eye,
 #endif
 }
 
+/* Updates of a pixel whose samples are traced together. */
 #if CS_HAS(PATHS)
-
-/* Traces the packets from number `first` on that are samples of one pixel; returns the number of
- * the one behind them. */
-static inline int cs_trace_pixel(const cs_launch *launch, const cs_scene_buffers *scene,
-                                 cs_sample_table sample_table, const cs_place *places,
-                                 const cs_drawn *drawn, int first, cs_radiance *radiance)
-{
-    cs_paths paths;
-    const cs_place *place = places + drawn->place[first];
-    int end = first;
-    paths.launch = launch;
-    for (; end < drawn->count && drawn->place[end] == drawn->place[first]; end++) {
-        cs_draws draws = {&launch->pattern, sample_table, place->key, drawn->index[end]};
-        const cs_eye eye = cs_eye_of(launch, drawn, end);
-        cs_ray ray = cs_camera_ray(launch, &eye, place, drawn->point[end]);
-        cs_path_begin(&paths, end - first, &ray, drawn->light[end], &draws, drawn->active[end]);
-#if CS_HAS(MOVING)
-        paths.path[end - first].time = drawn->time[end];
-#endif
-    }
-    cs_follow_paths(scene, &paths, end - first);
-    for (int packet = first; packet < end; packet++)
-        radiance[packet] = paths.found[packet - first];
-    return end;
-}
-
+#define CS_FLUSHES CS_POOL_FLUSHES
+#else
+#define CS_FLUSHES 1
 #endif
 
-/* Traces the packets; `radiance` is of each of them. */
+#if CS_HAS(PATHS)
+/* Traces the packets of CS_FLUSHES updates of one pixel, or of one of several pixels. radiance: of
+ * each packet, CS_TOGETHER for each update. */
 static inline void cs_trace_packets(const cs_launch *launch, const cs_scene_buffers *scene,
                                     cs_sample_table sample_table, const cs_place *places,
-                                    const cs_drawn *drawn, cs_radiance *radiance)
+                                    const cs_drawn *drawn, int flushes, cs_radiance *radiance)
 {
-#if CS_HAS(PATHS)
-    for (int packet = 0; packet < drawn->count;)
-        packet = cs_trace_pixel(launch, scene, sample_table, places, drawn, packet, radiance);
+    cs_paths paths;
+    cs_radiance *wanted[CS_POOL];
+    int count = 0;
+    paths.launch = launch;
+    for (int f = 0; f < flushes; f++)
+        for (int packet = 0; packet < drawn[f].count; packet++) {
+            const cs_place *place = places + drawn[f].place[packet];
+            cs_draws draws = {&launch->pattern, sample_table, place->key, drawn[f].index[packet]};
+            const cs_eye eye = cs_eye_of(launch, drawn + f, packet);
+            cs_ray ray = cs_camera_ray(launch, &eye, place, drawn[f].point[packet]);
+            cs_path_begin(&paths, count, &ray, drawn[f].light[packet], &draws,
+                          drawn[f].active[packet]);
+#if CS_HAS(MOVING)
+            paths.path[count].time = drawn[f].time[packet];
+#endif
+            wanted[count++] = radiance + f * CS_TOGETHER + packet;
+            int is_last = packet + 1 < drawn[f].count
+                              ? drawn[f].place[packet + 1] != drawn[f].place[packet]
+                              : f + 1 == flushes;
+            if (!is_last) continue;
+            cs_follow_paths(scene, &paths, count);
+            for (int i = 0; i < count; i++)
+                *wanted[i] = paths.found[i];
+            count = 0;
+        }
+}
 #else
+static inline void cs_trace_packets(const cs_launch *launch, const cs_scene_buffers *scene,
+                                    cs_sample_table sample_table, const cs_place *places,
+                                    const cs_drawn *drawn, int flushes, cs_radiance *radiance)
+{
     (void)sample_table;
+    (void)flushes;
     for (int packet = 0; packet < drawn->count; packet++) {
         const cs_eye eye = cs_eye_of(launch, drawn, packet);
         cs_ray ray =
@@ -81,48 +89,70 @@ static inline void cs_trace_packets(const cs_launch *launch, const cs_scene_buff
         radiance[packet] = cs_radiance_along(&at, launch->lights, &ray, drawn->light[packet],
                                              drawn->active[packet]);
     }
+}
 #endif
+
+/* What was gathered since the pixel's last update. */
+typedef struct cs_gathered {
+    cs_accumulator accumulator;
+#if CS_HAS(AOVS)
+    cs_aov_sums sums;
+#endif
+    int first; /* whether that is nothing yet */
+} cs_gathered;
+
+/* Gathers what packets that were drawn together found, and merges it into the pixels. goes_on:
+ * whether more packets are part of the update. */
+static inline void cs_gather_packets(const cs_launch *launch, const cs_place *places,
+                                     const cs_drawn *drawn, cs_radiance *radiance, int goes_on,
+                                     cs_gathered *gathered, CS_GLOBAL cs_pixel *pixels,
+                                     CS_GLOBAL cs_exact_sum *aovs)
+{
     for (int packet = 0; packet < drawn->count; packet++) {
+        const cs_place *place = places + drawn->place[packet];
+        cs_radiance *found = radiance + packet;
         const cs_eye eye = cs_eye_of(launch, drawn, packet);
-        cs_note_depth(&eye, radiance + packet);
+        cs_note_depth(&eye, found);
+        cs_accumulator_add(&gathered->accumulator, found->channel, found->shadow_rays,
+                           drawn->active[packet], gathered->first);
+#if CS_HAS(AOVS)
+        cs_aov_sums_add(&gathered->sums, found, drawn->active[packet], gathered->first);
+#else
+        (void)aovs;
+#endif
+        gathered->first =
+            packet + 1 < drawn->count ? drawn->place[packet + 1] != drawn->place[packet] : !goes_on;
+        if (!gathered->first) continue;
+        cs_accumulator_merge(pixels + place->state, &gathered->accumulator);
+#if CS_HAS(AOVS)
+        cs_aov_sums_merge(launch, &gathered->sums, place->state, aovs);
+#endif
     }
 }
 
-/* Samples at places `start` to `end` of the order of a few pixels, gathered and merged into them.
- * Of several pixels there are no more than are drawn together. */
+/* Samples at places `start` to `end` of the order of a few pixels, gathered and merged into them:
+ * of one pixel as many as CS_FLUSHES updates have, of several no more than are drawn together. */
 static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *scene,
                              cs_sample_table sample_table, cs_optics_table lens_table,
                              const cs_place *places, int count, cs_u32 start, cs_u32 end,
                              CS_GLOBAL cs_pixel *pixels, CS_GLOBAL cs_exact_sum *aovs)
 {
-    cs_drawn drawn;
-    cs_radiance radiance[CS_TOGETHER];
-    cs_accumulator accumulator;
-#if CS_HAS(AOVS)
-    cs_aov_sums sums;
-#else
-    (void)aovs;
-#endif
-    int first = 1;
-    for (; start < end; start += (cs_u32)(CS_TOGETHER * CS_PACKET)) {
-        int more = count == 1 && start + (cs_u32)(CS_TOGETHER * CS_PACKET) < end;
-        cs_draw_packets(launch, sample_table, lens_table, places, count, start, end, &drawn);
-        cs_trace_packets(launch, scene, sample_table, places, &drawn, radiance);
-        for (int packet = 0; packet < drawn.count; packet++) {
-            const cs_place *place = places + drawn.place[packet];
-            const cs_radiance *found = radiance + packet;
-            cs_accumulator_add(&accumulator, found->channel, found->shadow_rays,
-                               drawn.active[packet], first);
-#if CS_HAS(AOVS)
-            cs_aov_sums_add(&sums, found, drawn.active[packet], first);
-#endif
-            first =
-                packet + 1 < drawn.count ? drawn.place[packet + 1] != drawn.place[packet] : !more;
-            if (first) cs_accumulator_merge(pixels + place->state, &accumulator);
-#if CS_HAS(AOVS)
-            if (first) cs_aov_sums_merge(launch, &sums, place->state, aovs);
-#endif
-        }
+    const cs_u32 step = (cs_u32)(CS_TOGETHER * CS_PACKET);
+    cs_drawn drawn[CS_FLUSHES];
+    cs_radiance radiance[CS_FLUSHES * CS_TOGETHER];
+    cs_gathered gathered;
+    gathered.first = 1;
+    while (start < end) {
+        int draws = 0;
+        for (; draws < CS_FLUSHES && start < end; start += step)
+            cs_draw_packets(launch, sample_table, lens_table, places, count, start, end,
+                            drawn + draws++);
+        cs_trace_packets(launch, scene, sample_table, places, drawn, draws, radiance);
+        /* An update is what is drawn together, but with one lane: there it is all. */
+        int goes_on = CS_PACKET == 1 && count == 1 && start < end;
+        for (int d = 0; d < draws; d++)
+            cs_gather_packets(launch, places, drawn + d, radiance + d * CS_TOGETHER, goes_on,
+                              &gathered, pixels, aovs);
     }
 }
 
@@ -158,8 +188,9 @@ __kernel void cs_render(const cs_launch launch, __global cs_pixel *pixels,
         (void)velocities;
 #endif
     }
-    for (cs_u32 block = launch.first_block; block < launch.last_block; block += CS_FLUSH_BLOCKS) {
-        cs_u32 end = min(block + (cs_u32)CS_FLUSH_BLOCKS, launch.last_block) * (cs_u32)CS_BLOCK;
+    const cs_u32 step = (cs_u32)(CS_FLUSHES * CS_FLUSH_BLOCKS);
+    for (cs_u32 block = launch.first_block; block < launch.last_block; block += step) {
+        cs_u32 end = min(block + step, launch.last_block) * (cs_u32)CS_BLOCK;
         cs_sample(&launch, &scene, sample_table, lens_table, places, count,
                   block * (cs_u32)CS_BLOCK, end, pixels, aovs);
     }

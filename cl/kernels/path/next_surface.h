@@ -58,7 +58,7 @@ static inline cs_vint cs_passes(const cs_surface *surface, cs_vuint bits)
 static inline cs_vuint cs_passing(const cs_paths *paths, cs_u32 ray, cs_vuint index)
 {
     cs_u32 key = 0x70617373u + paths->depth * 0x10000u + ray;
-    return cs_key_lanes(cs_key(paths->draws[0].key, key), index);
+    return cs_key_lanes(cs_key(paths->key, key), index);
 }
 
 /* Those for surface number `passed`. */

@@ -102,12 +102,11 @@ static inline void cs_path_add_light(const cs_scene_buffers *scene, cs_paths *pa
     shadow->home = path->home;
 #if CS_HAS(MATERIALS)
     shadow->passing = cs_passing(paths, number + 1u, path->index);
-#else
-    (void)number;
 #endif
 #if CS_HAS(MOVING)
     shadow->time = path->time;
 #endif
+    paths->shadow_light[paths->shadows] = number;
     paths->rays += facing ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
     paths->shadows++;
     if (paths->shadows == CS_SHADOWS) cs_trace_shadows(scene, paths);

@@ -14,8 +14,7 @@
 enum {
     CS_PATH_WORDS = sizeof(cs_path) / sizeof(cs_vint),
     CS_SHADOW_WORDS = sizeof(cs_shadow) / sizeof(cs_vint),
-    CS_NUMBER_WORDS = sizeof(cs_numbers) / sizeof(cs_vint),
-    CS_NO_OCTANT = 8 /* of lanes without a ray; they come last */
+    CS_CLASSES = 8 * CS_SHADOWS /* octants of the rays to each light; then lanes without a ray */
 };
 
 /* Packets as lanes, whatever they hold. */
@@ -28,11 +27,6 @@ typedef union cs_shadow_words {
     cs_shadow all;
     cs_int_lanes word[CS_SHADOW_WORDS];
 } cs_shadow_words;
-
-typedef union cs_number_words {
-    cs_numbers all;
-    cs_int_lanes word[CS_NUMBER_WORDS];
-} cs_number_words;
 
 /* The lane at place `from`, CS_PACKET times packet and lane, of packets of `words` words becomes a
  * lane of `after`. */
@@ -60,38 +54,38 @@ static inline void cs_fill_packet(const cs_int_lanes *packets, int words, const 
         cs_move_lane(packets, words, from[lane], lane, after);
 }
 
-/* Writes the places of lanes by octant, as they come within one; returns how many have a ray. */
-static inline int cs_order_lanes(const cs_int_lanes *octants, int count, int *order)
+/* Writes the places of lanes by class, as they come within one; returns how many have a ray. */
+static inline int cs_order_lanes(const cs_int_lanes *classes, int count, int *order)
 {
-    int next[CS_NO_OCTANT + 1], total = 0;
-    for (int octant = 0; octant <= CS_NO_OCTANT; octant++)
-        next[octant] = 0;
+    int next[CS_CLASSES + 1], total = 0;
+    for (int i = 0; i <= CS_CLASSES; i++)
+        next[i] = 0;
     for (int p = 0; p < count; p++)
         for (int lane = 0; lane < CS_PACKET; lane++)
-            next[octants[p].lane[lane]]++;
-    for (int octant = 0; octant <= CS_NO_OCTANT; octant++) {
-        int own = next[octant];
-        next[octant] = total;
+            next[classes[p].lane[lane]]++;
+    for (int i = 0; i <= CS_CLASSES; i++) {
+        int own = next[i];
+        next[i] = total;
         total += own;
     }
-    total = next[CS_NO_OCTANT];
+    total = next[CS_CLASSES];
     for (int p = 0; p < count; p++)
         for (int lane = 0; lane < CS_PACKET; lane++)
-            order[next[octants[p].lane[lane]]++] = p * CS_PACKET + lane;
+            order[next[classes[p].lane[lane]]++] = p * CS_PACKET + lane;
     return total;
 }
 
 static inline void cs_sort_paths(cs_paths *paths)
 {
-    int order[CS_TOGETHER * CS_PACKET];
-    cs_int_lanes octants[CS_TOGETHER];
-    cs_path_words before[CS_TOGETHER], after;
+    int order[CS_POOL * CS_PACKET];
+    cs_int_lanes classes[CS_POOL];
+    cs_path_words before[CS_POOL], after;
     for (int p = 0; p < paths->count; p++) {
         before[p].all = paths->path[p];
-        octants[p].all =
-            before[p].all.alive ? cs_octants(before[p].all.ray.direction) : (cs_vint)(CS_NO_OCTANT);
+        classes[p].all =
+            before[p].all.alive ? cs_octants(before[p].all.ray.direction) : (cs_vint)(CS_CLASSES);
     }
-    int total = cs_order_lanes(octants, paths->count, order);
+    int total = cs_order_lanes(classes, paths->count, order);
     paths->count = (total + CS_PACKET - 1) / CS_PACKET;
     for (int p = 0; p < paths->count; p++) {
         cs_fill_packet((const cs_int_lanes *)before, CS_PATH_WORDS, order + p * CS_PACKET,
@@ -100,35 +94,29 @@ static inline void cs_sort_paths(cs_paths *paths)
     }
 }
 
+/* By light, then by octant: so the light of each sample is added in one order, whichever rays
+ * happen to wait together. */
 static inline void cs_sort_shadows(cs_paths *paths)
 {
     int order[CS_SHADOWS * CS_PACKET];
-    cs_int_lanes octants[CS_SHADOWS];
+    cs_int_lanes classes[CS_SHADOWS];
     cs_shadow_words before[CS_SHADOWS], after;
     for (int p = 0; p < paths->shadows; p++) {
+        int lights_before = 0;
+        for (int k = 0; k < paths->shadows; k++)
+            lights_before += paths->shadow_light[k] < paths->shadow_light[p];
         before[p].all = paths->shadow[p];
-        octants[p].all = before[p].all.reach > 0.0f ? cs_octants(before[p].all.ray.direction)
-                                                    : (cs_vint)(CS_NO_OCTANT);
+        classes[p].all = before[p].all.reach > 0.0f
+                             ? 8 * lights_before + cs_octants(before[p].all.ray.direction)
+                             : (cs_vint)(CS_CLASSES);
     }
-    int total = cs_order_lanes(octants, paths->shadows, order);
+    int total = cs_order_lanes(classes, paths->shadows, order);
     paths->shadows = (total + CS_PACKET - 1) / CS_PACKET;
     for (int p = 0; p < paths->shadows; p++) {
         cs_fill_packet((const cs_int_lanes *)before, CS_SHADOW_WORDS, order + p * CS_PACKET,
                        after.word);
         paths->shadow[p] = after.all;
     }
-}
-
-/* The numbers of the paths in their lanes. */
-static inline cs_numbers cs_sorted_numbers(const cs_paths *paths, const cs_path *path)
-{
-    const cs_int_lanes *drawn = (const cs_int_lanes *)paths->numbers;
-    cs_number_words words;
-    cs_int_lanes home;
-    home.all = path->home;
-    for (int lane = 0; lane < CS_PACKET; lane++)
-        cs_move_lane(drawn, CS_NUMBER_WORDS, home.lane[lane], lane, words.word);
-    return words.all;
 }
 
 #endif

@@ -44,33 +44,35 @@ typedef struct cs_shadow {
 #endif
 } cs_shadow;
 
-/* Packets of them that wait for each other. */
+/* Packets of samples whose paths are followed together, and packets of shadow rays that wait for
+ * each other: many, since few paths are left behind the first surfaces. */
 #if CS_PACKET == 1
-#define CS_SHADOWS 1
+enum {
+    CS_POOL_FLUSHES = 1, /* updates of the pixel's state that they are for */
+    CS_SHADOWS = 1
+};
 #else
-#define CS_SHADOWS (2 * CS_TOGETHER)
+enum {
+    CS_POOL_FLUSHES = 4,
+    CS_SHADOWS = 8
+};
 #endif
-
-/* What a surface on a path draws. */
-typedef struct cs_numbers {
-    cs_pair light;  /* the place on area lights */
-    cs_pair bsdf;   /* the direction that goes on */
-    cs_pair choice; /* between the lobes of a BSDF; whether the path goes on */
-} cs_numbers;
+#define CS_POOL (CS_POOL_FLUSHES * CS_TOGETHER)
 
 /* The paths of the samples of one pixel, all of them at the same depth. */
 typedef struct cs_paths {
     const cs_launch *launch;
-    cs_draws draws[CS_TOGETHER];     /* of each packet of samples */
-    cs_numbers numbers[CS_TOGETHER]; /* of each, for the next surface */
-    cs_radiance found[CS_TOGETHER];  /* of each, so far */
-    int samples;                     /* packets of them */
-    cs_path path[CS_TOGETHER];
+    cs_sample_table table;
+    cs_u32 key;                 /* of the pixel's pattern */
+    cs_pair light[CS_POOL];     /* of each packet of samples: the tuples' pairs for lights */
+    cs_radiance found[CS_POOL]; /* of each, so far */
+    cs_path path[CS_POOL];
     int count;      /* packets of paths */
     cs_u32 depth;   /* surfaces behind the paths */
     cs_vfloat rays; /* traced after the first, a lane */
     cs_shadow shadow[CS_SHADOWS];
-    int shadows; /* packets of them */
+    cs_u32 shadow_light[CS_SHADOWS]; /* number of the light of each packet */
+    int shadows;                     /* packets of them */
 } cs_paths;
 
 /* Weight of a sample with density `own` where another way would have drawn it with `other`. The
