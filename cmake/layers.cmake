@@ -6,6 +6,7 @@ set(floor_cl/clshear/device/sampler 1) # with its parent: one library
 set(floor_cl/kernels 2)
 set(floor_cl/kernels/bsdf 2)  # with its parent, as the next
 set(floor_cl/kernels/light 2)
+set(floor_cl/kernels/path 2)
 set(floor_host/base 3)
 set(floor_host/image 4)
 set(floor_host/optics 5)

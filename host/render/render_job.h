@@ -95,6 +95,7 @@ typedef struct cs_job {
     double prepass_s;
     double pilot_s;
     double kernel_s;
+    double drawn; /* samples of the passes */
 } cs_job;
 
 /* Copies and completes the settings (NULL: fallbacks), checks them, and makes window, lights,

@@ -74,6 +74,7 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
     clshear_status status = CLSHEAR_OK;
     cs_pass pass = cs_job_pass(job);
     progress now = {job, &pass};
+    double before = 0.0;
     pass.shears = job->shears;
     pass.velocities = job->velocities;
     pass.pixels = &job->pixels;
@@ -86,6 +87,7 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
         pass.total += (double)cs_job_patterns(job) * (double)job->batches[b].pixel_count *
                       job->batches[b].pattern.grid.count;
     CS_TRY(cs_checkpoint_load(job, &pass, error));
+    before = pass.done;
     cs_rounds_tell(job, &pass);
     status = job->adaptive.begin > 0         ? cs_adaptive_run(job, &pass, error)
              : cs_stop_has_rules(&job->stop) ? cs_rounds_run(job, &pass, error)
@@ -96,5 +98,6 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
     }
 done:
     job->kernel_s += pass.kernel_s;
+    job->drawn = pass.done - before;
     return status;
 }

@@ -200,6 +200,10 @@
       "CPU threads; 0: all") \
     X(PACKET, 82, "packet", "", INTEGER, 1, 1, "", 1, 16, none, PRIVATE, "W", \
       "samples traced together: 1, 4, 8 or 16") \
+    X(RECORD, 83, "record", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "FILE", \
+      "capsule of the launches, for tools/replay.c") \
+    X(FORCE, 84, "force", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
+      "use a device that fails its test") \
     /* Stopping */ \
     X(NOISE, 90, "noise", "", NUMBER, 1, 1, "", 1e-6, 1, none, RECORD, "R", \
       "stop when the picture's relative error is below R") \
