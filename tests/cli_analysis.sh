@@ -61,6 +61,8 @@ case $(oiiotool --info -v q.exr) in *"32 x   16, 3 channel"*) ;; *) wrong "q.exr
 [ -s qs.png ] || wrong "no spectrum of the slice"
 expect 0 "" -- slice "$cornell" --quiet --pixel 302,130 --projection 4d --resolution 8 --out q.npy
 [ "$(stat -c %s q.npy)" -eq $((128 + 8 * 8 * 8 * 8 * 3 * 4)) ] || wrong "size of q.npy"
+expect 0 "" -- slice "$cornell" --quiet --pixel 302,130 --projection xt --resolution 16 \
+    --camera-to 276.4,274.4,800,330,274.4,0 --out xt.png
 expect 2 "give a SCENE and a --pixel" -- slice "$cornell"
 expect 2 ".npy is for --projection 4d" -- slice "$cornell" --pixel 1,1 --out q.npy
 expect 2 "--projection xx: must be two letters" -- slice "$cornell" --pixel 1,1 --projection xx
@@ -163,7 +165,11 @@ printf '0.1 0.2\n0.3 1.2\n' >bad.txt
 expect 1 "bad.txt:2: a coordinate is not between 0 and 1" -- points --in bad.txt
 printf '0.1 0.2\n#\n0.1 0.2\n0.3 0.2\n' >bad.txt
 expect 1 "bad.txt:4: this set and the first one have different numbers of points" -- points --in bad.txt
-expect 2 "--dims xz: must be letters out of xyuvpq" -- points --dims xz
+expect 2 "--dims xz: must be letters out of xyuvpqt" -- points --dims xz
+"$program" points --n 4 --dims tx --velocity-px 8,3 | awk 'NF != 2 { exit 1 }' || wrong "time"
+"$program" points --n 4 --velocity-px 8,3 --shear toroidal 2>&1 | grep -q "the shear equal-area or none" ||
+    wrong "toroidal shear of time"
+expect 1 'coordinates "pt": must be different ones of "xyuvt"' -- points --dims pt
 expect 2 "scene.obj: not a flag" -- points scene.obj
 expect 1 "must be 1 to 65536" -- points --sampler ccvt --n 70000
 "$program" points --out /dev/full 2>full.txt && wrong "full device: exit code"

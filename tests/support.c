@@ -58,21 +58,26 @@ void test_expect_refusal(clshear_status status, clshear_status expected, const c
 
 const char *test_path(const char *name)
 {
-    static char paths[4][1024];
+    static char paths[8][1024];
     static int next;
-    char *path = paths[next++ % 4];
+    char *path = paths[next++ % 8];
     snprintf(path, sizeof paths[0], "%s/%s", SCRATCH, name);
+    return path;
+}
+
+const char *test_bytes(const char *name, const void *bytes, size_t size)
+{
+    const char *path = test_path(name);
+    FILE *stream = fopen(path, "wb");
+    assert_non_null(stream);
+    assert_int_equal(fwrite(bytes, 1, size, stream), size);
+    fclose(stream);
     return path;
 }
 
 const char *test_file(const char *name, const char *text)
 {
-    const char *path = test_path(name);
-    FILE *stream = fopen(path, "wb");
-    assert_non_null(stream);
-    fputs(text, stream);
-    fclose(stream);
-    return path;
+    return test_bytes(name, text, strlen(text));
 }
 
 const char *test_warnings(void)
@@ -232,4 +237,17 @@ const cs_aperture_image *test_aperture_image(void)
     static float luminance[5 * 4] = {0, 1, 0, 2, 3, 1, 4, 0, 0, 2, 0, 0, 0, 1, 1, 5, 2, 0, 0, 0};
     static const cs_aperture_image image = {luminance, 5, 4};
     return &image;
+}
+
+void test_base64(const void *data, size_t size, char *text)
+{
+    static const char letters[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const unsigned char *bytes = data;
+    for (size_t i = 0; i < size; i += 3) {
+        const unsigned word = (unsigned)bytes[i] << 16 | (unsigned)bytes[i + 1] << 8 | bytes[i + 2];
+        for (unsigned k = 0; k < 4; k++)
+            *text++ = letters[word >> (18 - 6 * k) & 63];
+    }
+    *text = '\0';
 }

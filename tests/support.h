@@ -42,7 +42,8 @@ void test_expect_refusal(clshear_status status, clshear_status expected, const c
 /* Path of a file in the scratch folder. Valid for the next few calls. */
 const char *test_path(const char *name);
 
-/* Writes a text file into the scratch folder and returns its path. */
+/* Writes a file of bytes or of text into the scratch folder and returns its path. */
+const char *test_bytes(const char *name, const void *bytes, size_t size);
 const char *test_file(const char *name, const char *text);
 
 /* Joined warnings since the last call, of contexts made by test_context. Owned by this file. */
@@ -103,5 +104,9 @@ void test_pattern_free(test_pattern *pattern);
 
 /* Draws sample `index` of the pattern with this key: CS_DIMENSIONS coordinates. */
 void test_draw(const test_pattern *pattern, cs_u32 key, cs_u32 index, cs_f32 *tuple);
+
+/* Writes bytes as the text of a data URI: 4 letters for 3 bytes, and a final 0. `size` is a multiple
+ * of 3. */
+void test_base64(const void *data, size_t size, char *text);
 
 #endif

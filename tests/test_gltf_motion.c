@@ -33,18 +33,6 @@ static void fill(unsigned char *bytes)
     memcpy(bytes + sizeof numbers, joints, sizeof joints);
 }
 
-static void encode(const unsigned char *bytes, size_t size, char *text)
-{
-    static const char letters[] =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (size_t i = 0; i < size; i += 3) { /* sizes are multiples of 3 */
-        const unsigned word = (unsigned)bytes[i] << 16 | (unsigned)bytes[i + 1] << 8 | bytes[i + 2];
-        for (unsigned k = 0; k < 4; k++)
-            *text++ = letters[word >> (18 - 6 * k) & 63];
-    }
-    *text = '\0';
-}
-
 static const char *animated_file(void)
 {
     static const char head[] =
@@ -67,7 +55,7 @@ static const char *animated_file(void)
     unsigned char bytes[BYTES];
     char data[2 * BYTES], text[8192];
     fill(bytes);
-    encode(bytes, sizeof bytes, data);
+    test_base64(bytes, sizeof bytes, data);
     size_t used = (size_t)snprintf(text, sizeof text, "%s", head);
     for (size_t i = 0; i < sizeof accessors / sizeof *accessors; i++)
         used += (size_t)snprintf(

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "clshear/analysis.h"
+
 enum {
     SIDE = 24,
     PIXELS = SIDE * SIDE,
@@ -240,6 +242,40 @@ static void moving_surfaces_are_the_mean_of_time_slices(void **state)
     }
 }
 
+/* The integrand of what moves is at each time that of what stands still there, and its velocity is
+ * the channel's. */
+static void the_integrand_has_the_time(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = test_settings(made->settings, SIDE, SIDE, 4);
+    clshear_settings *still = test_settings(made->settings, SIDE, SIDE, 4);
+    float points[64][5], rgb[3 * 64], rgb_still[3], velocity[2];
+    int moves = 0;
+    place_camera(settings, 0.0);
+    test_ok(clshear_settings_set_numbers(settings, CLSHEAR_CAMERA_TO, eyes[1], 6));
+    for (int i = 0; i < 64; i++)
+        for (int d = 0; d < 5; d++)
+            points[i][d] = (float)((i * (2 * d + 3) + 11 * d) % 64) / 64.0f;
+    test_ok(clshear_moving_radiance(made->scene, settings, 9, 13, points[0], 64, rgb));
+    int equal = 0;
+    for (int i = 0; i < 64; i++) {
+        place_camera(still, (double)points[i][4]);
+        test_ok(clshear_radiance(made->scene, still, 9, 13, points[i], 1, rgb_still));
+        equal += fabsf(rgb[3 * i + 1] - rgb_still[1]) <= 1e-4f * rgb_still[1];
+    }
+    assert_true(equal >= 62); /* rounding may move two of them over an edge */
+    clshear_film *film = test_render(made->scene, settings);
+    test_ok(clshear_pixel_motion(made->scene, settings, 9, 13, &moves, velocity));
+    assert_true(moves);
+    assert_near(velocity[0], clshear_film_channel(film, "Velocity.X")[13 * SIDE + 9], 1e-6);
+    assert_near(velocity[1], clshear_film_channel(film, "Velocity.Y")[13 * SIDE + 9], 1e-6);
+    test_ok(clshear_pixel_motion(made->scene, still, 9, 13, &moves, velocity));
+    assert_true(!moves && velocity[0] == 0.0f && velocity[1] == 0.0f);
+    clshear_film_free(film);
+    clshear_settings_free(settings);
+    clshear_settings_free(still);
+}
+
 /* Variance of the moving Cornell box, mean over the darker 95 % of the pixels. */
 static int ascending(const void *a, const void *b)
 {
@@ -325,6 +361,7 @@ int main(void)
         cmocka_unit_test(the_mean_is_that_of_time_slices),
         cmocka_unit_test(moving_surfaces_are_the_mean_of_time_slices),
         cmocka_unit_test(velocities_are_those_of_the_film),
+        cmocka_unit_test(the_integrand_has_the_time),
         cmocka_unit_test(the_shear_of_time_lowers_the_variance),
         cmocka_unit_test(a_pixel_converges_as_it_did),
     };

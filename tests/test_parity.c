@@ -1,12 +1,14 @@
-/* The device computes the same as the host: tuples equal bit for bit, and sheared points up to a
- * few ulps. (Division and square root need not be correctly rounded in OpenCL; on CPUs they
+/* The device computes the same as the host: tuples equal bit for bit, and sheared points, of what
+ * moves too, up to a few ulps. (Division and square root need not be correctly rounded in OpenCL; on CPUs they
  * are.) */
 #include "support.h"
 
 #include <math.h>
 
-#include "clshear/device/shear.h"
+#include "clshear/device/motion.h"
+#include "clshear/device/sampler/time.h"
 #include "device/device.h"
+#include "kernels/features.h"
 #include "kernels/launch.h"
 
 static const int widths[] = {1, 4, 8, 16};
@@ -17,7 +19,8 @@ enum {
 static cs_error error;
 
 static void run_points(cs_device *device, const cs_launch *frame, const cs_array *rows,
-                       const cs_array *optics, cs_u32 pixel, cs_f32 shear, float *points)
+                       const cs_array *optics, cs_u32 pixel, const cs_f32 *shear,
+                       const cs_velocity *velocity, float *points)
 {
     cs_buffer *buffer = NULL, *table = NULL, *profiles = NULL;
     const cs_u32 count = frame->pattern.grid.count, packet = (cs_u32)cs_device_packet(device);
@@ -31,11 +34,14 @@ static void run_points(cs_device *device, const cs_launch *frame, const cs_array
         CLSHEAR_OK);
     const cs_argument arguments[] = {{.value = frame, .size = sizeof *frame},
                                      {.value = &pixel, .size = sizeof pixel},
-                                     {.value = &shear, .size = sizeof shear},
+                                     {.value = shear, .size = sizeof *shear},
+                                     {.value = velocity, .size = sizeof *velocity},
                                      {.buffer = table},
                                      {.buffer = profiles},
                                      {.buffer = buffer}};
-    assert_int_equal(CS_RUN(device, POINTS, (count + packet - 1) / packet, arguments, &error),
+    const uint32_t features = velocity->x != 0.0f || velocity->y != 0.0f ? CS_FEATURE_MOTION : 0u;
+    assert_int_equal(CS_RUN_WITH(device, POINTS, features, (count + packet - 1) / packet, arguments,
+                                 &error),
                      CLSHEAR_OK);
     assert_int_equal(cs_buffer_read(buffer, 0, size, points, &error), CLSHEAR_OK);
     cs_buffer_free(buffer);
@@ -64,6 +70,28 @@ static void compare(const cs_launch *frame, const test_pattern *drawn, const cs_
             fail_msg("%s: sample %u differs", cs_sampler_name(frame->pattern.sampler), i);
         for (cs_u32 k = 0; k < 4; k++)
             assert_at_most(ulps(given[CS_DIMENSIONS + k], place[k]), 16.0);
+    }
+}
+
+/* The same for what moves. A map's time and place are quotients of a few steps: 64 ulps. */
+static void compare_moving(const cs_launch *frame, const test_pattern *drawn,
+                           const cs_array *optics, cs_u32 pixel, cs_f32 shear, cs_velocity velocity,
+                           const float *points)
+{
+    const cs_u32 key = cs_pattern_key(frame->seed, pixel, frame->replicate);
+    for (cs_u32 i = 0; i < frame->pattern.grid.count; i++) {
+        const float *given = points + (size_t)CS_POINT_VALUES * i + CS_DIMENSIONS;
+        cs_f32 t[CS_DIMENSIONS];
+        test_draw(drawn, key, i, t);
+        cs_camera_sample tuple = {t[0], t[1], t[2], t[3]};
+        const cs_f32 time =
+            cs_draw_time(&frame->pattern, drawn->rows.items, key, i, 0, &tuple);
+        const cs_moving_sample p =
+            cs_shear_moving(tuple, time, frame->shear_mode, &frame->camera.optics, optics->items,
+                            shear, velocity);
+        const float place[5] = {p.point.x, p.point.y, p.point.u, p.point.v, p.time};
+        for (cs_u32 k = 0; k < 5; k++)
+            assert_at_most(ulps(given[k], place[k]), 64.0);
     }
 }
 
@@ -100,6 +128,13 @@ static const lens lenses[] = {
     {CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_IMAGE, CLSHEAR_FILTER_BLACKMAN_HARRIS, 0.4f},
 };
 
+/* Motions of the test: each is combined with every lens whose shear knows time, for
+ * patterns of 64 samples. */
+static const cs_velocity velocities[] = {{8.0f, -3.0f}, {-0.5f, 20.0f}};
+enum {
+    VELOCITIES = sizeof velocities / sizeof *velocities
+};
+
 static cs_optics_tables optics_of(const lens *lens)
 {
     const cs_view view = {.aperture = lens->aperture,
@@ -119,8 +154,15 @@ static void expect_parity(cs_device *device, const lens *lens, const test_patter
                        .shear_mode = lens->shear_mode};
     float *points = malloc(drawn->pattern.grid.count * CS_POINT_VALUES * sizeof *points);
     frame.camera.optics = optics->optics;
-    run_points(device, &frame, &drawn->rows, &optics->table, pixel, lens->shear_px, points);
+    const cs_velocity rest = {0.0f, 0.0f};
+    run_points(device, &frame, &drawn->rows, &optics->table, pixel, &lens->shear_px, &rest, points);
     compare(&frame, drawn, &optics->table, pixel, lens->shear_px, points);
+    const int knows_time = lens->shear_mode != CS_SHEAR_TOROIDAL;
+    for (size_t i = 0; i < VELOCITIES && knows_time && drawn->pattern.grid.count == 64; i++) {
+        run_points(device, &frame, &drawn->rows, &optics->table, pixel, &lens->shear_px,
+                   &velocities[i], points);
+        compare_moving(&frame, drawn, &optics->table, pixel, lens->shear_px, velocities[i], points);
+    }
     free(points);
 }
 

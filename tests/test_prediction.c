@@ -1,4 +1,4 @@
-/* Predicted variance over four coordinates: of waves with known energy, and of pixels. */
+/* Predicted variance over four or five coordinates: of waves with known energy, and of pixels. */
 #include "support.h"
 
 #include <math.h>
@@ -8,39 +8,48 @@
 
 static const double pi = 3.14159265358979323846;
 
-static clshear_points *drawn(const char *sampler, size_t count, size_t sets, uint32_t seed)
+/* Points with x, y, u, v, and also t if they have 5 `dimensions`. */
+static clshear_points *drawn(const char *sampler, size_t count, size_t sets, uint32_t seed,
+                             int dimensions)
 {
     clshear_points *points = NULL;
+    if (dimensions == 5) {
+        test_ok(clshear_points_draw_moving(sampler, count, sets, seed, 0, &points));
+        return points;
+    }
     test_ok(clshear_points_draw(sampler, count, sets, seed, &points));
     test_ok(clshear_points_select(points, "xyuv"));
     return points;
 }
 
 enum {
-    WAVES = 5
+    WAVES = 9,
+    WAVES_AT_REST = 5
 };
 
-/* A wave in each kind of part, with its energy, half the squared amplitude. The last one is beyond
- * all summed frequencies. */
+/* A wave in each kind of part, with its energy, half the squared amplitude. Those beyond all summed
+ * frequencies are in the tail. Functions of four coordinates have the first ones only. */
 static const struct {
     const char *part;
     double amplitude;
-    int frequency[4];
-} waves[WAVES] = {{"u", 1.0, {0, 0, 37, 0}},
-                  {"xy", 0.5, {-3, 2, 0, 0}},
-                  {"yv", 0.7, {0, 5, 0, -1}},
-                  {"block", 0.4, {1, -2, 0, 3}},
-                  {"tail", 0.3, {2, 1, 5, 0}}};
+    int frequency[5];
+} waves[WAVES] = {{"u", 1.0, {0, 0, 37, 0, 0}},        {"xy", 0.5, {-3, 2, 0, 0, 0}},
+                  {"yv", 0.7, {0, 5, 0, -1, 0}},       {"block", 0.4, {1, -2, 0, 3, 0}},
+                  {"tail", 0.3, {2, 1, 5, 0, 0}},      {"t", 0.6, {0, 0, 0, 0, 11}},
+                  {"xt", 0.5, {4, 0, 0, 0, -7}},       {"block", 0.3, {-1, 2, 1, -3, 2}},
+                  {"block", 0.2, {0, 0, -2, 4, 3}}};
 
+/* *user: 4 or 5 coordinates. */
 static clshear_status sum_of_waves(void *user, const float *points, size_t count, float *values)
 {
-    (void)user;
+    const int dimensions = *(const int *)user;
     for (size_t i = 0; i < count; i++) {
         double sum = 0.0;
-        for (int w = 0; w < WAVES; w++) {
+        for (int w = 0; w < (dimensions == 5 ? WAVES : WAVES_AT_REST); w++) {
             double turns = 0.1 * w;
-            for (int d = 0; d < 4; d++)
-                turns += waves[w].frequency[d] * (double)points[4 * i + (size_t)d];
+            for (int d = 0; d < dimensions; d++)
+                turns += waves[w].frequency[d] *
+                         (double)points[(size_t)dimensions * i + (size_t)d];
             sum += waves[w].amplitude * cos(2.0 * pi * turns);
         }
         values[i] = (float)sum;
@@ -48,35 +57,44 @@ static clshear_status sum_of_waves(void *user, const float *points, size_t count
     return CLSHEAR_OK;
 }
 
-/* The energy of each wave appears in its own part, for any sampler. The function is sampled 4
- * million times for each part, and the noise of other waves is at most 1e-3. For random points, N
- * times the variance is the energy, 1.08, up to the spectrum's error of at most 4 / sqrt(sets). */
-static void energies_are_in_their_parts(void **state)
+/* points_of_part: `points` of clshear_reach. most: the largest error of an energy. */
+static void expect_energies(clshear_context *context, int dimensions, uint32_t points_of_part,
+                            double most)
 {
-    (void)state;
-    const clshear_reach reach = {sizeof reach, 128, 15, 4, 0};
-    clshear_context *context = test_context();
-    clshear_points *points = drawn("random", 64, 2000, 1);
+    const clshear_reach reach = {sizeof reach, 128, 15, 4, points_of_part};
+    clshear_points *points = drawn("random", 64, 2000, 1, dimensions);
     clshear_prediction *p = NULL;
     double sum = 0.0, energy = 0.0;
-    test_ok(clshear_predict_variance_4d(context, points, sum_of_waves, NULL, &reach, &p));
+    test_ok(clshear_predict_variance_4d(context, points, sum_of_waves, &dimensions, &reach, &p));
     for (size_t part = 0; part < clshear_prediction_parts(p); part++) {
         const char *name = clshear_prediction_part_name(p, part);
         const double found = clshear_prediction_part_energy(p, part);
         double expected = 0.0;
-        for (int w = 0; w < WAVES; w++)
+        for (int w = 0; w < (dimensions == 5 ? WAVES : WAVES_AT_REST); w++)
             if (strcmp(waves[w].part, name) == 0)
                 expected += 0.5 * waves[w].amplitude * waves[w].amplitude;
-        if (fabs(found - expected) > 1e-3) fail_msg("%s: %g, not %g", name, found, expected);
+        if (fabs(found - expected) > most) fail_msg("%s: %g, not %g", name, found, expected);
         energy += expected;
         sum += clshear_prediction_part_variance(p, part);
     }
     const double variance = clshear_prediction_variance(p);
-    assert_near(clshear_prediction_energy(p), energy, 1e-3);
+    assert_near(clshear_prediction_energy(p), energy, most);
     assert_near(variance, sum, 1e-12);
     assert_near(64.0 * variance / energy, 1.0, 4.0 / sqrt(2000.0));
     clshear_prediction_free(p);
     clshear_points_free(points);
+}
+
+/* The energy of each wave appears in its own part, for any sampler, with the time and without. The
+ * function is sampled 4 million times for each part, and the noise of other waves is at most 1e-3;
+ * with the time, 1 million times, and at most 4e-3. For random points, N times the variance is the energy, 1.08 or more, up to the spectrum's error
+ * of at most 4 / sqrt(sets). */
+static void energies_are_in_their_parts(void **state)
+{
+    (void)state;
+    clshear_context *context = test_context();
+    expect_energies(context, 4, 0, 1e-3);
+    expect_energies(context, 5, 1u << 17, 4e-3);
     clshear_context_free(context);
 }
 
@@ -92,18 +110,25 @@ static clshear_status failing(void *user, const float *points, size_t count, flo
 static void wrong_arguments_are_refused(void **state)
 {
     (void)state;
-    const clshear_reach reach = {sizeof reach, 16, 4, 2, 0}, too_far = {sizeof reach, 16, 4, 16, 0};
+    const clshear_reach reach = {sizeof reach, 16, 4, 2, 0}, too_far = {sizeof reach, 16, 4, 16, 0},
+                        too_far_in_time = {sizeof reach, 16, 4, 6, 0};
     clshear_context *context = test_context();
-    clshear_points *points = drawn("random", 4, 2, 1);
+    clshear_points *points = drawn("random", 4, 2, 1, 4), *timed = drawn("random", 4, 2, 1, 5);
     clshear_prediction *p = NULL;
+    int dimensions = 4;
     assert_int_equal(clshear_predict_variance_4d(context, points, failing, NULL, &reach, &p),
                      CLSHEAR_NO_DEVICE);
-    test_refused(clshear_predict_variance_4d(context, points, sum_of_waves, NULL, &too_far, &p),
-                 CLSHEAR_BAD_ARGUMENT, "16");
+    test_refused(
+        clshear_predict_variance_4d(context, points, sum_of_waves, &dimensions, &too_far, &p),
+        CLSHEAR_BAD_ARGUMENT, "16");
+    test_refused(clshear_predict_variance_4d(context, timed, failing, NULL, &too_far_in_time, &p),
+                 CLSHEAR_BAD_ARGUMENT, "and 6: must be 1 to 65536, 2047 and 5");
     test_ok(clshear_points_select(points, "xy"));
-    test_refused(clshear_predict_variance_4d(context, points, sum_of_waves, NULL, &reach, &p),
-                 CLSHEAR_BAD_ARGUMENT, "x, y, u");
+    test_refused(
+        clshear_predict_variance_4d(context, points, sum_of_waves, &dimensions, &reach, &p),
+        CLSHEAR_BAD_ARGUMENT, "x, y, u");
     assert_null(p);
+    clshear_points_free(timed);
     clshear_points_free(points);
     clshear_context_free(context);
 }
@@ -134,7 +159,7 @@ static clshear_status green(void *user, const float *points, size_t count, float
 
 static double measured(pixel *p, const char *sampler, size_t count, size_t sets)
 {
-    clshear_points *points = drawn(sampler, count, sets, 77);
+    clshear_points *points = drawn(sampler, count, sets, 77, 4);
     double *means = calloc(sets, sizeof *means), mean = 0.0, variance = 0.0;
     test_ok(clshear_points_integrate_4d(points, green, p, 1, 5, means));
     for (size_t i = 0; i < sets; i++)
@@ -160,7 +185,7 @@ static void pixels_are_predicted(void **state)
     printf("pixel     shear       predicted  measured\n");
     for (int i = 0; i < 6; i++) {
         clshear_prediction *prediction = NULL;
-        clshear_points *points = drawn("mj", 256, 200, 3);
+        clshear_points *points = drawn("mj", 256, 200, 3, 4);
         p.x = places[i / 2][0];
         p.y = places[i / 2][1];
         test_set(p.settings, CLSHEAR_SHEAR, "equal-area"); /* without shear the oracle gives 0 */

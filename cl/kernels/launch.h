@@ -7,8 +7,10 @@
 #include "kernels/features.h"
 
 enum {
-    /* Floats that the points kernel writes for each sample: the tuple, then x, y, u, v. */
-    CS_POINT_VALUES = CS_DIMENSIONS + CS_MAIN_DIMENSIONS
+    /* Floats that the points kernel writes for each sample: the tuple, then x, y, u, v, time. */
+    CS_POINT_VALUES = CS_DIMENSIONS + CS_MAIN_DIMENSIONS + 1,
+    /* Floats of a point at which the radiance kernel evaluates: a tuple and the time. */
+    CS_EVALUATED = CS_DIMENSIONS + 1
 };
 
 /* How the camera moves while the shutter is open: eye, line of sight and up direction change

@@ -3,8 +3,10 @@
 
 /* One work-item writes CS_PACKET consecutive samples of the pattern of `pixel`,
  * CS_POINT_VALUES floats each: the CS_DIMENSIONS coordinates of the tuple, then x, y, u, v after
- * the shear. Global size: at least ceil(grid.count / CS_PACKET). */
+ * the shear, and the time: 0 without the feature MOTION, with which the tuple is that of a scene
+ * without area lights. Global size: at least ceil(grid.count / CS_PACKET). */
 __kernel void cs_points(const cs_launch launch, const uint pixel, const float shear,
+                        const cs_velocity velocity,
                         __global const uint *sample_table, __global const float *lens_table,
                         __global float *points)
 {
@@ -15,9 +17,21 @@ __kernel void cs_points(const cs_launch launch, const uint pixel, const float sh
     cs_u32 key = cs_pattern_key(launch.seed, pixel, launch.replicate);
     cs_vfloat tuple[CS_DIMENSIONS];
     cs_draw_all(&launch.pattern, sample_table, key, index, tuple);
-    cs_camera_sample point =
-        cs_shear(tuple[CS_AT_FILM], tuple[CS_END_FILM], tuple[CS_AT_LENS], tuple[CS_END_LENS],
-                 launch.shear_mode, &launch.camera.optics, lens_table, shear);
+    cs_camera_sample point = {tuple[CS_AT_FILM], tuple[CS_END_FILM], tuple[CS_AT_LENS],
+                              tuple[CS_END_LENS]};
+#if CS_HAS(MOTION)
+    const cs_vfloat drawn = cs_draw_time(&launch.pattern, sample_table, key, index, 0, &point);
+    const cs_moving_sample moving =
+        cs_shear_moving(point, drawn, launch.shear_mode, &launch.camera.optics, lens_table, shear,
+                        velocity);
+    point = moving.point;
+    const cs_vfloat time = moving.time;
+#else
+    (void)velocity;
+    point = cs_shear(point.x, point.y, point.u, point.v, launch.shear_mode, &launch.camera.optics,
+                     lens_table, shear);
+    const cs_vfloat time = (cs_vfloat)(0.0f);
+#endif
     cs_float_lanes value[CS_POINT_VALUES];
     for (cs_u32 d = 0u; d < (cs_u32)CS_DIMENSIONS; d++)
         value[d].all = tuple[d];
@@ -25,6 +39,7 @@ __kernel void cs_points(const cs_launch launch, const uint pixel, const float sh
     value[CS_DIMENSIONS + CS_END_FILM].all = point.y;
     value[CS_DIMENSIONS + CS_AT_LENS].all = point.u;
     value[CS_DIMENSIONS + CS_END_LENS].all = point.v;
+    value[CS_DIMENSIONS + CS_MAIN_DIMENSIONS].all = time;
     for (cs_u32 lane = 0u; lane < (cs_u32)CS_PACKET && first + lane < launch.pattern.grid.count;
          lane++)
         for (cs_u32 i = 0u; i < (cs_u32)CS_POINT_VALUES; i++)

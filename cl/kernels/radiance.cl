@@ -1,41 +1,69 @@
 /* The integrand itself: radiance at points of one pixel and the lens that the caller chooses. */
 #include "clshear/device/lens.h"
 #include "clshear/device/shear.h"
+#include "kernels/motion.h"
 #include "kernels/path.h"
 #include "kernels/radiance.h"
 #include "launch.h"
 
+/* Shears a point of film, lens and, with the feature MOTION, time in place. */
+static inline void cs_shear_point(const cs_launch *launch, cs_optics_table lens_table, cs_f32 shear,
+                                  cs_velocity velocity, cs_vfloat *point)
+{
+#if CS_HAS(MOTION)
+    const cs_camera_sample tuple = {point[CS_AT_FILM], point[CS_END_FILM], point[CS_AT_LENS],
+                                    point[CS_END_LENS]};
+    const cs_moving_sample moving =
+        cs_shear_moving(tuple, point[CS_DIMENSIONS], launch->shear_mode, &launch->camera.optics,
+                        lens_table, shear, velocity);
+    const cs_camera_sample place = moving.point;
+    point[CS_DIMENSIONS] = moving.time;
+#else
+    (void)velocity;
+    const cs_camera_sample place =
+        cs_shear(point[CS_AT_FILM], point[CS_END_FILM], point[CS_AT_LENS], point[CS_END_LENS],
+                 launch->shear_mode, &launch->camera.optics, lens_table, shear);
+#endif
+    point[CS_AT_FILM] = place.x;
+    point[CS_END_FILM] = place.y;
+    point[CS_AT_LENS] = place.u;
+    point[CS_END_LENS] = place.v;
+}
+
 /* One work-item computes CS_PACKET points. Global size: count / CS_PACKET; `count` is a multiple of
  * it.
  *
- * x, y: the pixel. points: CS_DIMENSIONS planes of `count` floats: place in the pixel (its left
- * upper corner is 0, 0), lens coordinates in aperture widths from the centre, and a sample for area
- * lights; or, where `tuples` is not 0, what a sampler draws, to be sheared by `shear` as
+ * x, y: the pixel. points: CS_EVALUATED planes of `count` floats: place in the pixel (its left
+ * upper corner is 0, 0), lens coordinates in aperture widths from the centre, a sample for area
+ * lights, and the time of the shutter, 0 to 1, which only the feature MOTION reads; or, where
+ * `tuples` is not 0, what a sampler draws, to be sheared by `shear` and `velocity` as
  * launch.shear_mode says, with the lens table. radiance: out, three planes of `count` floats. The
  * others: the scene, see cs_scene_buffers. Paths draw independent numbers, fixed by the point:
  * launch.pattern must be of the sampler `random`. */
 __kernel void cs_radiance_at(const cs_launch launch, const uint x, const uint y, const uint count,
-                             const uint tuples, const float shear, cs_optics_table lens_table,
+                             const uint tuples, const float shear, const cs_velocity velocity,
+                             cs_optics_table lens_table,
                              __global const float *points,
                              __global float *radiance CS_SCENE_PARAMETERS)
 {
     size_t first = get_global_id(0) * CS_PACKET;
     if (first >= count) return;
-    const cs_scene_buffers scene = CS_SCENE_VALUES;
-    cs_vfloat point[CS_DIMENSIONS];
-    for (int plane = 0; plane < CS_DIMENSIONS; plane++)
+    cs_scene_buffers scene = CS_SCENE_VALUES;
+    cs_vfloat point[CS_EVALUATED];
+    for (int plane = 0; plane < CS_EVALUATED; plane++)
         point[plane] = *(__global const cs_vfloat *)(points + (size_t)plane * count + first);
-    if (tuples) {
-        cs_camera_sample place =
-            cs_shear(point[CS_AT_FILM], point[CS_END_FILM], point[CS_AT_LENS], point[CS_END_LENS],
-                     launch.shear_mode, &launch.camera.optics, lens_table, shear);
-        point[CS_AT_FILM] = place.x;
-        point[CS_END_FILM] = place.y;
-        point[CS_AT_LENS] = place.u;
-        point[CS_END_LENS] = place.v;
-    }
+    if (tuples) cs_shear_point(&launch, lens_table, shear, velocity, point);
+#if CS_HAS(MOVING)
+    scene.time = point[CS_DIMENSIONS];
+#endif
+#if CS_HAS(MOTION)
+    const cs_eye eye = cs_eye_at(&launch, point[CS_DIMENSIONS]);
+    cs_ray ray = cs_eye_ray(&launch, &eye, point[CS_AT_FILM] + (cs_f32)x,
+                            point[CS_END_FILM] + (cs_f32)y, point[CS_AT_LENS], point[CS_END_LENS]);
+#else
     cs_ray ray = cs_lens_ray(launch.camera, point[CS_AT_FILM] + (cs_f32)x,
                              point[CS_END_FILM] + (cs_f32)y, point[CS_AT_LENS], point[CS_END_LENS]);
+#endif
     cs_pair light;
     light.x = point[CS_AT_LIGHT];
     light.y = point[CS_END_LIGHT];
@@ -43,6 +71,9 @@ __kernel void cs_radiance_at(const cs_launch launch, const uint x, const uint y,
     cs_vuint number = cs_key_lanes(cs_hash(x + launch.image_width * y), cs_as_vuint(point[0]));
     for (int plane = 1; plane < CS_DIMENSIONS; plane++)
         number = cs_hash_lanes(number + cs_as_vuint(point[plane]));
+#if CS_HAS(MOTION)
+    number = cs_hash_lanes(number + cs_as_vuint(point[CS_DIMENSIONS]));
+#endif
     cs_draws draws = {&launch.pattern, 0, launch.seed, number};
     cs_paths paths;
     paths.launch = &launch;

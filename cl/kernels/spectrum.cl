@@ -22,11 +22,12 @@ __kernel void cs_exponentials(const uint count, const uint columns, const cs_fre
     uint column = (uint)get_global_id(0) % blocks * (uint)CS_PACKET;
     if (point >= count) return;
     cs_vuint index = (cs_vuint)(column) + CS_LANE_INDEX;
-    cs_vuint part[2];
-    part[1] = index / set.wide;
-    part[0] = index - part[1] * set.wide;
+    cs_vuint part[3], rest = index / set.wide;
+    part[0] = index - rest * set.wide;
+    part[2] = rest / set.deep;
+    part[1] = rest - part[2] * set.deep;
     cs_vuint turns = (cs_vuint)(0u);
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 3; i++) {
         float x = points[(size_t)point * stride + set.coordinate[i]];
         turns += ((cs_vuint)((uint)set.first[i]) + part[i] * (uint)set.step[i]) *
                  convert_uint(x * 4294967296.0f);

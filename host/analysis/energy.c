@@ -1,4 +1,4 @@
-/* Energy of a function of four coordinates at frequencies of one, two or four of them.
+/* Energy of a function of four or five coordinates at frequencies of one, two or all of them.
  *
  * The function is sampled on several grids, each shifted by a random part of a cell. Within each
  * cell the other coordinates follow a randomly shifted lattice. The transform of one grid is the
@@ -19,6 +19,7 @@
 static const double pi = 3.14159265358979323846;
 
 enum {
+    MOST_DIMENSIONS = 5,
     CHUNK = 1 << 16 /* points per call of the function */
 };
 
@@ -31,9 +32,9 @@ typedef struct accumulation {
     double *grid;
     fftw_complex *transform;
     fftw_complex *sum;
-    double shift[4]; /* shift of the current grid, in cells */
-    float *points;   /* CHUNK points of 4 coordinates */
-    float *values;   /* values at these points */
+    double shift[MOST_DIMENSIONS]; /* shift of the current grid, in cells */
+    float *points;                 /* CHUNK points */
+    float *values;                 /* values at these points */
     fftw_plan plan;
 } accumulation;
 
@@ -46,7 +47,7 @@ static void place_point(const accumulation *a, cs_u32 key, size_t index, float *
     cs_u32 step = m->samples > 1 ? (cs_u32)(0x1p32 / (double)m->samples) : 0;
     size_t cell = index / m->samples;
     const cs_u32 own = cs_key(key, (cs_u32)cell), number = (cs_u32)(index % m->samples);
-    for (cs_u32 d = 0; d < 4; d++, step *= odd)
+    for (cs_u32 d = 0; d < (cs_u32)m->dimensions; d++, step *= odd)
         point[d] = (float)((cs_key(own, d) + number * step) >> 8) * 0x1p-24f;
     for (int d = m->rank - 1; d >= 0; d--, cell /= m->side)
         point[m->coordinate[d]] =
@@ -61,7 +62,7 @@ static clshear_status sample_grid(accumulation *a, cs_u32 key)
     for (size_t first = 0; first < all; first += CHUNK) {
         const size_t count = all - first < CHUNK ? all - first : CHUNK;
         for (size_t i = 0; i < count; i++)
-            place_point(a, key, first + i, a->points + 4 * i);
+            place_point(a, key, first + i, a->points + (size_t)a->marginal->dimensions * i);
         const clshear_status status = a->function(a->user, a->points, count, a->values);
         if (status != CLSHEAR_OK) return status;
         for (size_t i = 0; i < count; i++)
@@ -104,7 +105,9 @@ static clshear_status allocate_grids(accumulation *a, cs_energy *energy, cs_erro
 {
     clshear_status status = CLSHEAR_OK;
     const cs_part_marginal *m = a->marginal;
-    const int sides[4] = {(int)m->side, (int)m->side, (int)m->side, (int)m->side};
+    int sides[MOST_DIMENSIONS];
+    for (int d = 0; d < MOST_DIMENSIONS; d++)
+        sides[d] = (int)m->side;
     a->cells = 1;
     for (int d = 0; d < m->rank; d++)
         a->cells *= m->side;
@@ -112,7 +115,7 @@ static clshear_status allocate_grids(accumulation *a, cs_energy *energy, cs_erro
     a->grid = fftw_malloc(a->cells * sizeof *a->grid);
     a->transform = fftw_malloc(a->coefficients * sizeof *a->transform);
     a->sum = calloc(a->coefficients, sizeof *a->sum);
-    a->points = malloc((size_t)4 * CHUNK * sizeof *a->points);
+    a->points = malloc((size_t)m->dimensions * CHUNK * sizeof *a->points);
     a->values = malloc((size_t)CHUNK * sizeof *a->values);
     energy->values = calloc(a->coefficients, sizeof *energy->values);
     CS_REQUIRE(a->grid != NULL && a->transform != NULL && a->sum != NULL && a->points != NULL &&
@@ -137,7 +140,7 @@ clshear_status cs_energy_measure(const cs_part_marginal *marginal, clshear_funct
     CS_TRY(allocate_grids(&a, &energy, error));
     for (cs_u32 group = 0; group < CS_ENERGY_GROUPS; group++) {
         const cs_u32 own = cs_key(key, group);
-        for (cs_u32 d = 0; d < 4; d++)
+        for (cs_u32 d = 0; d < MOST_DIMENSIONS; d++)
             a.shift[d] = (double)cs_key(own ^ 0x73686966u, d) * 0x1p-32;
         CS_TRY(sample_grid(&a, own));
         add_group(&a, &energy);

@@ -1,4 +1,4 @@
-/* Energy of a function of four coordinates at frequencies of one, two or four of them. */
+/* Energy of a function of four or five coordinates at frequencies of one, two or all of them. */
 #ifndef CS_ANALYSIS_ENERGY_H
 #define CS_ANALYSIS_ENERGY_H
 
@@ -8,8 +8,9 @@
 /* The marginal of a function: its mean over the remaining coordinates, on a grid of side^rank
  * cells. */
 typedef struct cs_part_marginal {
-    int rank;          /* number of coordinates: 1, 2 or 4 */
-    int coordinate[4]; /* indices of these coordinates, 0 to 3, rising */
+    int dimensions;    /* coordinates of the function: 4 or 5 */
+    int rank;          /* number of coordinates that are kept: 1, 2 or all */
+    int coordinate[5]; /* indices of these coordinates, from 0, rising */
     size_t side;       /* cells along each coordinate, even */
     size_t samples;    /* samples of a cell in each of CS_ENERGY_GROUPS grids, a power of two */
 } cs_part_marginal;

@@ -140,16 +140,23 @@ void cs_points_integrate(const clshear_points *points, const clshear_integrand *
     cs_parallel(0, points->sets, integrate_sets, &job);
 }
 
-/* Coordinates x, y, u and v of point number `index` over all sets, with its set's random shift. */
-static void shifted(const clshear_points *points, size_t index, int homogenise, uint32_t seed,
-                    float *place)
+/* The first `dimensions` coordinates of point number `index` over all sets, with its set's random
+ * shift. */
+static void shifted(const clshear_points *points, size_t index, size_t dimensions, int homogenise,
+                    uint32_t seed, float *place)
 {
     const cs_u32 key = cs_key(seed ^ 0x746f7275u, (cs_u32)(index / points->count));
-    for (cs_u32 d = 0; d < 4; d++) {
+    for (cs_u32 d = 0; d < dimensions; d++) {
         const double shift = homogenise ? 0x1p-32 * cs_key(key, d) : 0.0;
         const double x = (double)points->values[index * points->dimensions + d] + shift;
         place[d] = fminf((float)(x - floor(x)), 0.99999994f);
     }
+}
+
+size_t cs_points_arguments(const clshear_points *points)
+{
+    if (strncmp(points->names, "xyuv", 4) != 0) return 0;
+    return points->names[4] == 't' ? 5 : 4;
 }
 
 clshear_status cs_points_integrate_4d(const clshear_points *points, clshear_function function,
@@ -161,16 +168,18 @@ clshear_status cs_points_integrate_4d(const clshear_points *points, clshear_func
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
     const size_t all = points->sets * points->count;
-    float *places = malloc((size_t)5 * CHUNK * sizeof *places), *values = places + 4 * CHUNK;
+    const size_t dimensions = cs_points_arguments(points);
+    float *places = malloc((dimensions + 1) * CHUNK * sizeof *places);
+    float *values = places + dimensions * CHUNK;
     CS_REQUIRE(places != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    CS_REQUIRE(points->dimensions >= 4, CLSHEAR_BAD_ARGUMENT,
-               "points of %zu dimensions: must begin with x, y, u, v", points->dimensions);
+    CS_REQUIRE(dimensions > 0, CLSHEAR_BAD_ARGUMENT,
+               "points of %s: must begin with x, y, u, v", points->names);
     for (size_t set = 0; set < points->sets; set++)
         means[set] = 0.0;
     for (size_t first = 0; first < all; first += CHUNK) {
         const size_t count = all - first < CHUNK ? all - first : CHUNK;
         for (size_t i = 0; i < count; i++)
-            shifted(points, first + i, homogenise, seed, places + 4 * i);
+            shifted(points, first + i, dimensions, homogenise, seed, places + dimensions * i);
         CS_TRY(function(user, places, count, values));
         for (size_t i = 0; i < count; i++)
             means[(first + i) / points->count] += (double)values[i] / (double)points->count;

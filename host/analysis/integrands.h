@@ -14,4 +14,8 @@ void cs_points_integrate(const clshear_points *points, const clshear_integrand *
 clshear_status cs_points_integrate_4d(const clshear_points *points, clshear_function function,
                                       void *user, int homogenise, uint32_t seed, double *means);
 
+/* How many of their first coordinates are arguments of a function: 4 of x, y, u, v, 5 if t follows,
+ * and 0 if they begin with others. */
+size_t cs_points_arguments(const clshear_points *points);
+
 #endif

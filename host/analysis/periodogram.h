@@ -1,4 +1,4 @@
-/* Power of point sets at frequencies of one, two or four coordinates. */
+/* Power of point sets at frequencies of one, two or more coordinates. */
 #ifndef CS_ANALYSIS_PERIODOGRAM_H
 #define CS_ANALYSIS_PERIODOGRAM_H
 

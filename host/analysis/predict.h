@@ -6,7 +6,7 @@
 
 enum {
     CS_CONES = 8,       /* parts in two dimensions, without the tail */
-    CS_MOST_PARTS = 12, /* parts in four dimensions */
+    CS_MOST_PARTS = 17, /* parts in five dimensions */
     CS_CONE_LEVELS = 9  /* divisions into 1, 2, 4, ... 256 cones */
 };
 

@@ -47,8 +47,8 @@ clshear_status cs_spectrum_measure(clshear_context *context, const clshear_point
     clshear_spectrum made = {
         .width = width, .height = height, .sets = points->sets, .count = points->count};
     const cs_lattice lattice = {
-        .sets = {{{0, 0}, {-(int32_t)(width / 2), 0}, {1, 0}, MOST_SIDE + 1},
-                 {{1, 1}, {0, 0}, {1, 0}, MOST_SIDE + 1}},
+        .sets = {{.first = {-(int32_t)(width / 2)}, .step = {1}, .wide = MOST_SIDE + 1, .deep = 1},
+                 {.coordinate = {1}, .step = {1}, .wide = MOST_SIDE + 1, .deep = 1}},
         .counts = {(uint32_t)(width / 2 * 2 + 1), (uint32_t)(height / 2 + 1)}};
     CS_TRY(check_spectrum(points, width, height, error));
     half = malloc((size_t)lattice.counts[0] * lattice.counts[1] * sizeof *half);

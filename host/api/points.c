@@ -13,7 +13,7 @@ clshear_status clshear_points_draw(const char *sampler, size_t count, size_t set
 {
     CS_NEEDS(points);
     clshear_points made = {0};
-    return hand_over(cs_points_draw(sampler, count, sets, seed, 0, &made), &made, points);
+    return hand_over(cs_points_draw(sampler, count, sets, seed, 0, 0, &made), &made, points);
 }
 
 clshear_status clshear_points_draw_fresh(const char *sampler, size_t count, size_t sets,
@@ -21,7 +21,15 @@ clshear_status clshear_points_draw_fresh(const char *sampler, size_t count, size
 {
     CS_NEEDS(points);
     clshear_points made = {0};
-    return hand_over(cs_points_draw(sampler, count, sets, seed, 1, &made), &made, points);
+    return hand_over(cs_points_draw(sampler, count, sets, seed, 1, 0, &made), &made, points);
+}
+
+clshear_status clshear_points_draw_moving(const char *sampler, size_t count, size_t sets,
+                                          uint32_t seed, int fresh, clshear_points **points)
+{
+    CS_NEEDS(points);
+    clshear_points made = {0};
+    return hand_over(cs_points_draw(sampler, count, sets, seed, fresh, 1, &made), &made, points);
 }
 
 clshear_status clshear_points_create(const float *values, size_t sets, size_t count,
@@ -54,6 +62,15 @@ clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear,
 {
     CS_NEEDS(points);
     return cs_points_shear(points, shear, shear_px);
+}
+
+clshear_status clshear_points_shear_moving(clshear_points *points, clshear_shear shear,
+                                           float shear_px, const float velocity_px[2])
+{
+    CS_NEEDS(points);
+    CS_NEEDS(velocity_px);
+    const cs_velocity velocity = {velocity_px[0], velocity_px[1]};
+    return cs_points_shear_moving(points, shear, shear_px, velocity);
 }
 
 clshear_status clshear_points_select(clshear_points *points, const char *names)

@@ -15,11 +15,11 @@
 #define CS_KERNEL_LIST(X)                              \
     X(RENDER, cs_render, RENDER, 8 + CS_SCENE_BUFFERS) \
     X(TRACE, cs_trace, RENDER, 8)                      \
-    X(POINTS, cs_points, RENDER, 6)                    \
+    X(POINTS, cs_points, RENDER, 7)                    \
     X(DRAW_SUM, cs_draw_sum, RENDER, 5)                \
     X(EXPONENTIALS, cs_exponentials, ANALYSIS, 7)      \
     X(PERIODOGRAM, cs_periodogram, ANALYSIS, 12)       \
-    X(RADIANCE, cs_radiance_at, RADIANCE, 9 + CS_SCENE_BUFFERS)
+    X(RADIANCE, cs_radiance_at, RADIANCE, 10 + CS_SCENE_BUFFERS)
 
 #define CS_PROGRAM_IDENTIFIER(identifier, text) CS_PROGRAM_##identifier,
 #define CS_KERNEL_IDENTIFIER(identifier, name, program, arguments) CS_KERNEL_##identifier,

@@ -55,7 +55,7 @@ static clshear_status read_point(text_reader *reader, const char *text)
         const float value = (float)wide;
         if (end == text) return complain(reader, "a coordinate is not a number");
         if (dimensions == sizeof CS_POINT_NAMES - 1)
-            return complain(reader, "more than six coordinates");
+            return complain(reader, "more than seven coordinates");
         if (!(value >= 0.0f && value <= 1.0f))
             return complain(reader, "a coordinate is not between 0 and 1");
         point[dimensions++] = value;

@@ -4,7 +4,8 @@
 #include <string.h>
 
 #include "base/parallel.h"
-#include "clshear/device/sampler/sampler.h"
+#include "clshear/device/motion.h"
+#include "clshear/device/sampler/time.h"
 #include "clshear/device/shear.h"
 #include "optics/optics.h"
 #include "optics/shear_mode.h"
@@ -35,7 +36,7 @@ clshear_status cs_points_take(const float *values, size_t sets, size_t count, co
     if (dimensions < 1 || dimensions > sizeof CS_POINT_NAMES - 1 ||
         strspn(names, CS_POINT_NAMES) != dimensions)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "points of coordinates \"%s\": must be 1 to 6 letters out of %s", names,
+                       "points of coordinates \"%s\": must be 1 to 7 letters out of %s", names,
                        CS_POINT_NAMES);
     points->sets = sets;
     points->count = count;
@@ -54,20 +55,43 @@ typedef struct draw_job {
     clshear_points *points;
 } draw_job;
 
+/* Coordinates of a tuple with a time. */
+#define TIMED_NAMES "xyuvt"
+enum {
+    TIMED = sizeof TIMED_NAMES - 1
+};
+
+/* As the kernels draw them where nothing lights with an area. */
+static void draw_timed(const draw_job *job, cs_u32 key, cs_u32 index, float *point)
+{
+    cs_f32 tuple[CS_MAIN_DIMENSIONS];
+    cs_draw(&job->pattern, job->table, key, index, tuple);
+    cs_camera_sample place = {tuple[CS_AT_FILM], tuple[CS_END_FILM], tuple[CS_AT_LENS],
+                              tuple[CS_END_LENS]};
+    point[4] = cs_draw_time(&job->pattern, job->table, key, index, 0, &place);
+    point[0] = place.x;
+    point[1] = place.y;
+    point[2] = place.u;
+    point[3] = place.v;
+}
+
 static void draw_sets(void *user, size_t begin, size_t end)
 {
     const draw_job *job = user;
     const size_t count = job->points->count;
     for (size_t set = begin; set < end; set++) {
         const cs_u32 key = cs_pattern_key(job->seed, (cs_u32)set, 0);
-        for (size_t i = 0; i < count; i++)
-            cs_draw_all(&job->pattern, job->table, key, (cs_u32)i,
-                        job->points->values + (set * count + i) * CS_DIMENSIONS);
+        float *point = job->points->values + set * count * job->points->dimensions;
+        for (size_t i = 0; i < count; i++, point += job->points->dimensions)
+            if (job->points->dimensions == TIMED)
+                draw_timed(job, key, (cs_u32)i, point);
+            else
+                cs_draw_all(&job->pattern, job->table, key, (cs_u32)i, point);
     }
 }
 
 clshear_status cs_points_draw(const char *name, size_t wanted, size_t sets, uint32_t seed,
-                              int fresh, clshear_points *points)
+                              int fresh, int moving, clshear_points *points)
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
@@ -80,6 +104,10 @@ clshear_status cs_points_draw(const char *name, size_t wanted, size_t sets, uint
     const cs_u32 count = cs_sampler_count(sampler, (cs_u32)wanted);
     clshear_points made = {
         .sets = sets, .count = count, .dimensions = CS_DIMENSIONS, .names = CS_DIMENSION_NAMES};
+    if (moving) {
+        made.dimensions = TIMED;
+        memcpy(made.names, TIMED_NAMES, sizeof TIMED_NAMES);
+    }
     draw_job job = {.pattern = cs_pattern_of(sampler, 0, count), .seed = seed, .points = &made};
     if (fresh) cs_pattern_refresh(&job.pattern, seed);
     CS_TRY(cs_sample_table_make(&job.pattern, CS_ORDER_SEQUENCE, &table, error));
@@ -92,30 +120,65 @@ done:
     return status;
 }
 
-clshear_status cs_points_shear(clshear_points *points, clshear_shear shear, float shear_px)
+/* Writes a sheared point over the tuple it was made from. */
+static void put(const cs_camera_sample *sheared, float *point)
+{
+    const float place[CS_MAIN_DIMENSIONS] = {sheared->x, sheared->y, sheared->u + 0.5f,
+                                             sheared->v + 0.5f};
+    for (int d = 0; d < CS_MAIN_DIMENSIONS; d++)
+        point[d] = cs_clamp(place[d], 0.0f, 0.99999994f);
+}
+
+/* The optics of a square aperture and a box, for points that begin with the coordinates `names`. */
+static clshear_status begin_shear(const clshear_points *points, const char *names,
+                                  clshear_shear shear, float shear_px, cs_optics_tables *optics)
 {
     cs_error *error = cs_thread_error();
-    const size_t stride = points->dimensions;
-    if (stride < CS_MAIN_DIMENSIONS ||
-        strncmp(points->names, CS_DIMENSION_NAMES, CS_MAIN_DIMENSIONS) != 0)
+    const cs_view square = {.aperture = CLSHEAR_APERTURE_SQUARE};
+    if (strncmp(points->names, names, strlen(names)) != 0)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "points of %s cannot be sheared: they must begin with %.*s", points->names,
-                       CS_MAIN_DIMENSIONS, CS_DIMENSION_NAMES);
+                       "points of %s cannot be sheared: they must begin with %s", points->names,
+                       names);
     if (!isfinite(shear_px) || (cs_u32)shear > CLSHEAR_SHEAR_EQUAL_AREA)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "shear %d by %g pixels is not possible",
                        (int)shear, (double)shear_px);
-    const cs_view square = {.aperture = CLSHEAR_APERTURE_SQUARE};
+    return cs_optics_make(&square, CLSHEAR_FILTER_BOX, 0.0f, optics, error);
+}
+
+clshear_status cs_points_shear(clshear_points *points, clshear_shear shear, float shear_px)
+{
     cs_optics_tables optics = {0};
-    const clshear_status status = cs_optics_make(&square, CLSHEAR_FILTER_BOX, 0.0f, &optics, error);
+    const clshear_status status = begin_shear(points, "xyuv", shear, shear_px, &optics);
     if (status != CLSHEAR_OK) return status;
     for (size_t i = 0; i < points->sets * points->count; i++) {
-        float *p = points->values + i * stride;
+        float *p = points->values + i * points->dimensions;
         const cs_camera_sample sheared = cs_shear(p[0], p[1], p[2], p[3], cs_shear_mode(shear),
                                                   &optics.optics, optics.table.items, shear_px);
-        const float place[CS_MAIN_DIMENSIONS] = {sheared.x, sheared.y, sheared.u + 0.5f,
-                                                 sheared.v + 0.5f};
-        for (int d = 0; d < CS_MAIN_DIMENSIONS; d++)
-            p[d] = cs_clamp(place[d], 0.0f, 0.99999994f);
+        put(&sheared, p);
+    }
+    cs_optics_free(&optics);
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_points_shear_moving(clshear_points *points, clshear_shear shear, float shear_px,
+                                      cs_velocity velocity_px)
+{
+    cs_optics_tables optics = {0};
+    if (!isfinite(velocity_px.x) || !isfinite(velocity_px.y) || shear == CLSHEAR_SHEAR_TOROIDAL)
+        return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,
+                       "velocity %g,%g with shear %d: must be finite, and the shear equal-area or "
+                       "none",
+                       (double)velocity_px.x, (double)velocity_px.y, (int)shear);
+    const clshear_status status = begin_shear(points, TIMED_NAMES, shear, shear_px, &optics);
+    if (status != CLSHEAR_OK) return status;
+    for (size_t i = 0; i < points->sets * points->count; i++) {
+        float *p = points->values + i * points->dimensions;
+        const cs_camera_sample tuple = {p[0], p[1], p[2], p[3]};
+        const cs_moving_sample sheared =
+            cs_shear_moving(tuple, p[4], cs_shear_mode(shear), &optics.optics, optics.table.items,
+                            shear_px, velocity_px);
+        put(&sheared.point, p);
+        p[4] = cs_clamp(sheared.time, 0.0f, 0.99999994f);
     }
     cs_optics_free(&optics);
     return CLSHEAR_OK;

@@ -11,7 +11,7 @@
 enum {
     LANES = 16,     /* the widest packet */
     MOST = 1 << 18, /* points on their way at once */
-    PLANES = CS_DIMENSIONS
+    PLANES = CS_EVALUATED
 };
 
 typedef struct evaluation {
@@ -20,6 +20,8 @@ typedef struct evaluation {
     cs_u32 pixel[2]; /* x, y */
     cs_u32 tuples;   /* not 0: points are what a sampler draws */
     cs_f32 shear_px;
+    cs_velocity velocity_px;
+    size_t dimensions;  /* of a point: x, y, u, v, and 5 for the time too */
     cs_f32 lens_offset; /* of points that are places: to the centre of the square around the */
     cs_f32 lens_scale;  /* aperture, and from that square to aperture widths */
     cs_buffer *table;
@@ -40,6 +42,7 @@ static clshear_status run_kernel(const evaluation *e, cs_u32 count, cs_error *er
                                      {.value = &count, .size = sizeof count},
                                      {.value = &e->tuples, .size = sizeof e->tuples},
                                      {.value = &e->shear_px, .size = sizeof e->shear_px},
+                                     {.value = &e->velocity_px, .size = sizeof e->velocity_px},
                                      {.buffer = e->table},
                                      {.buffer = e->points},
                                      {.buffer = e->radiance},
@@ -55,12 +58,13 @@ static clshear_status evaluate(evaluation *e, const float *points, size_t count,
     clshear_status status = CLSHEAR_OK;
     const size_t all = (count + LANES - 1) / LANES * LANES;
     for (size_t i = 0; i < all; i++) {
-        const float *point = points + 4 * (i < count ? i : count - 1);
+        const float *point = points + e->dimensions * (i < count ? i : count - 1);
         e->planes[i] = point[0];
         e->planes[all + i] = point[1];
         e->planes[2 * all + i] = (point[2] - e->lens_offset) * e->lens_scale;
         e->planes[3 * all + i] = (point[3] - e->lens_offset) * e->lens_scale;
         e->planes[4 * all + i] = e->planes[5 * all + i] = 0.5f;
+        e->planes[CS_DIMENSIONS * all + i] = e->dimensions > 4 ? point[4] : 0.5f;
     }
     CS_TRY(cs_buffer_write(e->points, 0, PLANES * all * sizeof(float), e->planes, error));
     CS_TRY(run_kernel(e, (cs_u32)all, error));
@@ -120,16 +124,18 @@ static clshear_status evaluate_all(evaluation *e, const float *points, size_t co
 {
     clshear_status status = CLSHEAR_OK;
     for (size_t first = 0; first < count; first += e->chunk)
-        CS_TRY(evaluate(e, points + 4 * first, count - first < e->chunk ? count - first : e->chunk,
-                        rgb + 3 * first, error));
+        CS_TRY(evaluate(e, points + e->dimensions * first,
+                        count - first < e->chunk ? count - first : e->chunk, rgb + 3 * first,
+                        error));
 done:
     return status;
 }
 
 clshear_status cs_radiance(clshear_scene *scene, const clshear_settings *settings, int x, int y,
-                           const float *points, size_t count, float *rgb, cs_error *error)
+                           size_t dimensions, const float *points, size_t count, float *rgb,
+                           cs_error *error)
 {
-    evaluation e = {.lens_offset = 0.5f};
+    evaluation e = {.lens_offset = 0.5f, .dimensions = dimensions};
     clshear_status status = prepare(&e, scene, settings, x, y, count, error);
     if (status == CLSHEAR_OK) {
         const float radius = (float)cs_number(&e.job.settings, LENS_RADIUS);
@@ -141,10 +147,15 @@ clshear_status cs_radiance(clshear_scene *scene, const clshear_settings *setting
 }
 
 clshear_status cs_radiance_of_samples(clshear_scene *scene, const clshear_settings *settings, int x,
-                                      int y, float shear_px, const float *samples, size_t count,
-                                      float *rgb, cs_error *error)
+                                      int y, const cs_pixel_shears *shears, size_t dimensions,
+                                      const float *samples, size_t count, float *rgb,
+                                      cs_error *error)
 {
-    evaluation e = {.tuples = 1, .shear_px = shear_px, .lens_scale = 1.0f};
+    evaluation e = {.tuples = 1,
+                    .shear_px = shears->shear_px,
+                    .velocity_px = shears->velocity_px,
+                    .lens_scale = 1.0f,
+                    .dimensions = dimensions};
     clshear_status status = prepare(&e, scene, settings, x, y, count, error);
     if (status == CLSHEAR_OK) status = evaluate_all(&e, samples, count, rgb, error);
     release(&e);
@@ -168,6 +179,23 @@ clshear_status cs_pixel_shear(clshear_scene *scene, const clshear_settings *sett
                     ? (float)cs_number(&job.settings, SHEAR_PX)
                     : cs_oracle_shear(&job.camera, (cs_f32)x + 0.5f, (cs_f32)y + 0.5f, &depth,
                                       cs_rule_of(job.oracle));
+done:
+    cs_job_free(&job);
+    return status;
+}
+
+clshear_status cs_pixel_motion(clshear_scene *scene, const clshear_settings *settings, int x, int y,
+                               int *moves, cs_velocity *velocity_px, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const int window[4] = {x, x + 1, y, y + 1};
+    cs_job job = {0};
+    CS_TRY(cs_job_begin(&job, scene, settings, NULL, error));
+    CS_REQUIRE(x >= 0 && x < job.width && y >= 0 && y < job.height, CLSHEAR_BAD_ARGUMENT,
+               "pixel %d,%d is outside the %d x %d image", x, y, job.width, job.height);
+    *moves = job.moves;
+    *velocity_px = (cs_velocity){0.0f, 0.0f};
+    if (job.moves) cs_accel_velocity(scene->accel, &job.cameras, window, velocity_px);
 done:
     cs_job_free(&job);
     return status;

@@ -100,7 +100,7 @@ clshear_status cs_converge_integrand(const clshear_integrand *integrand, const c
     CS_REQUIRE(means != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     CS_TRY(cs_convergence_reserve(study, result, error));
     for (size_t k = 0; k < study->sizes; k++) {
-        CS_TRY(cs_points_draw(sampler, study->counts[k], study->replicates, seed, 0, &points));
+        CS_TRY(cs_points_draw(sampler, study->counts[k], study->replicates, seed, 0, 0, &points));
         result->counts[k] = (uint32_t)points.count;
         cs_points_integrate(&points, integrand, 0, 0, means + k * study->replicates);
         cs_points_free(&points);

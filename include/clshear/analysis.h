@@ -32,9 +32,15 @@ CLSHEAR_API clshear_status clshear_points_draw(const char *sampler, size_t count
 CLSHEAR_API clshear_status clshear_points_draw_fresh(const char *sampler, size_t count, size_t sets,
                                                      uint32_t seed, clshear_points **points);
 
+/* Draws tuples of five coordinates: x, y, u, v and the time t, as a render draws them where
+ * something moves and no light has an area. With `fresh`, as clshear_points_draw_fresh. */
+CLSHEAR_API clshear_status clshear_points_draw_moving(const char *sampler, size_t count,
+                                                      size_t sets, uint32_t seed, int fresh,
+                                                      clshear_points **points);
+
 /* Copies points from memory. Coordinate d of point i of set s is values[(s * count + i) *
- * dimensions + d], in [0, 1). `names` has one letter for each of the 1 to 6 dimensions: x y (film),
- * u v (lens), p q (light). */
+ * dimensions + d], in [0, 1). `names` has one letter for each of the 1 to 7 dimensions: x y (film),
+ * u v (lens), p q (light), t (time). */
 CLSHEAR_API clshear_status clshear_points_create(const float *values, size_t sets, size_t count,
                                                  const char *names, clshear_points **points);
 
@@ -55,6 +61,12 @@ CLSHEAR_API const char *clshear_points_names(const clshear_points *points);
  * must begin with x, y, u, v. */
 CLSHEAR_API clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear,
                                                 float shear_px);
+
+/* Shears points by `shear_px` pixels per aperture width and by a velocity on the film, in pixels
+ * while the shutter is open, for a square aperture. The coordinates must begin with x, y, u, v, t,
+ * and the shear must not be toroidal. */
+CLSHEAR_API clshear_status clshear_points_shear_moving(clshear_points *points, clshear_shear shear,
+                                                       float shear_px, const float velocity_px[2]);
 
 /* Keeps the coordinates in `names`, in that order, and drops the others. */
 CLSHEAR_API clshear_status clshear_points_select(clshear_points *points, const char *names);
@@ -160,13 +172,14 @@ CLSHEAR_API void clshear_points_integrate(const clshear_points *points,
                                           const clshear_integrand *integrand, int homogenise,
                                           uint32_t seed, double *means);
 
-/* A function of four coordinates. Writes its values at `count` points of four coordinates each, all
- * in [0, 1]. The calling function returns a status other than CLSHEAR_OK to its caller at once. */
+/* A function of four coordinates, or of five where the points' begin with x, y, u, v, t. Writes its
+ * values at `count` points of so many coordinates each, all in [0, 1]. The calling function returns
+ * a status other than CLSHEAR_OK to its caller at once. */
 typedef clshear_status (*clshear_function)(void *user, const float *points, size_t count,
                                            float *values);
 
-/* Computes the mean of a function of x, y, u and v over each set's points, whose coordinates must
- * begin with these. `homogenise` is that of clshear_points_integrate. */
+/* Computes the mean of a function of x, y, u and v, or of these and t, over each set's points,
+ * whose coordinates must begin with these. `homogenise` is that of clshear_points_integrate. */
 CLSHEAR_API clshear_status clshear_points_integrate_4d(const clshear_points *points,
                                                        clshear_function function, void *user,
                                                        int homogenise, uint32_t seed,
@@ -184,7 +197,8 @@ CLSHEAR_API float clshear_lens_extent(const clshear_settings *settings);
  * The film coordinates x and y start at the pixel's upper left corner, and the pixel is 0 to 1. The
  * lens coordinates u and v cover the square around the aperture with 0 to 1, whatever its shape.
  * `rgb` receives 3 floats per point. A fixed point on one area light represents the power of all
- * area lights, as for one sample of a render. */
+ * area lights, as for one sample of a render. Where something moves, it is the middle of the
+ * shutter. */
 CLSHEAR_API clshear_status clshear_radiance(clshear_scene *scene, const clshear_settings *settings,
                                             int x, int y, const float *points, size_t count,
                                             float *rgb);
@@ -195,6 +209,24 @@ CLSHEAR_API clshear_status clshear_radiance_of_samples(clshear_scene *scene,
                                                        const clshear_settings *settings, int x,
                                                        int y, float shear_px, const float *samples,
                                                        size_t count, float *rgb);
+
+/* The same at points of five coordinates, of which the last is the time: 0 where the shutter opens
+ * and 1 where it closes. It makes no difference where nothing moves. */
+CLSHEAR_API clshear_status clshear_moving_radiance(clshear_scene *scene,
+                                                   const clshear_settings *settings, int x, int y,
+                                                   const float *points, size_t count, float *rgb);
+
+/* The same at samples of five coordinates, after the shear of pixel, lens and time by `shear_px`
+ * and a velocity on the film, in pixels while the shutter is open. */
+CLSHEAR_API clshear_status clshear_moving_radiance_of_samples(
+    clshear_scene *scene, const clshear_settings *settings, int x, int y, float shear_px,
+    const float velocity_px[2], const float *samples, size_t count, float *rgb);
+
+/* Finds whether anything moves while the shutter is open, and the velocity on the film of what the
+ * centre of pixel (x, y) sees in the middle of it, in pixels while it is open. */
+CLSHEAR_API clshear_status clshear_pixel_motion(clshear_scene *scene,
+                                                const clshear_settings *settings, int x, int y,
+                                                int *moves, float velocity_px[2]);
 
 /* Computes the shear of pixel (x, y) by the settings' oracle, in pixels. The pilot is replaced by
  * the centre. */
@@ -231,19 +263,20 @@ typedef struct clshear_reach {
     size_t struct_size;
     uint32_t axis;  /* for parts of one coordinate: 1 to 65536; should be 4 N */
     uint32_t plane; /* for parts of two coordinates: 1 to 2047 */
-    uint32_t block; /* for the block of three or four: 1 to 15 */
+    uint32_t block; /* for the block of three or more: 1 to 15; with the time 1 to 5 */
     size_t points;  /* samples of the function for a part, in each of eight grids: a grid has one in
                        every cell at least; 0: 2^19. Few make the energies noisy, not biased. */
 } clshear_reach;
 
 /* Predicts the variance of the mean of a function at N samples that are shifted at random around
- * the torus. The samples' coordinates must begin with x, y, u, v. A full four-dimensional lattice
- * of frequencies would be too small, so each part covers its own range. The tail has the power of
+ * the torus. The samples' coordinates must begin with x, y, u, v; if the time t is the fifth, it is
+ * one more coordinate of the function. A full lattice of frequencies would be too small, so each part covers its own range. The tail has the power of
  * random points. The function's energy at a frequency is the cross power of independently shifted
  * grids, and so free of aliases and noise on average.
  *
  * The parts are the frequencies of x, y, u and v alone, of xy, xu, xv, yu, yv and uv, of three or
- * four coordinates ("block"), and the rest ("tail"). */
+ * more coordinates ("block"), and the rest ("tail"); with the time also those of t, xt, yt, ut and
+ * vt. */
 CLSHEAR_API clshear_status clshear_predict_variance_4d(clshear_context *context,
                                                        const clshear_points *samples,
                                                        clshear_function function, void *user,

@@ -23,6 +23,8 @@ import numpy as np
 from renderers import FACETS_OF_MITSUBA, load_mitsuba, run_clshear
 from scenes import scenes
 
+HEAD = ("| scene | mean of \\|z\\| | mean z | beyond 3 | pixels with noise | mean of clshear | "
+        "of Mitsuba | |\n|---|---|---|---|---|---|---|---|")
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 REPLICATES = 16
 # |z| has a deviation of 0.62, its mean over pixels a seventh of the distance from 0.82.
@@ -61,10 +63,9 @@ def keep(folder, name, ours, theirs):
                 str(pathlib.Path(folder) / f"{name}-{word}.png"))
 
 
-def agree(options, folder, name, scene):
-    """Prints the scene's row of the table; whether the pictures agree."""
-    ours, variance = of_clshear(options, folder, name, scene)
-    theirs, spread = of_mitsuba(options, scene)
+def row(options, name, ours, theirs):
+    """Prints a row of the table, of (picture, variance of its values) each; whether they agree."""
+    (ours, variance), (theirs, spread) = ours, theirs
     if options.keep:
         keep(options.keep, name, ours, theirs)
     noise = np.sqrt(variance + spread)
@@ -94,9 +95,9 @@ def main():
         unknown = set(options.scene or []) - set(known)
         if unknown:
             parser.error(f"no scene {', '.join(sorted(unknown))}; there are {', '.join(known)}")
-        print("| scene | mean of \\|z\\| | mean z | beyond 3 | pixels with noise | mean of clshear | "
-              "of Mitsuba | |\n|---|---|---|---|---|---|---|---|", flush=True)
-        results = [agree(options, pathlib.Path(folder), name, scene)
+        print(HEAD, flush=True)
+        results = [row(options, name, of_clshear(options, pathlib.Path(folder), name, scene),
+                       of_mitsuba(options, scene))
                    for name, scene in known.items() if name in (options.scene or known)]
     return 0 if all(results) else 1
 

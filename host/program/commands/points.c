@@ -12,7 +12,7 @@ typedef struct points_job {
 
 static const program_flag flags[] = {
     POINT_SOURCE_FLAGS("independent sets (1)"),
-    TEXT_FLAG("dims", "LETTERS", "coordinates, in this order, out of xyuvpq (xyuv)", "",
+    TEXT_FLAG("dims", "LETTERS", "coordinates, in this order, out of xyuvpqt (xyuv)", "",
               offsetof(point_source, letters), ""),
     TEXT_FLAG("out o", "FILE", ".exr, .csv, or text; - is standard output", "-",
               offsetof(points_job, out), ""),
@@ -24,7 +24,7 @@ static int run(void *job);
 const program_command points_command = {
     .name = "points",
     .usage = "clshear points [flags]\n"
-             "Write the points of a sampler: film x y, lens u v, light p q, all in [0, 1).\n\n"
+             "Write the points of a sampler: film x y, lens u v, light p q, time t, in [0, 1).\n\n"
              "  clshear points --sampler sobol --n 256 --sets 10 --dims xu --out points.txt\n",
     .notes = "Text has a point a line and a line # between sets; .csv has commas instead of\n"
              "spaces; .exr has a channel for each coordinate and a row for each set.\n",

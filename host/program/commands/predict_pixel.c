@@ -16,8 +16,12 @@ static clshear_status evaluate(void *user, const float *points, size_t count, fl
     const pixel_view *v = user;
     for (size_t first = 0; first < count; first += CHUNK) {
         const size_t part = count - first < CHUNK ? count - first : CHUNK;
-        const clshear_status status = clshear_radiance_of_samples(
-            v->view.scene, v->settings, v->x, v->y, v->shear_px, points + 4 * first, part, v->rgb);
+        const clshear_status status =
+            v->moves ? clshear_moving_radiance_of_samples(v->view.scene, v->settings, v->x, v->y,
+                                                          v->shear_px, v->velocity_px,
+                                                          points + 5 * first, part, v->rgb)
+                     : clshear_radiance_of_samples(v->view.scene, v->settings, v->x, v->y,
+                                                   v->shear_px, points + 4 * first, part, v->rgb);
         if (status != CLSHEAR_OK) return status;
         for (size_t i = 0; i < part; i++)
             values[first + i] = (v->rgb[3 * i] + v->rgb[3 * i + 1] + v->rgb[3 * i + 2]) / 3.0f;
@@ -26,13 +30,13 @@ static clshear_status evaluate(void *user, const float *points, size_t count, fl
 }
 
 /* Points without the shear, which is part of the integrand. */
-static clshear_status draw(const predict_job *job, size_t sets, uint32_t seed,
+static clshear_status draw(const predict_job *job, const pixel_view *v, size_t sets, uint32_t seed,
                            clshear_points **points)
 {
     point_source source = job->source;
-    source.shear_px.count = 0;
+    source.shear_px.count = source.velocity_px.count = 0;
     source.letters.count = 0;
-    return point_source_make(&source, sets, seed, "xyuv", points);
+    return point_source_make(&source, sets, seed, v->moves ? "xyuvt" : "xyuv", points);
 }
 
 static int measure(const predict_job *job, pixel_view *v, pixel_result *r)
@@ -42,7 +46,7 @@ static int measure(const predict_job *job, pixel_view *v, pixel_result *r)
     clshear_points *points = NULL;
     double *means = malloc(sets * sizeof *means);
     if (means == NULL) return complain(EXIT_FAILED, "out of memory");
-    clshear_status status = draw(job, sets, seed, &points);
+    clshear_status status = draw(job, v, sets, seed, &points);
     for (int homogenise = 0; homogenise < 2 && status == CLSHEAR_OK; homogenise++) {
         measurement *m = homogenise ? &r->shifted : &r->rendered;
         status = clshear_points_integrate_4d(points, evaluate, v, homogenise, seed, means);
@@ -81,14 +85,14 @@ static int predict(const predict_job *job, pixel_view *v, size_t reach_points, p
 {
     const size_t sets = (size_t)number_or(&job->source.sets, 500.0);
     clshear_points *points = NULL;
-    clshear_status status = draw(job, sets, seed_of(&job->source.options), &points);
+    clshear_status status = draw(job, v, sets, seed_of(&job->source.options), &points);
     if (status != CLSHEAR_OK) return complain_of_library();
     r->count = clshear_points_count(points);
     const uint32_t wanted = r->count < 16384 ? 4 * (uint32_t)r->count : 65536;
     const clshear_reach reach = {.struct_size = sizeof reach,
                                  .axis = wanted < 1024 ? 1024 : wanted,
                                  .plane = (uint32_t)job->resolution.items[0] / 2,
-                                 .block = (uint32_t)job->block.items[0],
+                                 .block = (uint32_t)number_or(&job->block, v->moves ? 4.0 : 8.0),
                                  .points = reach_points};
     status =
         clshear_predict_variance_4d(v->view.context, points, evaluate, v, &reach, &r->prediction);
@@ -109,9 +113,14 @@ static int check(const predict_job *job)
     return code == EXIT_DONE ? check_places("out", job->out.items, 1) : code;
 }
 
-/* The shear that is given, or the oracle's. */
+/* The shear that is given, or the oracle's; and the velocity. */
 static clshear_status find_shear(const predict_job *job, pixel_view *v)
 {
+    const clshear_status status = clshear_pixel_motion(v->view.scene, v->settings, v->x, v->y,
+                                                       &v->moves, v->velocity_px);
+    if (status != CLSHEAR_OK) return status;
+    for (size_t i = 0; i < job->source.velocity_px.count; i++)
+        v->velocity_px[i] = (float)job->source.velocity_px.items[i];
     if (job->source.shear_px.count == 0)
         return clshear_pixel_shear(v->view.scene, v->settings, v->x, v->y, &v->shear_px);
     v->shear_px = (float)job->source.shear_px.items[0];

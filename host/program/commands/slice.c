@@ -1,4 +1,4 @@
-/* clshear slice: the integrand of a pixel over two of its four coordinates, or all. */
+/* clshear slice: the integrand of a pixel over two of its coordinates, or over the four of film and lens. */
 #include <clshear/analysis.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +24,7 @@ typedef struct slice_job {
 #define AT(member) offsetof(slice_job, member)
 static const program_flag flags[] = {
     WHOLE_FLAG("pixel", "X,Y", "the pixel", "", AT(pixel), 2, 1, 0, 65535),
-    TEXT_FLAG("projection dims", "LETTERS", "two coordinates out of xyuv, or 4d", "xu",
+    TEXT_FLAG("projection dims", "LETTERS", "two coordinates out of xyuvt, or 4d", "xu",
               AT(projection), ""),
     WHOLE_FLAG("resolution", "R", "values along a side, or W,H (256; 4d: 32)", "", AT(resolution),
                1, 2, 2, 8192),
@@ -41,19 +41,23 @@ static int run(void *job);
 const program_command slice_command = {
     .name = "slice",
     .usage = "clshear slice SCENE --pixel X,Y [flags]\n"
-             "Draw the integrand of a pixel over two of its four coordinates.\n\n"
+             "Draw the integrand of a pixel over two of film x y, lens u v and time t.\n\n"
              "  clshear slice scenes/cornell.obj --pixel 302,130 --out xu.png\n",
     .notes = "The first coordinate goes to the right, the second downwards; 0 to 1 is the\n"
-             "pixel, or the square around the aperture. The line shows the fibres of the\n"
-             "oracle's depth; in the spectrum (of the slice less its mean, through Hann's\n"
-             "window) that of their energy. Without --out: slice.png, or slice.npy.\n",
+             "pixel, the square around the aperture, or the open shutter. The line shows the\n"
+             "fibres of the oracle's depth and velocity; in the spectrum (of the slice less\n"
+             "its mean, through Hann's window) that of their energy. Without --out: slice.png,\n"
+             "or slice.npy.\n",
     COMMAND_FLAGS(flags),
     .takes_scene = 1,
     .job_size = sizeof(slice_job),
     .run = run,
 };
 
-static const char letters[] = "xyuv";
+static const char letters[] = "xyuvt";
+enum {
+    COORDINATES = sizeof letters - 1
+};
 
 static int is_four(const slice_job *job)
 {
@@ -65,7 +69,7 @@ static void place(const slice_job *job, const slice_values *slice, size_t index,
 {
     const char *projection = job->projection.items[0];
     const size_t width = (size_t)slice->width;
-    for (int d = 0; d < 4; d++)
+    for (int d = 0; d < COORDINATES; d++)
         point[d] = (float)job->at.items[0];
     if (is_four(job)) {
         for (int d = 3; d >= 0; d--, index /= width)
@@ -79,40 +83,51 @@ static void place(const slice_job *job, const slice_values *slice, size_t index,
     point[second] = ((float)row + 0.5f) / (float)slice->height;
 }
 
-/* How the second coordinate moves the first along a fibre, from the oracle's shear. */
+/* How the second coordinate moves the first along a fibre, from the oracle's shear and velocity:
+ * x + s u - v t is constant, and so is y + s v - v t. */
 static clshear_status find_slope(const slice_job *job, clshear_scene *scene, slice_values *slice)
 {
     const clshear_settings *settings = job->options.settings;
     const double *pixel = job->pixel.items;
     const char *projection = job->projection.items[0];
-    float shear = 0.0f;
+    float shear = 0.0f, velocity[2] = {0.0f, 0.0f};
     double anamorphic = 1.0;
+    int moves = 0;
     if (job->no_line) return CLSHEAR_OK;
     clshear_status status =
         clshear_pixel_shear(scene, settings, (int)pixel[0], (int)pixel[1], &shear);
+    if (status == CLSHEAR_OK)
+        status = clshear_pixel_motion(scene, settings, (int)pixel[0], (int)pixel[1], &moves,
+                                      velocity);
     if (status == CLSHEAR_OK)
         status = clshear_settings_get_number(settings, CLSHEAR_ANAMORPHIC, &anamorphic);
     const double extent = (double)clshear_lens_extent(settings) * (double)shear;
     if (strcmp(projection, "xu") == 0) slice->slope = extent / anamorphic;
     if (strcmp(projection, "yv") == 0) slice->slope = extent;
+    if (strcmp(projection, "xt") == 0) slice->slope = -(double)velocity[0];
+    if (strcmp(projection, "yt") == 0) slice->slope = -(double)velocity[1];
+    if (strcmp(projection, "ut") == 0 && extent != 0.0)
+        slice->slope = -(double)velocity[0] * anamorphic / extent;
+    if (strcmp(projection, "vt") == 0 && extent != 0.0)
+        slice->slope = -(double)velocity[1] / extent;
     return status;
 }
 
 static int compute(const slice_job *job, clshear_scene *scene, slice_values *slice)
 {
     const double *pixel = job->pixel.items;
-    float *points = malloc(4 * slice->count * sizeof *points);
+    float *points = malloc(COORDINATES * slice->count * sizeof *points);
     slice->rgb = malloc(3 * slice->count * sizeof *slice->rgb);
     if (points == NULL || slice->rgb == NULL) {
         free(points);
         return complain(EXIT_FAILED, "out of memory");
     }
     for (size_t i = 0; i < slice->count; i++)
-        place(job, slice, i, points + 4 * i);
+        place(job, slice, i, points + COORDINATES * i);
     clshear_status status = find_slope(job, scene, slice);
     if (status == CLSHEAR_OK)
-        status = clshear_radiance(scene, job->options.settings, (int)pixel[0], (int)pixel[1],
-                                  points, slice->count, slice->rgb);
+        status = clshear_moving_radiance(scene, job->options.settings, (int)pixel[0],
+                                         (int)pixel[1], points, slice->count, slice->rgb);
     free(points);
     return exit_status_of(status);
 }
@@ -126,7 +141,7 @@ static int check(slice_job *job)
         return complain(EXIT_USAGE, "give a SCENE and a --pixel; see clshear slice --help");
     if (!four && (strlen(projection) != 2 || strspn(projection, letters) != 2 ||
                   projection[0] == projection[1]))
-        return complain(EXIT_USAGE, "--projection %s: must be two letters out of xyuv, or 4d",
+        return complain(EXIT_USAGE, "--projection %s: must be two letters out of xyuvt, or 4d",
                         projection);
     if (four && (resolution->count > 1 || (resolution->count == 1 && resolution->items[0] > 64.0)))
         return complain(EXIT_USAGE, "--projection 4d: --resolution must be one number up to 64");

@@ -28,7 +28,7 @@ typedef struct spectrum_job {
 #define AT(member) offsetof(spectrum_job, member)
 static const program_flag flags[] = {
     POINT_SOURCE_FLAGS("independent sets (100)"),
-    TEXT_FLAG("projection dims", "LETTERS", "two coordinates out of xyuvpq (xy)", "",
+    TEXT_FLAG("projection dims", "LETTERS", "two coordinates out of xyuvpqt (xy)", "",
               offsetof(point_source, letters), ""),
     WHOLE_FLAG("resolution", "R", "frequencies along a side, or W,H", "256", AT(resolution), 1, 2,
                2, 8192),
