@@ -52,8 +52,8 @@ static inline void cs_draw(const cs_pattern *pattern, cs_sample_table table, cs_
 }
 
 /* A pair in [0, 1) for each of the samples `index`, in an order that is independent of all other
- * pairs (padding: Kollig & Keller 2002, section 3). slot: whose keys it takes. The other parameters
- * are those of cs_draw. */
+ * pairs (padding: Kollig & Keller 2002, section 3). slot: whose keys it takes. The indices of a
+ * packet may be any below grid.count. The other parameters are those of cs_draw. */
 static inline cs_pair cs_draw_padding(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
                                       cs_vuint index, cs_u32 slot)
 {
