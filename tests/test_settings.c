@@ -131,6 +131,20 @@ static void kinds_are_enforced(void **state)
 
 /* Printed values can be read and print the same again, fallbacks too. Unsetting restores the
  * fallbacks. */
+/* What is no number is refused in words, however many numbers the setting has. */
+static void expectations_have_words(void **state)
+{
+    clshear_settings *settings = *state;
+    for (size_t i = 0; i < CS_SETTING_COUNT; i++) {
+        const cs_setting *entry = &cs_setting_table[i];
+        if (entry->kind != CLSHEAR_NUMBER && entry->kind != CLSHEAR_INTEGER) continue;
+        test_refused(clshear_settings_set_text(settings, entry->setting, "words"),
+                     CLSHEAR_BAD_ARGUMENT, "must be ");
+    }
+    test_refused(clshear_settings_set_text(settings, CLSHEAR_QUAD, "1,2"), CLSHEAR_BAD_ARGUMENT,
+                 "must be twelve numbers");
+}
+
 static void texts_come_back(void **state)
 {
     clshear_settings *settings = *state, *other = fresh();
@@ -315,11 +329,17 @@ int main(void)
 {
 #define WITH_SETTINGS(test) cmocka_unit_test_setup_teardown(test, open_settings, close_settings)
     const struct CMUnitTest tests[] = {
-        WITH_SETTINGS(bounds_are_enforced),          WITH_SETTINGS(counts_are_enforced),
-        WITH_SETTINGS(kinds_are_enforced),           WITH_SETTINGS(texts_come_back),
-        WITH_SETTINGS(floats_survive_texts),         WITH_SETTINGS(the_last_answer_counts),
-        WITH_SETTINGS(unknown_settings_are_refused), cmocka_unit_test(the_table_is_open),
-        cmocka_unit_test(copies_are_independent),    cmocka_unit_test(infos_fit_their_callers),
+        WITH_SETTINGS(bounds_are_enforced),
+        WITH_SETTINGS(counts_are_enforced),
+        WITH_SETTINGS(kinds_are_enforced),
+        WITH_SETTINGS(expectations_have_words),
+        WITH_SETTINGS(texts_come_back),
+        WITH_SETTINGS(floats_survive_texts),
+        WITH_SETTINGS(the_last_answer_counts),
+        WITH_SETTINGS(unknown_settings_are_refused),
+        cmocka_unit_test(the_table_is_open),
+        cmocka_unit_test(copies_are_independent),
+        cmocka_unit_test(infos_fit_their_callers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
