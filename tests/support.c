@@ -134,6 +134,47 @@ clshear_scene_info test_scene_info(const clshear_scene *scene)
     return info;
 }
 
+test_estimate test_mean(const clshear_film *film, const char *channel)
+{
+    char name[32];
+    test_estimate found = {0.0, 0.0};
+    snprintf(name, sizeof name, "Variance.%s", channel);
+    const float *value = clshear_film_channel(film, channel);
+    const float *variance = clshear_film_channel(film, name);
+    const clshear_film_info info = test_film_info(film);
+    const int count = info.width * info.height;
+    for (int p = 0; p < count; p++) {
+        found.mean += (double)value[p] / count;
+        found.error += (double)variance[p];
+    }
+    found.error = sqrt(found.error) / count;
+    return found;
+}
+
+test_estimate test_mean_of_render(clshear_scene *scene, clshear_settings *settings,
+                                  const char *channel)
+{
+    clshear_film *film = test_render(scene, settings);
+    const test_estimate found = test_mean(film, channel);
+    clshear_film_free(film);
+    clshear_settings_free(settings);
+    return found;
+}
+
+clshear_settings *test_looking_down(double x, int spp)
+{
+    clshear_settings *settings = test_settings(NULL, 4, 4, (uint32_t)spp);
+    test_set(settings, CLSHEAR_EYE, "%g,1,0", x);
+    test_set(settings, CLSHEAR_TARGET, "%g,0,0", x);
+    test_set(settings, CLSHEAR_UP, "0,0,-1");
+    test_set_number(settings, CLSHEAR_FOV, 0.01);
+    test_set_number(settings, CLSHEAR_LENS_RADIUS, 0.0);
+    test_set_number(settings, CLSHEAR_FOCAL_DISTANCE, 1.0);
+    test_set_number(settings, CLSHEAR_REPLICATES, 16);
+    test_set_number(settings, CLSHEAR_BOUNCES, 0.0);
+    return settings;
+}
+
 clshear_scene *test_meshes(clshear_context *context, const clshear_mesh *meshes, size_t count)
 {
     clshear_scene *scene = NULL;

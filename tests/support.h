@@ -62,6 +62,23 @@ clshear_film *test_render(clshear_scene *scene, const clshear_settings *settings
 clshear_film_info test_film_info(const clshear_film *film);
 clshear_scene_info test_scene_info(const clshear_scene *scene);
 
+/* The mean over a picture and its standard error, by the film's variances. */
+typedef struct test_estimate {
+    double mean;
+    double error;
+} test_estimate;
+
+/* Of a channel that has a Variance. */
+test_estimate test_mean(const clshear_film *film, const char *channel);
+
+/* Renders, and frees the settings. */
+test_estimate test_mean_of_render(clshear_scene *scene, clshear_settings *settings,
+                                  const char *channel);
+
+/* Settings for 4 x 4 pixels straight down on (x, 0, 0) from a height of 1, with direct light and 16
+ * replicates: an estimate has 240 degrees of freedom. */
+clshear_settings *test_looking_down(double x, int spp);
+
 /* Makes a complete scene of some meshes. Their struct_size need not be set. */
 clshear_scene *test_meshes(clshear_context *context, const clshear_mesh *meshes, size_t count);
 

@@ -40,27 +40,13 @@ static clshear_settings *view_of(clshear_emitters choice, int bounces, int spp)
     return settings;
 }
 
-typedef struct estimate {
-    double mean;
-    double error; /* standard error; 240 degrees of freedom */
-} estimate;
-
-static estimate render(clshear_scene *scene, clshear_settings *settings)
+static test_estimate mean_of_render(clshear_scene *scene, clshear_settings *settings)
 {
-    estimate found = {0.0, 0.0};
-    clshear_film *film = test_render(scene, settings);
-    for (int p = 0; p < 16; p++) {
-        found.mean += (double)clshear_film_channel(film, "G")[p] / 16.0;
-        found.error += (double)clshear_film_channel(film, "Variance.G")[p] / 256.0;
-    }
-    found.error = sqrt(found.error);
-    clshear_film_free(film);
-    clshear_settings_free(settings);
-    return found;
+    return test_mean_of_render(scene, settings, "G");
 }
 
 /* Two estimates of one mean: 5 standard errors, a false alarm of 1e-6. */
-static void expect_same(const char *name, estimate a, estimate b)
+static void expect_same(const char *name, test_estimate a, test_estimate b)
 {
     const double error = sqrt(a.error * a.error + b.error * b.error);
     print_message("%s: %.5f and %.5f, errors %.5f and %.5f\n", name, a.mean, b.mean, a.error,
@@ -111,11 +97,15 @@ static void tree_and_power_agree(void **state)
 {
     clshear_scene *scene = specks(*state);
     for (int bounces = 0; bounces < 3; bounces += 2) {
-        const estimate tree = render(scene, view_of(CLSHEAR_EMITTERS_TREE, bounces, 4096));
-        const estimate power = render(scene, view_of(CLSHEAR_EMITTERS_POWER, bounces, 4096));
+        const test_estimate tree =
+            mean_of_render(scene, view_of(CLSHEAR_EMITTERS_TREE, bounces, 4096));
+        const test_estimate power =
+            mean_of_render(scene, view_of(CLSHEAR_EMITTERS_POWER, bounces, 4096));
         expect_same("tree and power", tree, power);
-        const estimate few = render(scene, view_of(CLSHEAR_EMITTERS_TREE, bounces, 256));
-        const estimate few_power = render(scene, view_of(CLSHEAR_EMITTERS_POWER, bounces, 256));
+        const test_estimate few =
+            mean_of_render(scene, view_of(CLSHEAR_EMITTERS_TREE, bounces, 256));
+        const test_estimate few_power =
+            mean_of_render(scene, view_of(CLSHEAR_EMITTERS_POWER, bounces, 256));
         expect_same("few samples", few, few_power);
         if (bounces == 0) assert_below(2.0 * few.error, few_power.error);
     }
@@ -151,7 +141,7 @@ static void a_panel_close_to_a_wall(void **state)
             test_set(settings, CLSHEAR_UP, "0,0,-1");
             test_set_number(settings, CLSHEAR_LENS_RADIUS, 0.0);
             test_set_number(settings, CLSHEAR_FOV, 0.01);
-            const estimate found = render(scene, settings);
+            const test_estimate found = mean_of_render(scene, settings);
             print_message("%g away: %.6f of %.6f, error %.6f\n", (double)d, found.mean, factor,
                           found.error);
             assert_near(found.mean, factor, 5.0 * found.error + 1e-4);
@@ -189,9 +179,9 @@ static void varying_emission_is_sampled(void **state)
     static const char *const panels[] = {"Ke 9 9 9\nmap_Ke grey.tga", "Ke 2 2 2\nd 0.25"};
     for (size_t i = 0; i < 2; i++) {
         clshear_scene *scene = floor_and_panel(*state, panels[i]);
-        const estimate rays = render(scene, view_of(CLSHEAR_EMITTERS_POWER, 1, 16384));
-        const estimate both = render(scene, view_of(CLSHEAR_EMITTERS_TREE, 1, 4096));
-        const estimate direct = render(scene, view_of(CLSHEAR_EMITTERS_TREE, 0, 4096));
+        const test_estimate rays = mean_of_render(scene, view_of(CLSHEAR_EMITTERS_POWER, 1, 16384));
+        const test_estimate both = mean_of_render(scene, view_of(CLSHEAR_EMITTERS_TREE, 1, 4096));
+        const test_estimate direct = mean_of_render(scene, view_of(CLSHEAR_EMITTERS_TREE, 0, 4096));
         expect_same(panels[i], rays, both);
         expect_same("directly", rays, direct);
         assert_below(both.error, 2.0 * rays.error);
@@ -204,11 +194,11 @@ static void the_studio_looks_at_images(void **state)
 {
     clshear_scene *scene = floor_and_panel(*state, "Ke 99 99 99\nmap_Ke grey.tga");
     test_warnings();
-    render(scene, view_of(CLSHEAR_EMITTERS_TREE, 1, 64));
+    mean_of_render(scene, view_of(CLSHEAR_EMITTERS_TREE, 1, 64));
     assert_null(strstr(test_warnings(), "studio"));
     clshear_scene_free(scene);
     scene = floor_and_panel(*state, "Ke 1 1 1\nmap_Ke grey.tga");
-    const estimate found = render(scene, view_of(CLSHEAR_EMITTERS_TREE, 1, 64));
+    const test_estimate found = mean_of_render(scene, view_of(CLSHEAR_EMITTERS_TREE, 1, 64));
     assert_above(found.mean, 0.1);
     clshear_scene_free(scene);
 }

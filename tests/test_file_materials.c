@@ -1,39 +1,16 @@
 /* What files say of materials, from the lines of a file to the numbers on the device. */
+#include "import_support.h"
 #include "material_files.h"
-#include "support.h"
 
 #include <math.h>
 #include <stdio.h>
 
-#include "import/import.h"
 #include "import/transfer.h"
 #include "kernels/bsdf/list.h"
 
-static char warnings[4096];
-
-static void collect(void *user, const char *line)
-{
-    const size_t used = strlen(warnings);
-    (void)user;
-    snprintf(warnings + used, sizeof warnings - used, "%s\n", line);
-}
-
-static void expect_warning(const char *words)
-{
-    if (strstr(warnings, words) == NULL)
-        fail_msg("\"%s\" does not contain \"%s\"", warnings, words);
-}
-
 static cs_scene load(const char *path)
 {
-    const cs_log log = {.warn = collect};
-    const cs_import_options options = {.smooth_degrees = -1.0};
-    cs_scene scene;
-    cs_error error;
-    warnings[0] = '\0';
-    cs_scene_init(&scene);
-    if (cs_import_here(path, &options, NULL, &scene, &log, &error) != CLSHEAR_OK)
-        fail_msg("%s", error.message);
+    cs_scene scene = import_load(path);
     assert_true(cs_scene_is_sound(&scene));
     return scene;
 }
@@ -72,7 +49,7 @@ static void expect_all(const expectation *all, size_t count, cs_scene (*load_tex
         if (!(fabs((double)found - all[i].value) < 1e-5))
             fail_msg("%s: %g is not %g", all[i].text, (double)found, all[i].value);
         assert_int_equal(first_of(&scene)->bsdf, CS_BSDF_STANDARD);
-        assert_string_equal(warnings, "");
+        assert_string_equal(import_warnings, "");
         cs_scene_free(&scene);
     }
 }
@@ -171,7 +148,7 @@ static void lambert_stays_lambert(void **state)
         cs_scene scene = i < count ? load_mtl(mtl[i]) : load_gltf(gltf[i - count]);
         assert_int_equal(first_of(&scene)->bsdf, CS_BSDF_LAMBERT);
         assert_int_equal(cs_scene_material_needs(&scene).features, 0);
-        assert_string_equal(warnings, "");
+        assert_string_equal(import_warnings, "");
         cs_scene_free(&scene);
     }
 }
@@ -208,7 +185,7 @@ static void volumes_are_solids(void **state)
         for (int c = 0; c < 3 && all[i].is_solid; c++)
             assert_near(material->parameters[CS_PARAMETER_ABSORPTION + c], all[i].absorption[c],
                         1e-6);
-        assert_string_equal(warnings, "");
+        assert_string_equal(import_warnings, "");
         cs_scene_free(&scene);
     }
 }
@@ -240,122 +217,8 @@ static void flags_of_materials(void **state)
         cs_scene_free(&scene);
     }
     cs_scene scene = load_mtl("Tr 1");
-    expect_warning("\"m\" has the opacity 0 and cannot be seen");
+    import_warned("\"m\" has the opacity 0 and cannot be seen");
     cs_scene_free(&scene);
-}
-
-/* The value of a half that is 0 or between 2^-14 and 2. */
-static double value_of(uint16_t half)
-{
-    return half == 0 ? 0.0 : ldexp(1.0 + (half & 1023) / 1024.0, (half >> 10) - 15);
-}
-
-/* The upper left texel of a texture that counts from 1; halves keep 11 bits. */
-static void expect_texel(const cs_scene *scene, cs_u32 number, double red, double green,
-                         double blue, double alpha)
-{
-    const double wanted[4] = {red, green, blue, alpha};
-    assert_in_range(number, 1, scene->textures.count);
-    const cs_texture *texture = (const cs_texture *)scene->textures.items + number - 1;
-    const uint16_t(*texels)[4] = scene->texels.items;
-    for (int c = 0; c < 4; c++)
-        assert_near(value_of(texels[texture->first][c]), wanted[c], 6e-4);
-}
-
-static cs_u32 base_of(const cs_scene *scene)
-{
-    return (cs_u32)(first_of(scene)->texture + 1);
-}
-
-/* Colours are on the sRGB curve ((128 / 255) is 0.2158 there), numbers are not, alpha never. */
-static void maps_of_gltf(void **state)
-{
-    (void)state;
-    material_even_picture("grey.tga", 128, 255, 0, 51);
-    material_even_picture("tone.tga", 128, 128, 255, 255);
-    cs_scene scene =
-        load_gltf("{'alphaMode':'BLEND','emissiveFactor':[2,2,2],'emissiveTexture':{'index':1},"
-                  "'normalTexture':{'index':1,'scale':0.5},'occlusionTexture':{'index':0},"
-                  "'pbrMetallicRoughness':{'baseColorTexture':{'index':0},"
-                  "'metallicRoughnessTexture':{'index':1}}}");
-    const cs_material *m = first_of(&scene);
-    assert_string_equal(warnings, "");
-    assert_int_equal(m->flags, CS_MATERIAL_BLEND);
-    expect_texel(&scene, base_of(&scene), 0.2158, 1, 0, 0.2);
-    expect_texel(&scene, m->emission_texture, 0.2158, 0.2158, 1, 1);
-    expect_texel(&scene, m->normal_texture, 0.502, 0.502, 1, 1);
-    expect_texel(&scene, m->facets_texture, 0.502, 0.502, 1, 1);
-    assert_int_equal(m->normal_texture, m->facets_texture); /* read once */
-    assert_true(m->normal_scale == 0.5f && m->emission[0] == 2.0f);
-    assert_int_equal(*(const uint8_t *)scene.triangle_flags.items, CS_FACE_TEXTURED);
-    cs_scene_free(&scene);
-    scene = load_gltf("{'alphaMode':'MASK','pbrMetallicRoughness':{'baseColorTexture':{'index':1},"
-                      "'baseColorFactor':[1,1,1,0.8]}}");
-    assert_int_equal(first_of(&scene)->flags, 0); /* alpha is 1 in the image */
-    cs_scene_free(&scene);
-    scene = load_gltf("{'normalTexture':{'index':1,'extensions':{'KHR_texture_transform':"
-                      "{'offset':[0.5,0]}}},'pbrMetallicRoughness':{'baseColorTexture':"
-                      "{'index':0}}}");
-    expect_warning("texture coordinates that differ between its maps");
-    cs_scene_free(&scene);
-}
-
-static void maps_of_mtl(void **state)
-{
-    static const unsigned char ramp[16] = {0,   0,   0,   255, 255, 255, 255, 255,
-                                           255, 255, 255, 255, 0,   0,   0,   255};
-    (void)state;
-    material_even_picture("grey.tga", 128, 128, 128, 255);
-    material_even_picture("tone.tga", 255, 255, 255, 51);
-    material_even_picture("bent.tga", 100, 140, 240, 255);
-    material_picture("ramp.tga", ramp);
-    cs_scene scene = load_mtl("map_Kd grey.tga\nmap_d tone.tga");
-    expect_texel(&scene, base_of(&scene), 0.2158, 0.2158, 0.2158, 0.2); /* has alpha */
-    assert_int_equal(first_of(&scene)->flags, CS_MATERIAL_BLEND);
-    cs_scene_free(&scene);
-    scene = load_mtl("map_d grey.tga");
-    expect_texel(&scene, base_of(&scene), 1, 1, 1, 0.502); /* has none */
-    cs_scene_free(&scene);
-    scene = load_mtl("map_Pr grey.tga\nmap_Pm tone.tga");
-    expect_texel(&scene, first_of(&scene)->facets_texture, 1, 0.502, 1, 1);
-    assert_true(first_of(&scene)->parameters[CS_PARAMETER_METALLIC] == 1.0f);
-    cs_scene_free(&scene);
-    scene = load_mtl("Ks 1 1 1\nNs 60\nmap_Ns grey.tga");
-    expect_texel(&scene, first_of(&scene)->facets_texture, 1, pow(2.0 / (60 * 0.50196 + 2), 0.25),
-                 1, 1);
-    assert_true(first_of(&scene)->parameters[CS_PARAMETER_ROUGHNESS] == 1.0f);
-    cs_scene_free(&scene);
-    scene = load_mtl("map_Ke grey.tga");
-    expect_texel(&scene, first_of(&scene)->emission_texture, 0.2158, 0.2158, 0.2158, 1);
-    assert_true(first_of(&scene)->emission[0] == 1.0f);
-    cs_scene_free(&scene);
-    scene = load_mtl("norm grey.tga");
-    expect_texel(&scene, first_of(&scene)->normal_texture, 0.502, 0.502, 0.502, 1);
-    cs_scene_free(&scene);
-    scene = load_mtl("map_Bump -bm 0.3 ramp.tga"); /* as high on both sides of each texel */
-    expect_texel(&scene, first_of(&scene)->normal_texture, 0.5, 0.5, 1, 1);
-    assert_true(first_of(&scene)->normal_scale == 0.3f);
-    cs_scene_free(&scene);
-    scene = load_mtl("bump bent.tga"); /* looks like normals */
-    expect_texel(&scene, first_of(&scene)->normal_texture, 0.392, 0.549, 0.941, 1);
-    cs_scene_free(&scene);
-}
-
-/* Heights that rise by 0.2 a texel to the right and by 0.4 upwards: the normal is -0.2, -0.4, 1. */
-static void heights_become_normals(void **state)
-{
-    float texels[5 * 5 * 4];
-    const double scale = 0.5 / sqrt(1.0 + 0.2 * 0.2 + 0.4 * 0.4);
-    (void)state;
-    for (int y = 0; y < 5; y++)
-        for (int x = 0; x < 5; x++)
-            for (int c = 0; c < 4; c++)
-                texels[4 * (5 * y + x) + c] = 0.2f * (float)x - 0.4f * (float)y;
-    assert_true(cs_texels_convert(CS_TEXELS_BUMPS, texels, 5, 5));
-    const float *middle = texels + 4 * (5 * 2 + 2);
-    assert_near(middle[0], 0.5 - 0.2 * scale, 1e-6);
-    assert_near(middle[1], 0.5 - 0.4 * scale, 1e-6);
-    assert_near(middle[2], 0.5 + scale, 1e-6);
 }
 
 /* What a helper may send only by mistake. Each case changes one word of a sound scene. */
@@ -405,15 +268,9 @@ static void unsound_materials_are_found(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_of_gltf),
-        cmocka_unit_test(numbers_of_mtl),
-        cmocka_unit_test(volumes_are_solids),
-        cmocka_unit_test(lambert_stays_lambert),
-        cmocka_unit_test(flags_of_materials),
-        cmocka_unit_test(maps_of_gltf),
-        cmocka_unit_test(maps_of_mtl),
-        cmocka_unit_test(heights_become_normals),
-        cmocka_unit_test(unsound_materials_are_found),
+        cmocka_unit_test(numbers_of_gltf),    cmocka_unit_test(numbers_of_mtl),
+        cmocka_unit_test(volumes_are_solids), cmocka_unit_test(lambert_stays_lambert),
+        cmocka_unit_test(flags_of_materials), cmocka_unit_test(unsound_materials_are_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

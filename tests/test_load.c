@@ -264,6 +264,34 @@ static void up_is_z_in_3ds(void **state)
     clshear_scene_free(scene);
 }
 
+/* A block from (-1, y, z) that is 2 wide, 2 deep and 3 high, as OBJ; what is said of its camera. */
+static void expect_hint(double y, double z, const char *flag, int is_expected)
+{
+    char text[512] = "";
+    clshear_settings *settings = NULL;
+    for (int i = 0; i < 8; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "v %d %g %g\n", i & 1 ? 1 : -1,
+                 i & 2 ? y + 2 : y, i & 4 ? z + 3 : z);
+    strcat(text, "f 1 2 4 3\nf 5 6 8 7\nf 1 2 6 5\nf 2 4 8 6\nf 4 3 7 8\nf 3 1 5 7\n");
+    clshear_scene *scene = load(test_file("block.obj", text), NULL);
+    test_ok(clshear_settings_create(&settings));
+    if (flag != NULL) test_ok(clshear_settings_set_text(settings, CLSHEAR_Z_UP, flag));
+    test_ok(clshear_camera_complete(scene, settings));
+    assert_int_equal(strstr(test_warnings(), "--z-up sets it upright") != NULL, is_expected);
+    clshear_settings_free(settings);
+    clshear_scene_free(scene);
+}
+
+/* OBJ does not say what is up: a model that stands on z = 0 may have +Z up. */
+static void what_stands_on_z_is_told(void **state)
+{
+    (void)state;
+    expect_hint(-1.0, 0.0, NULL, 1);
+    expect_hint(-1.0, 0.0, "0", 0);   /* the user has said it */
+    expect_hint(0.0, 0.0, NULL, 0);   /* as well on y = 0 */
+    expect_hint(-1.0, -1.0, NULL, 0); /* on neither */
+}
+
 /* Two planes that meet at 90 degrees: beside their edge, the smooth normal faces the light. */
 static void smoothness_is_a_setting(void **state)
 {
@@ -285,9 +313,10 @@ static void smoothness_is_a_setting(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(maps_beyond_their_edges), cmocka_unit_test(vertices_have_colours),
-        cmocka_unit_test(far_scenes_look_alike),   cmocka_unit_test(cameras_are_chosen),
-        cmocka_unit_test(up_is_z_in_3ds),          cmocka_unit_test(smoothness_is_a_setting),
+        cmocka_unit_test(maps_beyond_their_edges),  cmocka_unit_test(vertices_have_colours),
+        cmocka_unit_test(far_scenes_look_alike),    cmocka_unit_test(cameras_are_chosen),
+        cmocka_unit_test(up_is_z_in_3ds),           cmocka_unit_test(smoothness_is_a_setting),
+        cmocka_unit_test(what_stands_on_z_is_told),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
 }

@@ -70,23 +70,9 @@ static clshear_settings *looking_at_floor(double height, double slope, int bounc
     return settings;
 }
 
-typedef struct estimate {
-    double mean;
-    double error; /* standard error; 240 degrees of freedom */
-} estimate;
-
-static estimate render(clshear_scene *scene, clshear_settings *settings)
+static test_estimate mean_of_render(clshear_scene *scene, clshear_settings *settings)
 {
-    estimate found = {0.0, 0.0};
-    clshear_film *film = test_render(scene, settings);
-    for (int p = 0; p < 16; p++) {
-        found.mean += (double)clshear_film_channel(film, "R")[p] / 16.0;
-        found.error += (double)clshear_film_channel(film, "Variance.R")[p];
-    }
-    found.error = sqrt(found.error) / 16.0;
-    clshear_film_free(film);
-    clshear_settings_free(settings);
-    return found;
+    return test_mean_of_render(scene, settings, "R");
 }
 
 /* White surfaces under an even sky of radiance 1 show 1, within 0.5 % for the tables of albedos and
@@ -103,7 +89,7 @@ static void white_furnace(void **state)
             clshear_scene *scene = scene_of(*state, &material, NULL);
             clshear_settings *settings = looking_at_floor(1.0, r % 2 == 0 ? 0.3 : 2.0, r % 2);
             test_set(settings, CLSHEAR_ENVIRONMENT, "1,1,1");
-            const estimate found = render(scene, settings);
+            const test_estimate found = mean_of_render(scene, settings);
             print_message("kind %d, roughness %.2f: %.4f, error %.4f\n", kind,
                           (double)roughnesses[r], found.mean, found.error);
             assert_near(found.mean, 1.0, 0.005 + 5.0 * found.error);
@@ -122,7 +108,7 @@ static void polished_metal_shows_the_sun(void **state)
     clshear_settings *settings = looking_at_floor(1.0, 1.0, 0);
     test_set(settings, CLSHEAR_SUN, "1,1,0,1,1,1,20");
     const double sine = sin(10.0 * acos(-1.0) / 180.0), truth = 1.0 / (acos(-1.0) * sine * sine);
-    const estimate found = render(scene, settings);
+    const test_estimate found = mean_of_render(scene, settings);
     print_message("sun in metal: %.3f of %.3f, error %.3f\n", found.mean, truth, found.error);
     assert_near(found.mean, truth, 0.02 * truth + 5.0 * found.error);
     clshear_scene_free(scene);
@@ -145,7 +131,7 @@ static void alpha_shows_what_is_behind(void **state)
         const double truth = mode == CLSHEAR_ALPHA_OPAQUE ? 0.8
                              : mode == CLSHEAR_ALPHA_MASK ? below
                                                           : 0.3 * 0.8 + 0.7 * 0.7 * below;
-        const estimate found = render(scene, settings);
+        const test_estimate found = mean_of_render(scene, settings);
         print_message("alpha mode %d: %.4f of %.4f, error %.4f\n", mode, found.mean, truth,
                       found.error);
         assert_near(found.mean, truth, 5.0 * found.error + 2e-3 * truth);
@@ -163,7 +149,7 @@ static void no_reflection_is_lambert(void **state)
     clshear_scene *scene = scene_of(*state, &ground, NULL);
     clshear_settings *settings = looking_at_floor(1.0, 0.5, 0);
     test_set(settings, CLSHEAR_LIGHT, "0,2,0,8,8,8");
-    assert_near(render(scene, settings).mean, 0.5 * 2.0 / acos(-1.0), 1e-4);
+    assert_near(mean_of_render(scene, settings).mean, 0.5 * 2.0 / acos(-1.0), 1e-4);
     clshear_scene_free(scene);
 }
 
@@ -234,7 +220,7 @@ static void maps_say_what_they_should(void **state)
         clshear_settings *settings = looking_at_floor(1.0, 0.1, 0);
         test_set(settings, CLSHEAR_EYE, "-0.1,%g,0", cases[i].height);
         test_set(settings, CLSHEAR_SUN, "%s", cases[i].sun);
-        const estimate found = render(scene, settings);
+        const test_estimate found = mean_of_render(scene, settings);
         print_message("map %zu: %.4f of %.4f\n", i, found.mean, cases[i].truth);
         assert_near(found.mean, cases[i].truth, 3e-3 * cases[i].truth + 5.0 * found.error);
         clshear_scene_free(scene);
@@ -243,7 +229,7 @@ static void maps_say_what_they_should(void **state)
     material.base_colour[0] = 0.0f; /* of the studio's light it shows nothing */
     clshear_scene *scene =
         mapped_floor(*state, &material, half, offsetof(cs_material, emission_texture));
-    assert_near(render(scene, looking_at_floor(1.0, 0.1, 0)).mean, 1.5, 1e-3);
+    assert_near(mean_of_render(scene, looking_at_floor(1.0, 0.1, 0)).mean, 1.5, 1e-3);
     clshear_scene_free(scene);
 }
 
@@ -275,7 +261,7 @@ static void slab_of_glass(void **state)
         clshear_settings *settings = looking_at_floor(4.0, 0.01, 12);
         test_set(settings, CLSHEAR_ENVIRONMENT, "1,1,1");
         const double truth = absorbs ? 0.04 + 0.96 * 0.96 * 0.5 / (1.0 - 0.04 * 0.5) : 1.0;
-        const estimate found = render(scene, settings);
+        const test_estimate found = mean_of_render(scene, settings);
         print_message("slab: %.4f of %.4f, error %.4f\n", found.mean, truth, found.error);
         assert_near(found.mean, truth, 1e-3 + 5.0 * found.error);
         clshear_scene_free(scene);

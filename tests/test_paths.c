@@ -56,38 +56,6 @@ static clshear_settings *settings_at(const char *eye, const char *target, double
     return settings;
 }
 
-typedef struct estimate {
-    double mean;
-    double error; /* standard error */
-} estimate;
-
-/* Mean of a channel over all pixels. */
-static estimate mean_of(const clshear_film *film, const char *channel)
-{
-    char name[32];
-    estimate found = {0.0, 0.0};
-    snprintf(name, sizeof name, "Variance.%s", channel);
-    const float *value = clshear_film_channel(film, channel);
-    const float *variance = clshear_film_channel(film, name);
-    const clshear_film_info info = test_film_info(film);
-    const int count = info.width * info.height;
-    for (int p = 0; p < count; p++) {
-        found.mean += (double)value[p] / count;
-        found.error += (double)variance[p];
-    }
-    found.error = sqrt(found.error) / count;
-    return found;
-}
-
-static estimate render(clshear_scene *scene, clshear_settings *settings, const char *channel)
-{
-    clshear_film *film = test_render(scene, settings);
-    const estimate found = mean_of(film, channel);
-    clshear_film_free(film);
-    clshear_settings_free(settings);
-    return found;
-}
-
 /* In a closed space whose walls emit E and reflect rho everywhere, every path finds the same: after
  * n bounces E (1 + rho + ... + rho^(n+1)), and E / (1 - rho) in the end. Sixteen pixels with 16
  * replicates each: 240 degrees of freedom, so 5 standard errors are a false alarm of 1e-6; 1e-4
@@ -104,7 +72,7 @@ static void light_in_a_closed_cube(void **state)
         for (int c = 0; c < 3; c++) {
             const double rho = c == 0 ? 0.8 : c == 1 ? 0.4 : 0.0;
             const double truth = 0.5 * (1.0 - pow(rho, bounces[i] + 2)) / (1.0 - rho);
-            const estimate found = mean_of(film, channels[c]);
+            const test_estimate found = test_mean(film, channels[c]);
             print_message("%2d bounces, %s: %.5f of %.5f, error %.5f\n", bounces[i], channels[c],
                           found.mean, truth, found.error);
             assert_near(found.mean, truth, 5.0 * found.error + 1e-4 * truth);
@@ -142,8 +110,10 @@ static void both_ways_to_find_a_light_agree(void **state)
     clshear_scene *scene = floor_and_panel(*state);
     const double x = 0.5, root = sqrt(1.0 + x * x); /* half side over height, both ways */
     const double truth = 0.5 * 3.0 * 4.0 / (2.0 * acos(-1.0)) * 2.0 * x / root * atan(x / root);
-    const estimate one = render(scene, settings_at("4,0.5,0", "0,0,0", 0.2, 1024, 0), "R");
-    const estimate both = render(scene, settings_at("4,0.5,0", "0,0,0", 0.2, 1024, 1), "R");
+    const test_estimate one =
+        test_mean_of_render(scene, settings_at("4,0.5,0", "0,0,0", 0.2, 1024, 0), "R");
+    const test_estimate both =
+        test_mean_of_render(scene, settings_at("4,0.5,0", "0,0,0", 0.2, 1024, 1), "R");
     print_message("light alone %.5f, both %.5f of %.5f\n", one.mean, both.mean, truth);
     assert_near(one.mean, truth, 5.0 * one.error + 1e-3 * truth);
     assert_near(both.mean, truth, 5.0 * both.error + 1e-3 * truth);
@@ -159,7 +129,7 @@ static void clamping_darkens(void **state)
     for (int i = 0; i < 3; i++) {
         clshear_settings *settings = settings_at("0.1,0.2,0.3", "0,0.4,-1", 60.0, 256, 8);
         if (i < 2) test_set_number(settings, CLSHEAR_CLAMP, i == 0 ? 1e-3 : 0.1);
-        const estimate found = render(scene, settings, "R");
+        const test_estimate found = test_mean_of_render(scene, settings, "R");
         assert_above(found.mean, before);
         before = found.mean;
     }
@@ -176,7 +146,7 @@ static void samplers_agree(void **state)
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         clshear_settings *settings = settings_at("0.1,0.2,0.3", "0,0.4,-1", 60.0, 1024, 5);
         test_set(settings, CLSHEAR_SAMPLER, "%s", names[i]);
-        const estimate found = render(scene, settings, "R");
+        const test_estimate found = test_mean_of_render(scene, settings, "R");
         print_message("%-8s %.5f of %.5f, error %.5f\n", names[i], found.mean, truth, found.error);
         assert_near(found.mean, truth, 5.0 * found.error + 1e-4 * truth);
     }

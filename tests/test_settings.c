@@ -1,4 +1,4 @@
-/* The table of settings: bounds, kinds, texts, files; and structs of older and newer callers. */
+/* The table of settings: bounds, kinds, texts; and structs of older and newer callers. */
 #include "support.h"
 
 #include <math.h>
@@ -131,6 +131,20 @@ static void kinds_are_enforced(void **state)
 
 /* Printed values can be read and print the same again, fallbacks too. Unsetting restores the
  * fallbacks. */
+/* What is no number is refused in words, however many numbers the setting has. */
+static void expectations_have_words(void **state)
+{
+    clshear_settings *settings = *state;
+    for (size_t i = 0; i < CS_SETTING_COUNT; i++) {
+        const cs_setting *entry = &cs_setting_table[i];
+        if (entry->kind != CLSHEAR_NUMBER && entry->kind != CLSHEAR_INTEGER) continue;
+        test_refused(clshear_settings_set_text(settings, entry->setting, "words"),
+                     CLSHEAR_BAD_ARGUMENT, "must be ");
+    }
+    test_refused(clshear_settings_set_text(settings, CLSHEAR_QUAD, "1,2"), CLSHEAR_BAD_ARGUMENT,
+                 "must be twelve numbers");
+}
+
 static void texts_come_back(void **state)
 {
     clshear_settings *settings = *state, *other = fresh();
@@ -260,97 +274,6 @@ static void the_table_is_open(void **state)
     assert_int_equal(count, CS_SETTING_COUNT);
 }
 
-static int take_other(void *user, const char *file, int line, const char *name, const char *value)
-{
-    char *seen = user;
-    const size_t used = strlen(seen);
-    snprintf(seen + used, 256 - used, "%s:%d %s=%s;", strrchr(file, '/') + 1, line, name,
-             value != NULL ? value : "NULL");
-    return strcmp(name, "bad") == 0;
-}
-
-static void files_are_read(void **state)
-{
-    clshear_settings *settings = *state;
-    const char *path =
-        test_file("good.flags", "\xef\xbb\xbf# a comment\n\n  --spp 64   # behind a value\n"
-                                "width=32\nheight 16\r\n--adaptive\n"
-                                "eye 1,2,3\nlight 0,0,0,1,1,1\nlight 1,0,0,1,1,1\n"
-                                "aperture-radius\t2");
-    double eye[3], lights[12];
-    int64_t spp, width, height, adaptive;
-    size_t count;
-    test_ok(clshear_settings_read(settings, path, NULL, NULL));
-    test_ok(clshear_settings_get_integer(settings, CLSHEAR_SPP, &spp));
-    test_ok(clshear_settings_get_integer(settings, CLSHEAR_WIDTH, &width));
-    test_ok(clshear_settings_get_integer(settings, CLSHEAR_HEIGHT, &height));
-    test_ok(clshear_settings_get_integer(settings, CLSHEAR_ADAPTIVE, &adaptive));
-    assert_int_equal(spp, 64);
-    assert_int_equal(width, 32);
-    assert_int_equal(height, 16);
-    assert_int_equal(adaptive, 1);
-    test_ok(clshear_settings_get_numbers(settings, CLSHEAR_EYE, eye, 3, &count));
-    assert_near(eye[0], 1.0, 0);
-    assert_near(eye[1], 2.0, 0);
-    assert_near(eye[2], 3.0, 0);
-    test_ok(clshear_settings_get_numbers(settings, CLSHEAR_LIGHT, lights, 12, &count));
-    assert_int_equal(count, 12);
-    assert_near(lights[6], 1.0, 0);
-    assert_true(clshear_settings_is_set(settings, CLSHEAR_LENS_RADIUS));
-}
-
-static void errors_in_files_have_a_place(void **state)
-{
-    static const struct {
-        const char *text, *words;
-    } cases[] = {{"spp 4\nspp none\n", "case.flags:2: spp none: must be a whole number"},
-                 {"\n\nfov\n", "case.flags:3: fov needs a value"},
-                 {"spq 4\n", "case.flags:1: unknown setting spq"}};
-    clshear_settings *settings = *state;
-    char seen[256] = "";
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        test_refused(
-            clshear_settings_read(settings, test_file("case.flags", cases[i].text), NULL, NULL),
-            CLSHEAR_BAD_ARGUMENT, cases[i].words);
-    test_refused(clshear_settings_read(settings, test_path("none.flags"), NULL, NULL),
-                 CLSHEAR_BAD_FILE, "none.flags");
-    test_refused(clshear_settings_read(settings, SCENES, NULL, NULL), CLSHEAR_BAD_FILE, "scenes");
-    const char *path = test_file("other.flags", "spp 8\n--out a b.exr\nquiet\nbad 1\n");
-    test_refused(clshear_settings_read(settings, path, take_other, seen), CLSHEAR_BAD_ARGUMENT,
-                 "other.flags:4");
-    assert_string_equal(seen, "other.flags:2 out=a b.exr;other.flags:3 quiet=NULL;"
-                              "other.flags:4 bad=1;");
-}
-
-static void apertures_are_checked(void **state)
-{
-    clshear_settings *settings = *state;
-    const float dark[4] = {0}, good[4] = {0, 1, 2, 0}, wrong[4] = {1, NAN, 0, 0};
-    int64_t aperture;
-    FILE *picture = fopen(test_path("aperture.pgm"), "wb");
-    assert_non_null(picture);
-    fputs("P5\n2 2\n255\n", picture);
-    fwrite("\0\377\200\0", 1, 4, picture);
-    fclose(picture);
-    test_refused(clshear_settings_set_aperture(settings, dark, 2, 2), CLSHEAR_BAD_ARGUMENT,
-                 "black");
-    test_refused(clshear_settings_set_aperture(settings, wrong, 2, 2), CLSHEAR_BAD_ARGUMENT,
-                 "luminance");
-    test_refused(clshear_settings_set_aperture(settings, good, 257, 1), CLSHEAR_BAD_ARGUMENT,
-                 "257 x 1");
-    test_refused(clshear_settings_set_aperture(settings, NULL, 2, 2), CLSHEAR_BAD_ARGUMENT, "NULL");
-    test_refused(clshear_settings_set_text(settings, CLSHEAR_APERTURE, test_path("none.png")),
-                 CLSHEAR_BAD_FILE, "none.png");
-    test_refused(clshear_settings_set_text(settings, CLSHEAR_APERTURE, "round"),
-                 CLSHEAR_BAD_ARGUMENT, "disk, square, polygon or an image file");
-    assert_false(clshear_settings_is_set(settings, CLSHEAR_APERTURE));
-    test_ok(clshear_settings_set_aperture(settings, good, 2, 2));
-    test_set(settings, CLSHEAR_APERTURE, "%s", test_path("aperture.pgm"));
-    test_ok(clshear_settings_get_integer(settings, CLSHEAR_APERTURE, &aperture));
-    assert_int_equal(aperture, CLSHEAR_APERTURE_IMAGE);
-    assert_near(clshear_lens_extent(settings), 1.0f, 0);
-}
-
 /* A copy is independent of the original. */
 static void copies_are_independent(void **state)
 {
@@ -409,14 +332,12 @@ int main(void)
         WITH_SETTINGS(bounds_are_enforced),
         WITH_SETTINGS(counts_are_enforced),
         WITH_SETTINGS(kinds_are_enforced),
+        WITH_SETTINGS(expectations_have_words),
         WITH_SETTINGS(texts_come_back),
         WITH_SETTINGS(floats_survive_texts),
         WITH_SETTINGS(the_last_answer_counts),
         WITH_SETTINGS(unknown_settings_are_refused),
         cmocka_unit_test(the_table_is_open),
-        WITH_SETTINGS(files_are_read),
-        WITH_SETTINGS(errors_in_files_have_a_place),
-        WITH_SETTINGS(apertures_are_checked),
         cmocka_unit_test(copies_are_independent),
         cmocka_unit_test(infos_fit_their_callers),
     };

@@ -35,16 +35,9 @@ static clshear_settings *looking_down(int spp, int bounces)
 /* Mean of the channel R and its standard error, of 240 degrees of freedom. */
 static double mean_of(clshear_scene *scene, clshear_settings *settings, double *error)
 {
-    clshear_film *film = test_render(scene, settings);
-    double mean = 0.0, variance = 0.0;
-    for (int p = 0; p < 16; p++) {
-        mean += (double)clshear_film_channel(film, "R")[p] / 16.0;
-        variance += (double)clshear_film_channel(film, "Variance.R")[p];
-    }
-    *error = sqrt(variance) / 16.0;
-    clshear_film_free(film);
-    clshear_settings_free(settings);
-    return mean;
+    const test_estimate found = test_mean_of_render(scene, settings, "R");
+    *error = found.error;
+    return found.mean;
 }
 
 /* Irradiance at the origin, facing up, from a polygon of radiance 1 above the horizon (Lambert

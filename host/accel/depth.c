@@ -104,7 +104,8 @@ static void depths_of_pixel(const prepass *work, cs_u32 x, cs_u32 y, struct RTCR
 {
     cs_f32 all[CS_MOST_LENS_RAYS];
     const cs_u32 set = cs_pattern_key(0, y << 16 ^ x, 0) % SETS;
-    const cs_camera_sample *points = work->sets + (size_t)set * work->lens_rays;
+    const cs_camera_sample *points =
+        work->lens_rays > 0 ? work->sets + (size_t)set * work->lens_rays : NULL;
     for (cs_u32 first = 0; first < work->lens_rays; first += WIDTH) {
         const cs_u32 left = work->lens_rays - first, count = left < WIDTH ? left : WIDTH;
         for (cs_u32 lane = 0; lane < count; lane++)

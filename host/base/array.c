@@ -7,7 +7,7 @@
 void *cs_array_extend(cs_array *array, size_t count)
 {
     size_t needed = array->count + count;
-    if (needed > array->capacity) {
+    if (needed > array->capacity || array->items == NULL) {
         size_t capacity = array->capacity + array->capacity / 2;
         if (capacity < needed) capacity = needed;
         if (capacity > (SIZE_MAX - CS_ARRAY_PADDING) / array->item_size) return NULL;

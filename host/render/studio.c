@@ -13,7 +13,7 @@ static const double pi = 3.14159265358979;
 
 /* Emission that varies over surfaces is often a screen or a label, which leaves a scene dark: it
  * counts as light if all surfaces together emit this radiance in the mean. */
-static const double least_light = 0.02;
+static const double least_light = 0.2;
 
 static int has_light(const clshear_scene *scene, const clshear_settings *settings)
 {

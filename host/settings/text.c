@@ -8,7 +8,10 @@
 #include "base/number.h"
 #include "settings/settings.h"
 
-static const char *const count_words[] = {"", "a", "two", "three", "four", "five", "six", "seven"};
+/* As many as a value of a setting may have numbers. */
+static const char *const count_words[] = {"",     "a",      "two",   "three", "four",
+                                          "five", "six",    "seven", "eight", "nine",
+                                          "ten",  "eleven", "twelve"};
 
 /* Appends formatted text, truncated to `size` bytes. */
 static void append(char *text, size_t size, const char *format, ...)

@@ -1,10 +1,9 @@
 /* The bytes as changes of a checkpoint, from which a small render then goes on. The first byte says
  * which render it is and how the file ends; then come changes: a place (16 bits), a length, as many
  * bytes. So inputs stay good when the layout of checkpoints changes. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <stdio.h>
 
 #include "clshear/clshear.h"
 #include "targets.h"

@@ -17,8 +17,10 @@ cmake -S "$root" -B "$root/build-fuzz" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInf
 cd "$root/build-fuzz"
 ninja fuzz >build.log || { tail -n 40 build.log; exit 1; }
 export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 # drivers keep what they have until the end
-export TMPDIR="$PWD/scratch"
-mkdir -p "$TMPDIR"
+# Each input is a file: in memory, where that is possible.
+TMPDIR=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d)
+export TMPDIR
+trap 'rm -rf "$TMPDIR"' EXIT
 
 # Sets `spent` to the processor time, in whole seconds, of the ended children of this shell. (A
 # subshell would have none.)

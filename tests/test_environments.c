@@ -1,0 +1,297 @@
+/* Environments: even, and images around a scene, against closed forms and quadrature. */
+#include "support.h"
+
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <sys/stat.h>
+
+#include "clshear/device/hash.h"
+#include "image/image_io.h"
+#include "kernels/light/lat_long.h"
+#include "scene/environment.h"
+
+static const double pi = 3.14159265358979;
+
+enum {
+    WIDTH = 16,
+    HEIGHT = 8
+};
+
+static int set_up(void **state)
+{
+    *state = test_context();
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    clshear_context_free(*state);
+    return 0;
+}
+
+static test_estimate mean_of_render(clshear_scene *scene, clshear_settings *settings)
+{
+    return test_mean_of_render(scene, settings, "R");
+}
+
+/* Under an even sky of radiance L a floor shows albedo L, whatever is asked of the paths; the sky
+ * itself shows L. */
+static void even_environment(void **state)
+{
+    clshear_scene *scene = test_floor(*state, 100.0f, 0.5f);
+    for (int bounces = 0; bounces < 3; bounces++) {
+        clshear_settings *settings = test_looking_down(0.0, 256);
+        test_set(settings, CLSHEAR_ENVIRONMENT, "2,1,0.5");
+        test_set_number(settings, CLSHEAR_ENVIRONMENT_STRENGTH, 0.5);
+        test_set_number(settings, CLSHEAR_BOUNCES, bounces);
+        clshear_film *film = test_render(scene, settings);
+        for (int p = 0; p < 16; p++) {
+            assert_near(clshear_film_channel(film, "R")[p], 0.5, 1e-5);
+            assert_near(clshear_film_channel(film, "G")[p], 0.25, 1e-5);
+        }
+        clshear_film_free(film);
+        test_set(settings, CLSHEAR_TARGET, "0,2,0");
+        const test_estimate sky = mean_of_render(scene, settings);
+        assert_near(sky.mean, 1.0, 1e-6);
+    }
+    clshear_scene_free(scene);
+}
+
+/* A made-up image with a black part, a bright texel, and no symmetry. */
+static void fill_image(float *texels)
+{
+    for (cs_u32 i = 0; i < WIDTH * HEIGHT; i++)
+        for (cs_u32 c = 0; c < 3; c++)
+            texels[3 * i + c] =
+                i % WIDTH < 4 ? 0.0f
+                              : (float)(cs_key(c, i) >> 8) * 0x1p-24f * (i == 45 ? 40.0f : 1.0f);
+}
+
+static cs_environment made_environment(double rotation_deg)
+{
+    float texels[3 * WIDTH * HEIGHT];
+    cs_error error;
+    cs_environment made = {0};
+    const cs_environment_view view = {.rotation_deg = rotation_deg, .strength = 1.0};
+    fill_image(texels);
+    assert_int_equal(cs_environment_make(texels, WIDTH, HEIGHT, &made, &error), CLSHEAR_OK);
+    cs_environment_show(&view, &made.light);
+    return made;
+}
+
+/* The middle of texel (x, y) seen from the origin. */
+static void texel_direction(double x, double y, double rotation_deg, float *direction)
+{
+    const double longitude = ((x + 0.5) / WIDTH - 0.5) * 2.0 * pi - rotation_deg * pi / 180.0;
+    const double polar = (y + 0.5) / HEIGHT * pi;
+    direction[0] = (float)(sin(polar) * sin(longitude));
+    direction[1] = (float)cos(polar);
+    direction[2] = (float)(-sin(polar) * cos(longitude));
+}
+
+static void look(const cs_lat_long *image, const float *direction, float *radiance)
+{
+    float x, y;
+    cs_lat_long_place(image, direction, &x, &y);
+    cs_lat_long_radiance(image, x, y, radiance);
+}
+
+static float density_of(const cs_lat_long *image, const float *direction)
+{
+    float x, y;
+    cs_lat_long_place(image, direction, &x, &y);
+    return cs_lat_long_density(image, x, y);
+}
+
+static void texels_are_where_they_should_be(void **state)
+{
+    static const double turns[] = {0.0, 90.0, -133.0};
+    (void)state;
+    for (size_t k = 0; k < 3; k++) {
+        cs_environment made = made_environment(turns[k]);
+        const cs_lat_long image = cs_lat_long_of(&made.light, made.image.items);
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            float direction[3], radiance[3];
+            texel_direction(i % WIDTH, i / WIDTH, turns[k], direction);
+            look(&image, direction, radiance);
+            for (int c = 0; c < 3; c++)
+                assert_near(radiance[c], image.texels[3 * i + c], 1e-4);
+        }
+        cs_environment_free(&made);
+    }
+}
+
+/* Drawn directions have the density that is said of them, and find their own cell again; counts in
+ * boxes of the sphere agree with the integral of the density by chi-square; that is 1 over all.
+ *
+ * 200 000 draws at independent points in 32 x 16 boxes, those that expect fewer than 10 left out.
+ * The limit is mean plus 5 standard deviations of chi-square, k + 5 sqrt(2 k), a false alarm of
+ * some 1e-6; the seed is fixed. */
+static void directions_follow_their_density(void **state)
+{
+    enum {
+        DRAWS = 200000,
+        ACROSS = 32,
+        DOWN = 16,
+        STEPS = 8
+    };
+    static double expected[ACROSS * DOWN], seen[ACROSS * DOWN];
+    cs_environment made = made_environment(37.0);
+    const cs_lat_long image = cs_lat_long_of(&made.light, made.image.items);
+    double total = 0.0, square = 0.0;
+    int boxes = 0;
+    (void)state;
+    for (int i = 0; i < ACROSS * DOWN * STEPS * STEPS; i++) {
+        const int x = i % (ACROSS * STEPS), y = i / (ACROSS * STEPS);
+        float direction[3];
+        texel_direction((x + 0.5) * WIDTH / (ACROSS * STEPS) - 0.5,
+                        (y + 0.5) * HEIGHT / (DOWN * STEPS) - 0.5, 37.0, direction);
+        const double top = cos(pi * y / (DOWN * STEPS)),
+                     bottom = cos(pi * (y + 1) / (DOWN * STEPS));
+        const double part =
+            (double)density_of(&image, direction) * (top - bottom) * 2.0 * pi / (ACROSS * STEPS);
+        expected[y / STEPS * ACROSS + x / STEPS] += part * DRAWS;
+        total += part;
+    }
+    assert_near(total, 1.0, 1e-4);
+    for (cs_u32 i = 0; i < DRAWS; i++) {
+        float direction[3], x, y, drawn_x = (float)(cs_key(1, i) >> 8) * 0x1p-24f;
+        float drawn_y = (float)(cs_key(2, i) >> 8) * 0x1p-24f;
+        const float density = cs_lat_long_draw(&image, &drawn_x, &drawn_y, direction);
+        cs_lat_long_place(&image, direction, &x, &y);
+        assert_near(drawn_x, x, 1e-4);
+        assert_near(drawn_y, y, 1e-4);
+        if (i < 1000) assert_near(density, density_of(&image, direction), 1e-3 * (double)density);
+        seen[cs_cell_at(y * DOWN, DOWN) * ACROSS + cs_cell_at(x * ACROSS, ACROSS)] += 1.0;
+    }
+    for (int i = 0; i < ACROSS * DOWN; i++) {
+        if (expected[i] < 10.0) continue;
+        square += (seen[i] - expected[i]) * (seen[i] - expected[i]) / expected[i];
+        boxes++;
+    }
+    print_message("chi-square %.1f in %d boxes\n", square, boxes);
+    assert_above(boxes, 100);
+    assert_below(square, boxes + 5.0 * sqrt(2.0 * boxes));
+    cs_environment_free(&made);
+}
+
+/* Writes an image of one colour around everything. Its size in the file is always the same. */
+static void write_even_image(const char *path, float value)
+{
+    static float plane[WIDTH * HEIGHT];
+    const char *const names[3] = {"R", "G", "B"};
+    const float *const list[3] = {plane, plane, plane};
+    const cs_picture picture = {.width = WIDTH,
+                                .height = HEIGHT,
+                                .full_width = WIDTH,
+                                .full_height = HEIGHT,
+                                .channel_count = 3,
+                                .names = names,
+                                .planes = list};
+    cs_error error;
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        plane[i] = value;
+    assert_int_equal(cs_image_write(path, &picture, &error), CLSHEAR_OK);
+}
+
+static double sky_of(clshear_scene *scene, const char *path, double strength)
+{
+    clshear_settings *settings = test_looking_down(0.0, 16);
+    test_set(settings, CLSHEAR_TARGET, "0,2,0");
+    test_set(settings, CLSHEAR_ENVIRONMENT, "%s", path);
+    test_set_number(settings, CLSHEAR_ENVIRONMENT_STRENGTH, strength);
+    return mean_of_render(scene, settings).mean;
+}
+
+/* A file that is gone is an error, and one that has changed is read again; one that cannot be told
+ * from what was read, since its times and its size were put back, is not. */
+static void environment_files_are_kept(void **state)
+{
+    const char *path = test_path("kept.exr");
+    struct stat before;
+    FILE *file;
+    clshear_scene *scene = test_floor(*state, 1.0f, 0.5f);
+    write_even_image(path, 0.25f);
+    assert_near(sky_of(scene, path, 1.0), 0.25, 1e-6);
+    assert_int_equal(stat(path, &before), 0);
+    file = fopen(path, "r+");
+    assert_non_null(file);
+    assert_int_equal(fputs("no image", file) < 0, 0);
+    assert_int_equal(fclose(file), 0);
+    const struct timespec times[2] = {before.st_atim, before.st_mtim};
+    assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
+    assert_near(sky_of(scene, path, 2.0), 0.5, 1e-6);
+    write_even_image(path, 0.75f);
+    assert_near(sky_of(scene, path, 1.0), 0.75, 1e-6);
+    assert_int_equal(remove(path), 0);
+    clshear_settings *settings = test_looking_down(0.0, 16);
+    clshear_film *film = NULL;
+    test_set(settings, CLSHEAR_ENVIRONMENT, "%s", path);
+    test_refused(clshear_render(scene, settings, &film), CLSHEAR_BAD_FILE, "kept.exr");
+    clshear_settings_free(settings);
+    clshear_scene_free(scene);
+}
+
+/* The image as a file around a floor: the reflected radiance is albedo / pi times its irradiance,
+ * by quadrature, from the light's samples alone and from both ways. */
+static void image_around_a_floor(void **state)
+{
+    enum {
+        STEPS = 400
+    };
+    float texels[3 * WIDTH * HEIGHT];
+    static float planes[3][WIDTH * HEIGHT];
+    const char *const names[3] = {"R", "G", "B"};
+    const float *const list[3] = {planes[0], planes[1], planes[2]};
+    const cs_picture picture = {.width = WIDTH,
+                                .height = HEIGHT,
+                                .full_width = WIDTH,
+                                .full_height = HEIGHT,
+                                .channel_count = 3,
+                                .names = names,
+                                .planes = list};
+    cs_error error;
+    const char *path = test_path("around.exr");
+    cs_environment made = made_environment(0.0);
+    const cs_lat_long image = cs_lat_long_of(&made.light, made.image.items);
+    double irradiance = 0.0;
+    fill_image(texels);
+    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
+        planes[i % 3][i / 3] = texels[i];
+    assert_int_equal(cs_image_write(path, &picture, &error), CLSHEAR_OK);
+    for (int i = 0; i < STEPS * STEPS;
+         i++) { /* uniform in the square of the sine: cosine-weighted */
+        const double s = (i / STEPS + 0.5) / STEPS, a = (i % STEPS + 0.5) / STEPS * 2.0 * pi;
+        const float direction[3] = {(float)(sqrt(s) * cos(a)), (float)sqrt(1.0 - s),
+                                    (float)(sqrt(s) * sin(a))};
+        float radiance[3];
+        look(&image, direction, radiance);
+        irradiance += pi * (double)radiance[0] / (STEPS * STEPS);
+    }
+    cs_environment_free(&made);
+    clshear_scene *scene = test_floor(*state, 100.0f, 0.5f);
+    for (int bounces = 0; bounces < 3; bounces += 2) {
+        clshear_settings *settings = test_looking_down(0.0, 4096);
+        test_set(settings, CLSHEAR_ENVIRONMENT, "%s", path);
+        test_set_number(settings, CLSHEAR_BOUNCES, bounces);
+        const test_estimate found = mean_of_render(scene, settings);
+        print_message("image: %.5f of %.5f, error %.5f\n", found.mean, 0.5 / pi * irradiance,
+                      found.error);
+        assert_near(found.mean, 0.5 / pi * irradiance, 6.0 * found.error + 1e-4 * irradiance);
+        assert_below(found.error, 0.01 * irradiance);
+    }
+    clshear_scene_free(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(even_environment),
+        cmocka_unit_test(texels_are_where_they_should_be),
+        cmocka_unit_test(directions_follow_their_density),
+        cmocka_unit_test(environment_files_are_kept),
+        cmocka_unit_test(image_around_a_floor),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

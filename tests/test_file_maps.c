@@ -1,0 +1,155 @@
+/* The textures that materials of files name, from the images to the texels on the device. */
+#include "import_support.h"
+#include "material_files.h"
+
+#include <math.h>
+
+#include "image/image_io.h"
+#include "import/transfer.h"
+
+static cs_scene load(const char *path)
+{
+    cs_scene scene = import_load(path);
+    assert_true(cs_scene_is_sound(&scene));
+    return scene;
+}
+
+static cs_scene load_mtl(const char *lines)
+{
+    return load(material_mtl(lines));
+}
+
+static cs_scene load_gltf(const char *material)
+{
+    return load(material_gltf(material));
+}
+
+static const cs_material *first_of(const cs_scene *scene)
+{
+    return (const cs_material *)scene->materials.items +
+           *(const uint32_t *)scene->triangle_materials.items;
+}
+
+/* The value of a half that is 0 or between 2^-14 and 2. */
+static double value_of(uint16_t half)
+{
+    return half == 0 ? 0.0 : ldexp(1.0 + (half & 1023) / 1024.0, (half >> 10) - 15);
+}
+
+/* The upper left texel of a texture that counts from 1; halves keep 11 bits. */
+static void expect_texel(const cs_scene *scene, cs_u32 number, double red, double green,
+                         double blue, double alpha)
+{
+    const double wanted[4] = {red, green, blue, alpha};
+    assert_in_range(number, 1, scene->textures.count);
+    const cs_texture *texture = (const cs_texture *)scene->textures.items + number - 1;
+    const uint16_t(*texels)[4] = scene->texels.items;
+    for (int c = 0; c < 4; c++)
+        assert_near(value_of(texels[texture->first][c]), wanted[c], 6e-4);
+}
+
+static cs_u32 base_of(const cs_scene *scene)
+{
+    return (cs_u32)(first_of(scene)->texture + 1);
+}
+
+/* Colours are on the sRGB curve ((128 / 255) is 0.2158 there), numbers are not, alpha never. */
+static void maps_of_gltf(void **state)
+{
+    (void)state;
+    material_even_picture("grey.tga", 128, 255, 0, 51);
+    material_even_picture("tone.tga", 128, 128, 255, 255);
+    cs_scene scene =
+        load_gltf("{'alphaMode':'BLEND','emissiveFactor':[2,2,2],'emissiveTexture':{'index':1},"
+                  "'normalTexture':{'index':1,'scale':0.5},'occlusionTexture':{'index':0},"
+                  "'pbrMetallicRoughness':{'baseColorTexture':{'index':0},"
+                  "'metallicRoughnessTexture':{'index':1}}}");
+    const cs_material *m = first_of(&scene);
+    assert_string_equal(import_warnings, "");
+    assert_int_equal(m->flags, CS_MATERIAL_BLEND);
+    expect_texel(&scene, base_of(&scene), 0.2158, 1, 0, 0.2);
+    expect_texel(&scene, m->emission_texture, 0.2158, 0.2158, 1, 1);
+    expect_texel(&scene, m->normal_texture, 0.502, 0.502, 1, 1);
+    expect_texel(&scene, m->facets_texture, 0.502, 0.502, 1, 1);
+    assert_int_equal(m->normal_texture, m->facets_texture); /* read once */
+    assert_true(m->normal_scale == 0.5f && m->emission[0] == 2.0f);
+    assert_int_equal(*(const uint8_t *)scene.triangle_flags.items, CS_FACE_TEXTURED);
+    cs_scene_free(&scene);
+    scene = load_gltf("{'alphaMode':'MASK','pbrMetallicRoughness':{'baseColorTexture':{'index':1},"
+                      "'baseColorFactor':[1,1,1,0.8]}}");
+    assert_int_equal(first_of(&scene)->flags, 0); /* alpha is 1 in the image */
+    cs_scene_free(&scene);
+    scene = load_gltf("{'normalTexture':{'index':1,'extensions':{'KHR_texture_transform':"
+                      "{'offset':[0.5,0]}}},'pbrMetallicRoughness':{'baseColorTexture':"
+                      "{'index':0}}}");
+    import_warned("texture coordinates that differ between its maps");
+    cs_scene_free(&scene);
+}
+
+static void maps_of_mtl(void **state)
+{
+    static const unsigned char ramp[16] = {0,   0,   0,   255, 255, 255, 255, 255,
+                                           255, 255, 255, 255, 0,   0,   0,   255};
+    (void)state;
+    material_even_picture("grey.tga", 128, 128, 128, 255);
+    material_even_picture("tone.tga", 255, 255, 255, 51);
+    material_even_picture("bent.tga", 100, 140, 240, 255);
+    material_picture("ramp.tga", ramp);
+    cs_scene scene = load_mtl("map_Kd grey.tga\nmap_d tone.tga");
+    expect_texel(&scene, base_of(&scene), 0.2158, 0.2158, 0.2158, 0.2); /* has alpha */
+    assert_int_equal(first_of(&scene)->flags, CS_MATERIAL_BLEND);
+    cs_scene_free(&scene);
+    scene = load_mtl("map_d grey.tga");
+    expect_texel(&scene, base_of(&scene), 1, 1, 1, 0.502); /* has none */
+    cs_scene_free(&scene);
+    scene = load_mtl("map_Pr grey.tga\nmap_Pm tone.tga");
+    expect_texel(&scene, first_of(&scene)->facets_texture, 1, 0.502, 1, 1);
+    assert_true(first_of(&scene)->parameters[CS_PARAMETER_METALLIC] == 1.0f);
+    cs_scene_free(&scene);
+    scene = load_mtl("Ks 1 1 1\nNs 60\nmap_Ns grey.tga");
+    expect_texel(&scene, first_of(&scene)->facets_texture, 1, pow(2.0 / (60 * 0.50196 + 2), 0.25),
+                 1, 1);
+    assert_true(first_of(&scene)->parameters[CS_PARAMETER_ROUGHNESS] == 1.0f);
+    cs_scene_free(&scene);
+    scene = load_mtl("map_Ke grey.tga");
+    expect_texel(&scene, first_of(&scene)->emission_texture, 0.2158, 0.2158, 0.2158, 1);
+    assert_true(first_of(&scene)->emission[0] == 1.0f);
+    cs_scene_free(&scene);
+    scene = load_mtl("norm grey.tga");
+    expect_texel(&scene, first_of(&scene)->normal_texture, 0.502, 0.502, 0.502, 1);
+    cs_scene_free(&scene);
+    scene = load_mtl("map_Bump -bm 0.3 ramp.tga"); /* as high on both sides of each texel */
+    expect_texel(&scene, first_of(&scene)->normal_texture, 0.5, 0.5, 1, 1);
+    assert_true(first_of(&scene)->normal_scale == 0.3f);
+    cs_scene_free(&scene);
+    scene = load_mtl("bump bent.tga"); /* looks like normals */
+    expect_texel(&scene, first_of(&scene)->normal_texture, 0.392, 0.549, 0.941, 1);
+    cs_scene_free(&scene);
+}
+
+/* Heights that rise by 0.2 a texel to the right and by 0.4 upwards: the normal is -0.2, -0.4, 1. */
+static void heights_become_normals(void **state)
+{
+    float texels[5 * 5 * 4];
+    const double scale = 0.5 / sqrt(1.0 + 0.2 * 0.2 + 0.4 * 0.4);
+    (void)state;
+    for (int y = 0; y < 5; y++)
+        for (int x = 0; x < 5; x++)
+            for (int c = 0; c < 4; c++)
+                texels[4 * (5 * y + x) + c] = 0.2f * (float)x - 0.4f * (float)y;
+    assert_true(cs_texels_convert(CS_TEXELS_BUMPS, texels, 5, 5));
+    const float *middle = texels + 4 * (5 * 2 + 2);
+    assert_near(middle[0], 0.5 - 0.2 * scale, 1e-6);
+    assert_near(middle[1], 0.5 - 0.4 * scale, 1e-6);
+    assert_near(middle[2], 0.5 + scale, 1e-6);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(maps_of_gltf),
+        cmocka_unit_test(maps_of_mtl),
+        cmocka_unit_test(heights_become_normals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
