@@ -1,12 +1,13 @@
 /* Tuples and their sheared points without tracing: for tests and measurements. */
 #include "kernels/draw.h"
+#include "kernels/kernel.h"
 
 /* One work-item writes CS_PACKET consecutive samples of the pattern of `pixel`,
  * CS_POINT_VALUES floats each: the CS_DIMENSIONS coordinates of the tuple, then x, y, u, v after
  * the shear. Global size: at least ceil(grid.count / CS_PACKET). */
-__kernel void cs_points(const cs_launch launch, const uint pixel, const float shear,
-                        __global const uint *sample_table, __global const float *lens_table,
-                        __global float *points)
+CS_KERNEL void cs_points(const cs_launch launch, const uint pixel, const float shear,
+                         __global const uint *sample_table, __global const float *lens_table,
+                         __global float *points)
 {
     cs_u32 first = (cs_u32)get_global_id(0) * (cs_u32)CS_PACKET;
     if (first >= launch.pattern.grid.count) return;
@@ -33,9 +34,9 @@ __kernel void cs_points(const cs_launch launch, const uint pixel, const float sh
 
 /* Draws as the render kernel does and adds the coordinates up instead of tracing: what sampling
  * costs by itself. One work-item for each pixel; sums: one float each. */
-__kernel void cs_draw_sum(const cs_launch launch, const float shear,
-                          __global const uint *sample_table, __global const float *lens_table,
-                          __global float *sums)
+CS_KERNEL void cs_draw_sum(const cs_launch launch, const float shear,
+                           __global const uint *sample_table, __global const float *lens_table,
+                           __global float *sums)
 {
     cs_place place;
     if (get_global_id(0) >= launch.pixel_count) return;

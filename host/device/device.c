@@ -16,20 +16,14 @@ static const struct {
     cl_uint arguments;
 } kernel_list[CS_KERNEL_COUNT] = {CS_KERNEL_LIST(KERNEL_ROW)};
 
-static int is_cpu(cl_device_id id)
-{
-    cl_device_type type = CL_DEVICE_TYPE_CPU;
-    clGetDeviceInfo(id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
-    return (type & CL_DEVICE_TYPE_CPU) != 0;
-}
-
 /* Restricts a CPU device to some of its compute units, by a sub-device. */
 static clshear_status limit_threads(cs_device *device, int threads, cs_error *error)
 {
     cl_uint units = 1;
     clGetDeviceInfo(device->id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
     device->threads = (int)units;
-    if (threads <= 0 || (cl_uint)threads >= units || !is_cpu(device->id)) return CLSHEAR_OK;
+    if (threads <= 0 || (cl_uint)threads >= units || !cs_opencl_is_cpu(device->id))
+        return CLSHEAR_OK;
     const cl_device_partition_property by_count[] = {CL_DEVICE_PARTITION_BY_COUNTS, threads,
                                                      CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
     cl_device_id part;
@@ -87,11 +81,11 @@ static int cpu_packet(cl_device_id id)
     return native >= 16 ? 16 : 8;
 }
 
-/* Work-groups fit every CPU stack (private memory of a group lies on it) and fill a GPU's warps. */
+/* Work-groups fit every CPU stack (private memory of a group lies on it). */
 static void choose_widths(cs_device *device, int packet)
 {
-    const int cpu = is_cpu(device->id);
-    device->local_size = cpu ? 8 : 64;
+    const int cpu = cs_opencl_is_cpu(device->id);
+    device->local_size = cpu ? 8 : CS_GPU_WORK_GROUP;
     device->packet = packet != 0 ? packet : cpu ? cpu_packet(device->id) : 1;
 }
 

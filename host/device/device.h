@@ -23,9 +23,10 @@ typedef struct cs_argument {
 } cs_argument;
 
 /* Opens the device that `wanted` names: its number in cs_device_list, or part of its name, case
- * ignored; NULL: the first. `threads`: compute units of a CPU to use, 0 for all. `packet`: 1, 4, 8
- * or 16 lanes, 0 for what suits the device. Nothing is compiled yet. All functions of a device may
- * be called by several threads at the same time. */
+ * ignored; NULL: that of the environment variable CLSHEAR_DEVICE, or else the fastest. `threads`:
+ * compute units of a CPU to use, 0 for all. `packet`: 1, 4, 8 or 16 lanes, 0 for what suits the
+ * device. Nothing is compiled yet. All functions of a device may be called by several threads at
+ * the same time. */
 clshear_status cs_device_open(const char *wanted, int threads, int packet, cs_device **device,
                               cs_error *error);
 void cs_device_close(cs_device *device);
