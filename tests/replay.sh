@@ -46,6 +46,6 @@ spoiled "another version" sed '1s/CLSHCAP1/CLSHCAP2/'
 "$replay" whole.capsule --options "-UCS_FEATURES -DCS_FEATURES=8" >different 2>&1
 [ $? -eq 1 ] || wrong "other kernels are not told: $(cat different)"
 
-refuse 2 "--record is of one picture" -- "$cornell" --frames 0,1 --record one.capsule
-refuse 1 "none/ cannot be written" -- "$cornell" --record none/one.capsule
+refuse 2 "--record is of one picture" -- "$cornell" --quiet --frames 0,1 --record one.capsule
+refuse 1 "none/ cannot be written" -- "$cornell" --quiet --record none/one.capsule
 finish

@@ -15,6 +15,9 @@ typedef struct cs_buffer cs_buffer;
 /* The text of the public headers, cl/clshear/device, with which every program begins. */
 const char *cs_device_source(void);
 
+/* The text of the renderer's kernels, which follows it in their program. */
+const char *cs_device_kernels(void);
+
 /* A kernel argument: a buffer (`buffer` not NULL), or `size` bytes by value. */
 typedef struct cs_argument {
     const cs_buffer *buffer;
@@ -32,6 +35,9 @@ clshear_status cs_device_open(const char *wanted, int threads, int packet, cs_de
 void cs_device_close(cs_device *device);
 clshear_status cs_device_list(void (*report)(void *user, int number, const char *name), void *user,
                               cs_error *error);
+
+/* Where it is told that the driver takes long; the log has to outlive the device. */
+void cs_device_set_log(cs_device *device, const cs_log *log);
 
 const char *cs_device_name(const cs_device *device);
 const char *cs_device_driver(const cs_device *device);

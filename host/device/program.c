@@ -17,6 +17,11 @@ const char *cs_device_source(void)
     return (const char *)cs_device_text;
 }
 
+const char *cs_device_kernels(void)
+{
+    return (const char *)cs_kernel_text;
+}
+
 void cs_program_texts(cs_program which, const char *texts[2])
 {
 #define CS_PROGRAM_TEXT(identifier, text) text,
