@@ -1,7 +1,8 @@
 /* Loaded before the OpenCL library, makes one of its functions fail: FAULT=function:code:calls,
  * with `code` after that many calls that do what they should. FAULT=clock makes the wall clock
  * jump, FAULT=bits turns a bit of all that is read; FAULT=gpu lets PoCL's device "basic" say that
- * it is a GPU, FAULT=emulator all devices that they are emulators. */
+ * it is a GPU, FAULT=emulator all devices that they are emulators, FAULT=small that
+ * they allow buffers of 1 MB. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdio.h>
@@ -91,6 +92,8 @@ cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t size, vo
         call(device, CL_DEVICE_NAME, sizeof name, name, NULL);
         if (strncmp(name, "basic", 5) == 0) *(cl_device_type *)value = CL_DEVICE_TYPE_GPU;
     }
+    if (strcmp(fault, "small") == 0 && what == CL_DEVICE_MAX_MEM_ALLOC_SIZE)
+        *(cl_ulong *)value = (cl_ulong)1 << 20;
     if (strcmp(fault, "emulator") == 0 && what == CL_DEVICE_NAME)
         snprintf(value, size, "Some Emulator");
     return code;

@@ -46,6 +46,11 @@ spoiled "another version" sed '1s/CLSHCAP1/CLSHCAP2/'
 "$replay" whole.capsule --options "-UCS_FEATURES -DCS_FEATURES=8" >different 2>&1
 [ $? -eq 1 ] || wrong "other kernels are not told: $(cat different)"
 
+# One file, one line.
+cc -std=c17 -Wall -Wextra -Wpedantic -Werror "$root/tools/replay.c" -lOpenCL -lm -o own 2>&1 ||
+    wrong "tools/replay.c does not compile by itself"
+[ "$(./own whole.capsule | tail -n 1)" = "equal, bit by bit" ] || wrong "it does not replay by itself"
+
 refuse 2 "--record is of one picture" -- "$cornell" --quiet --frames 0,1 --record one.capsule
 refuse 1 "none/ cannot be written" -- "$cornell" --quiet --record none/one.capsule
 finish
