@@ -70,7 +70,7 @@ static clshear_status compare_points(const cs_launch *launch, const cs_array *ta
         cs_f32 tuple[CS_DIMENSIONS];
         cs_draw_all(&launch->pattern, table->items, key, i, tuple);
         for (cs_u32 d = 0; d < CS_DIMENSIONS; d++)
-            if (memcmp(&given[d], &tuple[d], sizeof tuple[d]) != 0)
+            if (!(given[d] == tuple[d]))
                 return cs_fail(error, CLSHEAR_DEVICE_FAILED,
                                "coordinate %u of sample %u of %s is %.9g, not %.9g", d, i,
                                cs_sampler_name(launch->pattern.sampler), (double)given[d],

@@ -47,14 +47,14 @@ void cs_program_options(cl_device_id device, int packet, cs_u32 features,
 {
     const int cpu = cs_opencl_is_cpu(device);
     cl_device_fp_config floats = 0;
+    char group[32] = "";
     clGetDeviceInfo(device, CL_DEVICE_SINGLE_FP_CONFIG, sizeof floats, &floats, NULL);
-    snprintf(options, CS_PROGRAM_OPTIONS, "-cl-std=CL1.2 %s-DCS_PACKET=%d -DCS_FEATURES=%u",
-             cpu ? "-DCS_KEEP_FP_CONTRACT_OFF " : "", packet, features);
-    if (!cpu && (floats & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0)
-        strcat(options, " -cl-fp32-correctly-rounded-divide-sqrt");
+    const int rounds = !cpu && (floats & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
     if (!cpu && group_fits(device))
-        snprintf(options + strlen(options), CS_PROGRAM_OPTIONS - strlen(options),
-                 " -DCS_WORK_GROUP=%d", CS_GPU_WORK_GROUP);
+        snprintf(group, sizeof group, " -DCS_WORK_GROUP=%d", CS_GPU_WORK_GROUP);
+    snprintf(options, CS_PROGRAM_OPTIONS, "-cl-std=CL1.2 %s-DCS_PACKET=%d -DCS_FEATURES=%u%s%s",
+             cpu ? "-DCS_KEEP_FP_CONTRACT_OFF " : "", packet, features,
+             rounds ? " -cl-fp32-correctly-rounded-divide-sqrt" : "", group);
 }
 
 /* The first line of a build log that reports an error. */
