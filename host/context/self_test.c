@@ -67,7 +67,7 @@ static clshear_status compare_points(const cs_launch *launch, const cs_array *ta
     const cs_u32 key = cs_pattern_key(launch->seed, 0, launch->replicate);
     for (cs_u32 i = 0; i < SAMPLES; i++) {
         const float *given = points + (size_t)CS_POINT_VALUES * i;
-        cs_f32 tuple[CS_DIMENSIONS];
+        cs_f32 tuple[CS_DIMENSIONS] = {0};
         cs_draw_all(&launch->pattern, table->items, key, i, tuple);
         for (cs_u32 d = 0; d < CS_DIMENSIONS; d++)
             if (!(given[d] == tuple[d]))
