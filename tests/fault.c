@@ -1,6 +1,8 @@
 /* Loaded before the OpenCL library, makes one of its functions fail: FAULT=function:code:calls,
  * with `code` after that many calls that do what they should. FAULT=clock makes the wall clock
- * jump. */
+ * jump, FAULT=bits turns a bit of all that is read; FAULT=gpu lets PoCL's device "basic" say that
+ * it is a GPU, FAULT=emulator all devices that they are emulators, FAULT=small that
+ * they allow buffers of 1 MB. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdio.h>
@@ -70,8 +72,31 @@ cl_int clEnqueueReadBuffer(cl_command_queue queue, cl_mem buffer, cl_bool blocks
                    const cl_event *, cl_event *);
     *(void **)&call = original("clEnqueueReadBuffer");
     const cl_int fault = fault_of("clEnqueueReadBuffer");
-    return fault != 0 ? fault
-                      : call(queue, buffer, blocks, offset, size, target, count, wait, event);
+    if (fault != 0) return fault;
+    const cl_int code = call(queue, buffer, blocks, offset, size, target, count, wait, event);
+    const char *name = getenv("FAULT");
+    if (name != NULL && strcmp(name, "bits") == 0 && size >= 4) ((unsigned char *)target)[2] ^= 1;
+    return code;
+}
+
+cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t size, void *value,
+                       size_t *needed)
+{
+    cl_int (*call)(cl_device_id, cl_device_info, size_t, void *, size_t *);
+    *(void **)&call = original("clGetDeviceInfo");
+    const cl_int code = call(device, what, size, value, needed);
+    const char *fault = getenv("FAULT");
+    if (code != CL_SUCCESS || fault == NULL || value == NULL) return code;
+    if (strcmp(fault, "gpu") == 0 && what == CL_DEVICE_TYPE) {
+        char name[128] = "";
+        call(device, CL_DEVICE_NAME, sizeof name, name, NULL);
+        if (strncmp(name, "basic", 5) == 0) *(cl_device_type *)value = CL_DEVICE_TYPE_GPU;
+    }
+    if (strcmp(fault, "small") == 0 && what == CL_DEVICE_MAX_MEM_ALLOC_SIZE)
+        *(cl_ulong *)value = (cl_ulong)1 << 20;
+    if (strcmp(fault, "emulator") == 0 && what == CL_DEVICE_NAME)
+        snprintf(value, size, "Some Emulator");
+    return code;
 }
 
 /* A day forth, a day back, with each call. */

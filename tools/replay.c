@@ -268,18 +268,33 @@ static void build(player *player, bytes chunk)
     free(options);
 }
 
-/* Makes or overwrites a buffer; what the chunk does not give is zero. */
+/* Words in runs: each has twice its length, plus 1 where all are the one word that follows. */
+static void unpack(bytes *chunk, unsigned char *contents, size_t count)
+{
+    for (size_t i = 0; i < count;) {
+        const uint32_t head = take_u32(chunk);
+        const size_t length = head / 2;
+        const unsigned char *word = take(chunk, 8 * (uint64_t)(head % 2 != 0 ? 1 : length));
+        if (length == 0 || length > count - i)
+            die("the capsule is damaged", ": a run of a buffer is too long");
+        for (size_t end = i + length; i < end; i++, word += head % 2 != 0 ? 0 : 8)
+            memcpy(contents + 8 * i, word, 8);
+    }
+}
+
+/* Makes or overwrites a buffer. */
 static void fill(player *player, bytes chunk)
 {
     const uint32_t number = take_below(&chunk, MOST_BUFFERS);
     const uint64_t size = take_u64(&chunk);
     buffer *filled = &player->buffers[number];
-    if (number > player->buffer_count || size < chunk.left || size == 0 ||
+    if (number > player->buffer_count || size == 0 || size > SIZE_MAX - 8 ||
         (number < player->buffer_count && size != filled->size))
         die("the capsule is damaged", ": a buffer has a wrong size");
     cl_int code;
-    unsigned char *contents = allocate((size_t)size);
-    memcpy(contents, chunk.at, chunk.left);
+    const size_t words = ((size_t)size + 7) / 8;
+    unsigned char *contents = allocate(8 * words);
+    unpack(&chunk, contents, words);
     if (number == player->buffer_count) {
         filled->memory =
             clCreateBuffer(player->context, CL_MEM_READ_WRITE, (size_t)size, NULL, &code);

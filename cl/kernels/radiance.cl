@@ -1,6 +1,7 @@
 /* The integrand itself: radiance at points of one pixel and the lens that the caller chooses. */
 #include "clshear/device/lens.h"
 #include "clshear/device/shear.h"
+#include "kernels/kernel.h"
 #include "kernels/motion.h"
 #include "kernels/path.h"
 #include "kernels/radiance.h"
@@ -40,11 +41,10 @@ static inline void cs_shear_point(const cs_launch *launch, cs_optics_table lens_
  * launch.shear_mode says, with the lens table. radiance: out, three planes of `count` floats. The
  * others: the scene, see cs_scene_buffers. Paths draw independent numbers, fixed by the point:
  * launch.pattern must be of the sampler `random`. */
-__kernel void cs_radiance_at(const cs_launch launch, const uint x, const uint y, const uint count,
-                             const uint tuples, const float shear, const cs_velocity velocity,
-                             cs_optics_table lens_table,
-                             __global const float *points,
-                             __global float *radiance CS_SCENE_PARAMETERS)
+CS_KERNEL void cs_radiance_at(const cs_launch launch, const uint x, const uint y, const uint count,
+                              const uint tuples, const float shear, const cs_velocity velocity,
+                              cs_optics_table lens_table, __global const float *points,
+                              __global float *radiance CS_SCENE_PARAMETERS)
 {
     size_t first = get_global_id(0) * CS_PACKET;
     if (first >= count) return;

@@ -3,6 +3,7 @@
 #include "aov_sums.h"
 #include "clshear/device/lens.h"
 #include "kernels/draw.h"
+#include "kernels/kernel.h"
 #include "kernels/path.h"
 #include "kernels/radiance.h"
 
@@ -167,11 +168,11 @@ static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *sc
  * each, in pixels while the shutter is open; not used without the feature MOTION. sample_table: the
  * pattern's.
  * lens_table: the optics'. The others: the scene, see cs_scene_buffers. */
-__kernel void cs_render(const cs_launch launch, __global cs_pixel *pixels,
-                        __global cs_exact_sum *aovs, __global const uint *order,
-                        __global const float *shears, __global const float *velocities,
-                        __global const uint *sample_table,
-                        __global const float *lens_table CS_SCENE_PARAMETERS)
+CS_KERNEL void cs_render(const cs_launch launch, __global cs_pixel *pixels,
+                         __global cs_exact_sum *aovs, __global const uint *order,
+                         __global const float *shears, __global const float *velocities,
+                         __global const uint *sample_table,
+                         __global const float *lens_table CS_SCENE_PARAMETERS)
 {
     cs_u32 begin = (cs_u32)get_global_id(0) * launch.pixels_each;
     if (begin >= launch.pixel_count) return;

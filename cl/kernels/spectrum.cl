@@ -4,6 +4,7 @@
  * are tabulated for each point first; what is left is a product of two complex matrices. */
 #include "clshear/device/packet.h"
 #include "kernels/frequencies.h"
+#include "kernels/kernel.h"
 
 /* Rows of the spectrum that a work-item sums up at once: their sums stay in registers. */
 #define CS_SPECTRUM_ROWS 8
@@ -13,9 +14,9 @@
  *
  * Global size: at least count * columns / CS_PACKET. points: `count` points in [0, 1), of `stride`
  * coordinates. real, imaginary: count * columns floats each; columns is a multiple of CS_PACKET. */
-__kernel void cs_exponentials(const uint count, const uint columns, const cs_frequencies set,
-                              const uint stride, __global const float *points, __global float *real,
-                              __global float *imaginary)
+CS_KERNEL void cs_exponentials(const uint count, const uint columns, const cs_frequencies set,
+                               const uint stride, __global const float *points,
+                               __global float *real, __global float *imaginary)
 {
     uint blocks = columns / (uint)CS_PACKET;
     uint point = (uint)get_global_id(0) / blocks;
@@ -44,11 +45,11 @@ __kernel void cs_exponentials(const uint count, const uint columns, const cs_fre
  * Global size: at least columns / CS_PACKET * rows / CS_SPECTRUM_ROWS. sums: rows * columns real
  * parts, then as many imaginary ones; power: rows * columns. The tables are those of
  * cs_exponentials, of x for `columns` frequencies and of y for `rows`. */
-__kernel void cs_periodogram(const uint count, const uint columns, const uint rows,
-                             const uint begins, const uint ends, const float scale,
-                             __global const float *x_real, __global const float *x_imaginary,
-                             __global const float *y_real, __global const float *y_imaginary,
-                             __global float *sums, __global float *power)
+CS_KERNEL void cs_periodogram(const uint count, const uint columns, const uint rows,
+                              const uint begins, const uint ends, const float scale,
+                              __global const float *x_real, __global const float *x_imaginary,
+                              __global const float *y_real, __global const float *y_imaginary,
+                              __global float *sums, __global float *power)
 {
     uint row_blocks = rows / (uint)CS_SPECTRUM_ROWS;
     uint column = (uint)get_global_id(0) / row_blocks * (uint)CS_PACKET;

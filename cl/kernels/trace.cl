@@ -1,4 +1,5 @@
 /* Rays given by the caller, traced by the renderer's own traversal: for tests and benchmarks. */
+#include "kernels/kernel.h"
 #include "kernels/traverse.h"
 
 /* One work-item traces CS_PACKET rays. Global size: rays / CS_PACKET; `rays` is a multiple of it.
@@ -6,10 +7,10 @@
  * origins, directions: 3 planes of `rays` floats. distances: in, the ray's reach; out, the distance
  * of the nearest hit (its reach if none), or for any hit -1 where something is in the way. hits:
  * out, the face of the nearest hit or CS_NO_HIT; untouched for any hit. */
-__kernel void cs_trace(const uint rays, const int any_hit, __global const float *origins,
-                       __global const float *directions, __global float *distances,
-                       __global int *hits, __global const cs_node *nodes,
-                       __global const cs_triangle *triangles)
+CS_KERNEL void cs_trace(const uint rays, const int any_hit, __global const float *origins,
+                        __global const float *directions, __global float *distances,
+                        __global int *hits, __global const cs_node *nodes,
+                        __global const cs_triangle *triangles)
 {
     size_t first = get_global_id(0) * CS_PACKET;
     if (first >= rays) return;

@@ -194,6 +194,12 @@ CS_INLINED void cs_traverse(const cs_scene_buffers *scene, const cs_ray *ray, co
     }
     octants = hit->distance > 0.0f ? octants : (cs_vint)(-1);
     hit->triangle = (cs_vint)(CS_NO_HIT);
+#if CS_PACKET == 1
+    /* A loop over octants would let the lanes of a GPU's warp walk one after another. */
+    walk.active = octants >= 0;
+    if (walk.active)
+        *hit = cs_walk_octant(scene->nodes, scene->triangles, *ray, walk, octants, any_hit, *hit);
+#else
     for (int octant = 0; octant < 8; octant++) {
         walk.active = octants == (cs_vint)(octant);
         if (!cs_any(walk.active)) continue;
@@ -202,6 +208,7 @@ CS_INLINED void cs_traverse(const cs_scene_buffers *scene, const cs_ray *ray, co
         *hit = cs_walk_octant(scene->nodes, scene->triangles, *ray, walk, octant, any_hit, *hit);
         hit->distance = walk.active ? hit->distance : others;
     }
+#endif
 }
 
 #endif

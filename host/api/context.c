@@ -29,6 +29,8 @@ clshear_status clshear_context_create(const clshear_settings *settings, clshear_
     if (status != CLSHEAR_OK) return status;
     status = cs_context_create(device, wish.threads, context, error);
     if (status != CLSHEAR_OK) cs_device_close(device);
+    if (status == CLSHEAR_OK)
+        (*context)->is_forced = settings != NULL && cs_integer(settings, FORCE) != 0;
     return status;
 }
 

@@ -23,6 +23,8 @@ clshear_status clshear_context_create_from(cl_context cl, cl_device_id id, cl_co
     if (status != CLSHEAR_OK) return status;
     status = cs_context_create(device, threads, context, error);
     if (status != CLSHEAR_OK) cs_device_close(device);
+    if (status == CLSHEAR_OK)
+        (*context)->is_forced = settings != NULL && cs_integer(settings, FORCE) != 0;
     return status;
 }
 

@@ -12,6 +12,7 @@ clshear_status cs_context_create(cs_device *device, int threads, clshear_context
     cs_table_cache_init(&context->tables);
     cs_environment_cache_init(&context->environments);
     context->device = device;
+    cs_device_set_log(device, &context->log);
     context->threads = threads;
     context->page_bytes = (size_t)1 << 27;
     *result = context;

@@ -38,6 +38,8 @@ struct clshear_context {
     cs_table_cache tables;
     cs_environment_cache environments;
     int threads;
+    int is_forced;        /* whether a device is used that fails its test */
+    atomic_int is_tested; /* whether it has passed, or is forced */
     size_t page_bytes; /* most bytes of one buffer of pixels; OpenCL devices have 128 MB at least */
 };
 

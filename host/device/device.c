@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "device/objects.h"
+#include "device/patience.h"
 #include "device/pocl_cache.h"
 #include "device/program.h"
 #include "device/recorder.h"
@@ -16,20 +17,14 @@ static const struct {
     cl_uint arguments;
 } kernel_list[CS_KERNEL_COUNT] = {CS_KERNEL_LIST(KERNEL_ROW)};
 
-static int is_cpu(cl_device_id id)
-{
-    cl_device_type type = CL_DEVICE_TYPE_CPU;
-    clGetDeviceInfo(id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
-    return (type & CL_DEVICE_TYPE_CPU) != 0;
-}
-
 /* Restricts a CPU device to some of its compute units, by a sub-device. */
 static clshear_status limit_threads(cs_device *device, int threads, cs_error *error)
 {
     cl_uint units = 1;
     clGetDeviceInfo(device->id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
     device->threads = (int)units;
-    if (threads <= 0 || (cl_uint)threads >= units || !is_cpu(device->id)) return CLSHEAR_OK;
+    if (threads <= 0 || (cl_uint)threads >= units || !cs_opencl_is_cpu(device->id))
+        return CLSHEAR_OK;
     const cl_device_partition_property by_count[] = {CL_DEVICE_PARTITION_BY_COUNTS, threads,
                                                      CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
     cl_device_id part;
@@ -87,11 +82,11 @@ static int cpu_packet(cl_device_id id)
     return native >= 16 ? 16 : 8;
 }
 
-/* Work-groups fit every CPU stack (private memory of a group lies on it) and fill a GPU's warps. */
+/* Work-groups fit every CPU stack (private memory of a group lies on it). */
 static void choose_widths(cs_device *device, int packet)
 {
-    const int cpu = is_cpu(device->id);
-    device->local_size = cpu ? 8 : 64;
+    const int cpu = cs_opencl_is_cpu(device->id);
+    device->local_size = cpu ? 8 : CS_GPU_WORK_GROUP;
     device->packet = packet != 0 ? packet : cpu ? cpu_packet(device->id) : 1;
 }
 
@@ -163,13 +158,38 @@ static clshear_status prepare(cs_device *device, cs_program program, cs_u32 feat
     return status;
 }
 
+/* What a caller of this file has asked for. */
+typedef struct wish {
+    cs_device *device;
+    cs_kernel kernel;
+    cs_program program;
+    cs_u32 features;
+    size_t count;
+    const cs_argument *arguments;
+    size_t argument_count;
+    cs_error *error;
+} wish;
+
+static clshear_status prepare_wish(void *user)
+{
+    const wish *wanted = user;
+    cs_device *device = wanted->device;
+    pthread_mutex_lock(&device->lock);
+    const clshear_status status = prepare(device, wanted->program, wanted->features, wanted->error);
+    pthread_mutex_unlock(&device->lock);
+    return status;
+}
+
 clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_u32 features,
                                  cs_error *error)
 {
-    pthread_mutex_lock(&device->lock);
-    const clshear_status status = prepare(device, program, features, error);
-    pthread_mutex_unlock(&device->lock);
-    return status;
+    wish wanted = {.device = device, .program = program, .features = features, .error = error};
+    return cs_run_patiently(prepare_wish, &wanted, device->name, device->log);
+}
+
+void cs_device_set_log(cs_device *device, const cs_log *log)
+{
+    device->log = log;
 }
 
 void cs_device_close(cs_device *device)
@@ -211,29 +231,36 @@ int cs_device_threads(const cs_device *device)
 
 /* Sets the kernel's arguments and starts it, with the device locked: the arguments are the
  * kernel's, whichever thread set them. */
-static clshear_status start(cs_device *device, cs_kernel kernel, cs_u32 features, size_t count,
-                            const cs_argument *arguments, size_t argument_count, cl_event *done_at,
-                            cs_error *error)
+static clshear_status start(const wish *wanted, cl_event *done_at)
 {
     clshear_status status = CLSHEAR_OK;
+    cs_device *device = wanted->device;
+    cs_error *error = wanted->error;
+    const cs_kernel kernel = wanted->kernel;
     const char *name = kernel_list[kernel].name;
-    CS_REQUIRE(argument_count == kernel_list[kernel].arguments, CLSHEAR_DEVICE_FAILED,
-               "kernel %s: %zu arguments", name, argument_count);
-    CS_TRY(prepare(device, kernel_list[kernel].program, features, error));
-    const cs_variant *variant = &device->variants[features];
+    CS_REQUIRE(wanted->argument_count == kernel_list[kernel].arguments, CLSHEAR_DEVICE_FAILED,
+               "kernel %s: %zu arguments", name, wanted->argument_count);
+    CS_TRY(prepare(device, wanted->program, wanted->features, error));
+    const cs_variant *variant = &device->variants[wanted->features];
     size_t local = variant->local_sizes[kernel];
-    size_t global = (count + local - 1) / local * local;
+    size_t global = (wanted->count + local - 1) / local * local;
     if (device->recorder != NULL) {
-        const cs_recorded_launch launch = {
-            name, kernel_list[kernel].program, features, global, local, arguments, argument_count};
+        const cs_recorded_launch launch = {.kernel = name,
+                                           .program = wanted->program,
+                                           .features = wanted->features,
+                                           .global = global,
+                                           .local = local,
+                                           .arguments = wanted->arguments,
+                                           .argument_count = wanted->argument_count};
         CS_TRY(cs_recorder_launch(device->recorder, &launch, error));
     }
-    for (cl_uint i = 0; i < argument_count; i++) {
-        const cs_argument *argument = &arguments[i];
+    for (cl_uint i = 0; i < wanted->argument_count; i++) {
+        const cs_argument *argument = &wanted->arguments[i];
+        const int is_value = argument->buffer == NULL && argument->value != NULL;
         const void *value =
             argument->buffer != NULL ? (const void *)&argument->buffer->memory : argument->value;
-        size_t size = value == NULL || argument->buffer != NULL ? sizeof(cl_mem) : argument->size;
-        CS_OPENCL(clSetKernelArg(variant->kernels[kernel], i, size, value),
+        CS_OPENCL(clSetKernelArg(variant->kernels[kernel], i,
+                                 is_value ? argument->size : sizeof(cl_mem), value),
                   "kernel %s: argument %u is not accepted", name, i);
     }
     CS_OPENCL(clEnqueueNDRangeKernel(device->queue, variant->kernels[kernel], 1, NULL, &global,
@@ -243,18 +270,29 @@ done:
     return status;
 }
 
-clshear_status cs_device_run(cs_device *device, cs_kernel kernel, cs_u32 features, size_t count,
-                             const cs_argument *arguments, size_t argument_count, cs_error *error)
+static clshear_status run_wish(void *user)
 {
+    const wish *wanted = user;
+    cs_device *device = wanted->device;
+    cs_error *error = wanted->error;
     cl_event done_at = NULL;
     pthread_mutex_lock(&device->lock);
-    clshear_status status =
-        start(device, kernel, features, count, arguments, argument_count, &done_at, error);
+    clshear_status status = start(wanted, &done_at);
     pthread_mutex_unlock(&device->lock);
     if (status != CLSHEAR_OK) return status;
     clFlush(device->queue);
-    CS_OPENCL(clWaitForEvents(1, &done_at), "kernel %s failed", kernel_list[kernel].name);
+    CS_OPENCL(clWaitForEvents(1, &done_at), "kernel %s failed", kernel_list[wanted->kernel].name);
+    atomic_store(&device->variants[wanted->features].has_run[wanted->kernel], 1);
 done:
     clReleaseEvent(done_at);
     return status;
+}
+
+clshear_status cs_device_run(cs_device *device, cs_kernel kernel, cs_u32 features, size_t count,
+                             const cs_argument *arguments, size_t argument_count, cs_error *error)
+{
+    wish wanted = {device,         kernel, kernel_list[kernel].program, features, count, arguments,
+                   argument_count, error};
+    if (atomic_load(&device->variants[features].has_run[kernel])) return run_wish(&wanted);
+    return cs_run_patiently(run_wish, &wanted, device->name, device->log);
 }

@@ -15,6 +15,9 @@ typedef struct cs_buffer cs_buffer;
 /* The text of the public headers, cl/clshear/device, with which every program begins. */
 const char *cs_device_source(void);
 
+/* The text of the renderer's kernels, which follows it in their program. */
+const char *cs_device_kernels(void);
+
 /* A kernel argument: a buffer (`buffer` not NULL), or `size` bytes by value. */
 typedef struct cs_argument {
     const cs_buffer *buffer;
@@ -23,14 +26,18 @@ typedef struct cs_argument {
 } cs_argument;
 
 /* Opens the device that `wanted` names: its number in cs_device_list, or part of its name, case
- * ignored; NULL: the first. `threads`: compute units of a CPU to use, 0 for all. `packet`: 1, 4, 8
- * or 16 lanes, 0 for what suits the device. Nothing is compiled yet. All functions of a device may
- * be called by several threads at the same time. */
+ * ignored; NULL: that of the environment variable CLSHEAR_DEVICE, or else the fastest. `threads`:
+ * compute units of a CPU to use, 0 for all. `packet`: 1, 4, 8 or 16 lanes, 0 for what suits the
+ * device. Nothing is compiled yet. All functions of a device may be called by several threads at
+ * the same time. */
 clshear_status cs_device_open(const char *wanted, int threads, int packet, cs_device **device,
                               cs_error *error);
 void cs_device_close(cs_device *device);
 clshear_status cs_device_list(void (*report)(void *user, int number, const char *name), void *user,
                               cs_error *error);
+
+/* Where it is told that the driver takes long; the log has to outlive the device. */
+void cs_device_set_log(cs_device *device, const cs_log *log);
 
 const char *cs_device_name(const cs_device *device);
 const char *cs_device_driver(const cs_device *device);

@@ -15,6 +15,7 @@ typedef struct cs_variant {
     cl_program programs[CS_PROGRAM_COUNT];
     cl_kernel kernels[CS_KERNEL_COUNT];
     size_t local_sizes[CS_KERNEL_COUNT]; /* of each kernel's work-groups, once it is made */
+    atomic_int has_run[CS_KERNEL_COUNT]; /* so that its driver has compiled all of it */
 } cs_variant;
 
 struct cs_device {
@@ -29,6 +30,7 @@ struct cs_device {
     int is_partition;
     char name[256];
     char driver[256];
+    const cs_log *log;     /* NULL: none */
     cs_recorder *recorder; /* of its launches; NULL: none */
 };
 

@@ -99,15 +99,72 @@ static int contains_ignoring_case(const char *text, const char *part)
     return length == 0;
 }
 
+/* Whether a device only plays one: its results are right, its speed is none. */
+static int is_emulator(const char *name)
+{
+    return contains_ignoring_case(name, "oclgrind") || contains_ignoring_case(name, "emulat") ||
+           contains_ignoring_case(name, "simulat");
+}
+
+int cs_opencl_is_cpu(cl_device_id device)
+{
+    cl_device_type type = CL_DEVICE_TYPE_CPU;
+    clGetDeviceInfo(device, CL_DEVICE_TYPE, sizeof type, &type, NULL);
+    return (type & CL_DEVICE_TYPE_CPU) != 0;
+}
+
+/* How fast a device promises to be; below 0 for emulators. Any GPU with memory of its own is before
+ * any without, these are before all CPUs, and CPUs before what only replaces a missing GPU. Clover,
+ * Mesa's old driver, does not compile the kernels. CPU drivers see the same processor: of equal
+ * ones the first is taken. */
+static double merit_of(cl_device_id device)
+{
+    char name[256];
+    cl_uint units = 1, clock_mhz = 1;
+    cl_bool shares_memory = CL_FALSE;
+    cl_device_type type = CL_DEVICE_TYPE_CPU;
+    cs_opencl_describe(device, name, NULL, sizeof name);
+    if (is_emulator(name)) return -1.0;
+    if (contains_ignoring_case(name, "llvmpipe") || contains_ignoring_case(name, "clover"))
+        return 0.0;
+    clGetDeviceInfo(device, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
+    if (cs_opencl_is_cpu(device)) return 1e3 + (double)units;
+    clGetDeviceInfo(device, CL_DEVICE_TYPE, sizeof type, &type, NULL);
+    if ((type & CL_DEVICE_TYPE_GPU) == 0) return 1.0;
+    clGetDeviceInfo(device, CL_DEVICE_MAX_CLOCK_FREQUENCY, sizeof clock_mhz, &clock_mhz, NULL);
+    clGetDeviceInfo(device, CL_DEVICE_HOST_UNIFIED_MEMORY, sizeof shares_memory, &shares_memory,
+                    NULL);
+    return (shares_memory ? 1e6 : 1e12) + (double)units * (double)clock_mhz;
+}
+
+/* The fastest of the devices that are no emulators. */
+static clshear_status find_best(const cl_device_id *devices, cl_uint count, cl_device_id *device,
+                                cs_error *error)
+{
+    double most = -1.0;
+    char name[256];
+    for (cl_uint i = 0; i < count; i++) {
+        const double merit = merit_of(devices[i]);
+        if (merit > most) *device = devices[i];
+        if (merit > most) most = merit;
+    }
+    if (most >= 0.0) return CLSHEAR_OK;
+    cs_opencl_describe(devices[0], name, NULL, sizeof name);
+    return cs_fail(error, CLSHEAR_NO_DEVICE,
+                   "no OpenCL device but an emulator, %s; name it if it is wanted: device 0", name);
+}
+
 clshear_status cs_opencl_find(const char *wanted, cl_device_id *device, cs_error *error)
 {
     cl_device_id devices[MAX_DEVICES];
     cl_uint count;
     clshear_status status = all_devices(devices, &count, error);
     if (status != CLSHEAR_OK) return status;
+    if (wanted == NULL) wanted = getenv("CLSHEAR_DEVICE");
+    if (wanted == NULL || *wanted == '\0') return find_best(devices, count, device, error);
     char *end;
-    long number = wanted == NULL ? 0 : strtol(wanted, &end, 10);
-    int is_number = wanted == NULL || (*wanted != '\0' && *end == '\0');
+    const long number = strtol(wanted, &end, 10);
+    const int is_number = *end == '\0';
     for (cl_uint i = 0; i < count; i++) {
         char name[256];
         cs_opencl_describe(devices[i], name, NULL, sizeof name);

@@ -21,8 +21,11 @@ clshear_status cs_opencl_fail(cs_error *error, cl_int code, const char *format, 
     __attribute__((format(printf, 3, 4)));
 
 /* The device that `wanted` names: its number in cs_device_list, or part of "name (platform)", case
- * ignored; NULL: the first. */
+ * ignored; NULL: the one that the environment variable CLSHEAR_DEVICE names in the same way, or
+ * else the fastest by its type and size, but no emulator. */
 clshear_status cs_opencl_find(const char *wanted, cl_device_id *device, cs_error *error);
+
+int cs_opencl_is_cpu(cl_device_id device);
 
 /* A device made from the caller's objects, which it retains. The queue is in order. */
 clshear_status cs_device_adopt(cl_context context, cl_device_id id, cl_command_queue queue,

@@ -17,6 +17,11 @@ const char *cs_device_source(void)
     return (const char *)cs_device_text;
 }
 
+const char *cs_device_kernels(void)
+{
+    return (const char *)cs_kernel_text;
+}
+
 void cs_program_texts(cs_program which, const char *texts[2])
 {
 #define CS_PROGRAM_TEXT(identifier, text) text,
@@ -26,13 +31,30 @@ void cs_program_texts(cs_program which, const char *texts[2])
     texts[1] = (const char *)own[which];
 }
 
+/* Whether a device takes the work-groups of GPUs. */
+static int group_fits(cl_device_id device)
+{
+    size_t most = 1;
+    clGetDeviceInfo(device, CL_DEVICE_MAX_WORK_GROUP_SIZE, sizeof most, &most, NULL);
+    return most >= CS_GPU_WORK_GROUP;
+}
+
+/* Multiply-adds are fused where the bits do not have to be the host's, but for CPUs, whose renders
+ * keep their bits. Without a stated size of work-groups, compilers for GPUs save registers for the
+ * largest. */
 void cs_program_options(cl_device_id device, int packet, cs_u32 features,
                         char options[CS_PROGRAM_OPTIONS])
 {
-    (void)device;
-    snprintf(options, CS_PROGRAM_OPTIONS,
-             "-cl-std=CL1.2 -DCS_KEEP_FP_CONTRACT_OFF -DCS_PACKET=%d -DCS_FEATURES=%u", packet,
-             features);
+    const int cpu = cs_opencl_is_cpu(device);
+    cl_device_fp_config floats = 0;
+    char group[32] = "";
+    clGetDeviceInfo(device, CL_DEVICE_SINGLE_FP_CONFIG, sizeof floats, &floats, NULL);
+    const int rounds = !cpu && (floats & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+    if (!cpu && group_fits(device))
+        snprintf(group, sizeof group, " -DCS_WORK_GROUP=%d", CS_GPU_WORK_GROUP);
+    snprintf(options, CS_PROGRAM_OPTIONS, "-cl-std=CL1.2 %s-DCS_PACKET=%d -DCS_FEATURES=%u%s%s",
+             cpu ? "-DCS_KEEP_FP_CONTRACT_OFF " : "", packet, features,
+             rounds ? " -cl-fp32-correctly-rounded-divide-sqrt" : "", group);
 }
 
 /* The first line of a build log that reports an error. */

@@ -6,7 +6,8 @@
 #include "device/opencl.h"
 
 enum {
-    CS_PROGRAM_OPTIONS = 256 /* most bytes of a program's options */
+    CS_PROGRAM_OPTIONS = 256, /* most bytes of a program's options */
+    CS_GPU_WORK_GROUP = 64    /* work-items of a work-group on GPUs: two or one of their warps */
 };
 
 /* The two texts, joined, of a program: the public headers' and its own. */

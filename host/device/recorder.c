@@ -82,23 +82,48 @@ static cs_u32 put_program(cs_recorder *recorder, cs_program program, cs_u32 feat
     return *number - 1;
 }
 
+/* Appends the longest run of equal words from `*at` on, or of words that do not repeat: twice its
+ * length, plus 1 where they are equal, then the one or all. Returns 0 when out of memory. */
+static int pack_run(const uint64_t *words, size_t count, size_t *at, cs_array *packed)
+{
+    const size_t first = *at, most = (size_t)1 << 30;
+    size_t end = first + 1;
+    if (count - first > most) count = first + most;
+    while (end < count && words[end] == words[first])
+        end++;
+    const int equal = end > first + 1;
+    while (!equal && end < count && (end + 1 == count || words[end] != words[end + 1]))
+        end++;
+    const cs_u32 head = 2u * (cs_u32)(end - first) + (cs_u32)equal;
+    const size_t size = (equal ? 1 : end - first) * sizeof *words;
+    unsigned char *bytes = cs_array_extend(packed, sizeof head + size);
+    if (bytes == NULL) return 0;
+    memcpy(bytes, &head, sizeof head);
+    memcpy(bytes + sizeof head, words + first, size);
+    *at = end;
+    return 1;
+}
+
 /* What the device has in the buffer. */
 static clshear_status put_contents(cs_recorder *recorder, size_t place, const cs_buffer *buffer,
                                    cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    unsigned char *bytes = malloc(buffer->size);
-    size_t used = buffer->size;
-    CS_REQUIRE(bytes != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for a capsule");
-    CS_TRY(cs_buffer_read(buffer, 0, buffer->size, bytes, error));
-    while (used > 0 && bytes[used - 1] == 0)
-        used--;
-    put_head(recorder, "buff", 4 + 8 + used);
+    const size_t count = (buffer->size + 7) / 8;
+    uint64_t *words = calloc(count, sizeof *words);
+    cs_array packed = {.item_size = 1};
+    CS_REQUIRE(words != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for a capsule");
+    CS_TRY(cs_buffer_read(buffer, 0, buffer->size, words, error));
+    for (size_t i = 0; i < count;)
+        CS_REQUIRE(pack_run(words, count, &i, &packed), CLSHEAR_OUT_OF_MEMORY,
+                   "out of memory for a capsule");
+    put_head(recorder, "buff", 4 + 8 + packed.count);
     put_u32(recorder, place);
     put_u64(recorder, buffer->size);
-    put(recorder, bytes, used);
+    put(recorder, packed.items, packed.count);
 done:
-    free(bytes);
+    cs_array_free(&packed);
+    free(words);
     return status;
 }
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "context/self_test.h"
 #include "import/import.h"
 #include "render/objects.h"
 #include "render/pass.h"
@@ -92,6 +93,7 @@ clshear_status cs_scene_complete(clshear_scene *scene, cs_error *error)
     cs_flat_bvh bvh = {0};
     CS_TRY(
         cs_pass_warm_up(context->device, cs_scene_material_needs(&scene->scene).features, error));
+    CS_TRY(cs_self_test(context, error));
     const double compiled_s = cs_now_s();
     CS_TRY(cs_accel_create(&scene->scene, context->threads, &scene->accel, error));
     CS_TRY(cs_accel_build_bvh(scene->accel, &bvh, error));

@@ -168,7 +168,10 @@ CLSHEAR_API void clshear_settings_set_preview(clshear_settings *settings, int (*
  * --------------------------------------------------------------------------------------------- */
 
 /* Opens the device of the settings CLSHEAR_DEVICE, _THREADS and _PACKET (NULL settings: fallbacks).
- * The kernels are compiled when a scene or an analysis first needs them. */
+ * Without the first, the environment variable CLSHEAR_DEVICE is asked, and then the fastest device
+ * is taken that is no emulator. The kernels are compiled when a scene or an analysis first needs
+ * them. Before its first render a device is tested; with the setting CLSHEAR_FORCE, one that fails
+ * is used all the same. */
 CLSHEAR_API clshear_status clshear_context_create(const clshear_settings *settings,
                                                   clshear_context **context);
 CLSHEAR_API void clshear_context_free(clshear_context *context);

@@ -39,8 +39,13 @@ typedef float cs_f32;
 #endif
 
 /* Marks a function as always inlined: its loops need the constant arguments of its caller. Left as
- * calls, such functions take twice the time. */
+ * calls, such functions take twice the time. With CS_NO_INLINING they are: for Oclgrind, which does
+ * not know all that inlining leaves behind. */
+#ifdef CS_NO_INLINING
+#define CS_INLINED static inline
+#else
 #define CS_INLINED static inline __attribute__((always_inline))
+#endif
 
 /* Fails to compile unless `type` is `words` 4-byte words long. A struct made of 4-byte scalars has
  * no padding, so equal sizes on host and device fix every offset. */
