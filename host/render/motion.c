@@ -58,9 +58,19 @@ static int differ(const cs_view *open, const cs_view *closed)
     return different;
 }
 
+cs_shutter cs_motion_shutter(const cs_job *job)
+{
+    const double *ramps = cs_numbers(&job->settings, SHUTTER_RAMPS);
+    return (cs_shutter){(cs_f32)ramps[0], (cs_f32)ramps[1]};
+}
+
 clshear_status cs_motion_begin(cs_job *job, const cs_view *view, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
+    const cs_shutter shutter = cs_motion_shutter(job);
+    CS_REQUIRE(shutter.opening + shutter.closing <= 1.0f, CLSHEAR_BAD_ARGUMENT,
+               "shutter ramps %g,%g: must be 1 together at most", (double)shutter.opening,
+               (double)shutter.closing);
     cs_shutter_cameras *cameras = &job->cameras;
     const cs_view closing = closing_view(job, view);
     const cs_view middle = view_between(view, &closing, 0.5f);
@@ -118,6 +128,18 @@ static cs_velocity velocity_of_rule(const cs_job *job, size_t index, cs_rule rul
     return velocity_at_rest(job, index, seen);
 }
 
+/* The same for the shear, which takes the exposure to be even: while the shutter is open, as it is
+ * in the middle of a trapezoid, so much of the motion comes with a part of the exposure. */
+static cs_velocity velocity_while_open(const cs_job *job, size_t index, cs_rule rule)
+{
+    const cs_shutter shutter = cs_motion_shutter(job);
+    const cs_f32 whole = 1.0f - 0.5f * (shutter.opening + shutter.closing);
+    cs_velocity velocity = velocity_of_rule(job, index, rule);
+    velocity.x *= whole;
+    velocity.y *= whole;
+    return velocity;
+}
+
 clshear_status cs_motion_upload(const cs_job *job, const uint8_t *rules, cs_buffer **buffer,
                                 cs_error *error)
 {
@@ -128,7 +150,7 @@ clshear_status cs_motion_upload(const cs_job *job, const uint8_t *rules, cs_buff
     CS_REQUIRE(used != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
                job->pixel_count);
     for (size_t i = 0; i < job->pixel_count; i++)
-        used[i] = velocity_of_rule(job, i, (cs_rule)rules[i]);
+        used[i] = velocity_while_open(job, i, (cs_rule)rules[i]);
     CS_TRY(cs_buffer_create(job->scene->context->device, job->pixel_count * sizeof *used, used,
                             buffer, error));
 done:

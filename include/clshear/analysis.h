@@ -211,7 +211,7 @@ CLSHEAR_API clshear_status clshear_radiance_of_samples(clshear_scene *scene,
                                                        size_t count, float *rgb);
 
 /* The same at points of five coordinates, of which the last is the time: 0 where the shutter opens
- * and 1 where it closes. It makes no difference where nothing moves. */
+ * and 1 where it closes; with ramps, the part of the exposure that has come in before. It makes no difference where nothing moves. */
 CLSHEAR_API clshear_status clshear_moving_radiance(clshear_scene *scene,
                                                    const clshear_settings *settings, int x, int y,
                                                    const float *points, size_t count, float *rgb);

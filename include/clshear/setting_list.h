@@ -228,7 +228,9 @@
     X(FRAME, 105, "frame", "", INTEGER, 1, 1, "", 0, 1e6, none, RECIPE, "N", \
       "frame of the animation, from 0") \
     X(FPS, 106, "fps", "", NUMBER, 1, 1, "24", 1e-3, 1e6, none, RECIPE, "N", \
-      "frames per second of the animation")
+      "frames per second of the animation") \
+    X(SHUTTER_RAMPS, 115, "shutter-ramps", "", NUMBER, 2, 1, "0,0", 0, 1, none, RECIPE, "OPENING,CLOSING", \
+      "parts of the shutter's time that it opens and closes")
 /* clang-format on */
 
 #endif
