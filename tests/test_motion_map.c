@@ -5,6 +5,7 @@
 
 #include "clshear/device/hash.h"
 #include "clshear/device/motion.h"
+#include "clshear/device/shutter.h"
 
 static cs_f32 uniform(cs_u32 index, cs_u32 dimension)
 {

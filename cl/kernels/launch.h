@@ -3,8 +3,8 @@
 #define CS_KERNELS_LAUNCH_H
 
 #include "clshear/device/camera.h"
-#include "clshear/device/motion.h"
 #include "clshear/device/sampler/sampler.h"
+#include "clshear/device/shutter.h"
 #include "kernels/features.h"
 
 enum {
