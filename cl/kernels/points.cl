@@ -6,9 +6,8 @@
  * the shear, and the time: 0 without the feature MOTION, with which the tuple is that of a scene
  * without area lights. Global size: at least ceil(grid.count / CS_PACKET). */
 __kernel void cs_points(const cs_launch launch, const uint pixel, const float shear,
-                        const cs_velocity velocity,
-                        __global const uint *sample_table, __global const float *lens_table,
-                        __global float *points)
+                        const cs_velocity velocity, __global const uint *sample_table,
+                        __global const float *lens_table, __global float *points)
 {
     cs_u32 first = (cs_u32)get_global_id(0) * (cs_u32)CS_PACKET;
     if (first >= launch.pattern.grid.count) return;
@@ -21,9 +20,8 @@ __kernel void cs_points(const cs_launch launch, const uint pixel, const float sh
                               tuple[CS_END_LENS]};
 #if CS_HAS(MOTION)
     const cs_vfloat drawn = cs_draw_time(&launch.pattern, sample_table, key, index, 0, &point);
-    const cs_moving_sample moving =
-        cs_shear_moving(point, drawn, launch.shear_mode, &launch.camera.optics, lens_table, shear,
-                        velocity);
+    const cs_moving_sample moving = cs_shear_moving(
+        point, drawn, launch.shear_mode, &launch.camera.optics, lens_table, shear, velocity);
     point = moving.point;
     const cs_vfloat time = moving.time;
 #else

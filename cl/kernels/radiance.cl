@@ -41,8 +41,7 @@ static inline void cs_shear_point(const cs_launch *launch, cs_optics_table lens_
  * launch.pattern must be of the sampler `random`. */
 __kernel void cs_radiance_at(const cs_launch launch, const uint x, const uint y, const uint count,
                              const uint tuples, const float shear, const cs_velocity velocity,
-                             cs_optics_table lens_table,
-                             __global const float *points,
+                             cs_optics_table lens_table, __global const float *points,
                              __global float *radiance CS_SCENE_PARAMETERS)
 {
     size_t first = get_global_id(0) * CS_PACKET;
