@@ -105,8 +105,9 @@ done:
 static cs_velocity velocity_at_rest(const cs_job *job, size_t index, cs_f32 depth)
 {
     const size_t width = (size_t)(job->window[1] - job->window[0]);
-    const cs_f32 x = (cs_f32)((size_t)job->window[0] + index % width) + 0.5f;
-    const cs_f32 y = (cs_f32)((size_t)job->window[2] + index / width) + 0.5f;
+    const size_t row = index / width, column = index - row * width;
+    const cs_f32 x = (cs_f32)job->window[0] + (cs_f32)column + 0.5f;
+    const cs_f32 y = (cs_f32)job->window[2] + (cs_f32)row + 0.5f;
     const cs_ray ray = cs_lens_ray(job->cameras.middle, x, y, 0.0f, 0.0f);
     float point[3];
     for (int i = 0; i < 3; i++)
