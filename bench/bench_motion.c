@@ -19,8 +19,8 @@
 #include "measure.h"
 
 enum {
-    CROP = 6, /* pixels along the side of a crop */
-    ACROSS = 8,
+    CROP = 20, /* pixels along the side of a crop */
+    ACROSS = 5,
     CROPS = ACROSS * ACROSS,
     PIXELS = CROPS * CROP * CROP,
     PATTERNS = 8,

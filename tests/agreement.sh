@@ -1,10 +1,15 @@
 #!/bin/bash
-# Agreement with Mitsuba 3, by the Python that MITSUBA_PYTHON names: agreement.sh PROGRAM ROOT. Skipped
-# where there is none, since it takes minutes; scripts/agreement installs one.
+# Agreement with Mitsuba 3, by the Python that MITSUBA_PYTHON names: agreement.sh PROGRAM ROOT [motion].
+# Skipped where there is none, since it takes minutes; scripts/agreement installs one. Of motion, it is
+# agreement with Cycles: skipped where there is no Blender.
 set -u
 python=${MITSUBA_PYTHON:-}
 if [ -z "$python" ] || ! "$python" -c 'import mitsuba'; then
     echo "MITSUBA_PYTHON names no Python with Mitsuba"
     exit 77
+fi
+if [ "${3:-}" = motion ]; then
+    command -v blender >/dev/null || { echo "no blender" && exit 77; }
+    exec "$python" "$2/bench/compare/twins/moving.py" --program "$1"
 fi
 exec "$python" "$2/bench/compare/twins/agree.py" --program "$1"

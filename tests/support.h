@@ -122,8 +122,8 @@ void test_pattern_free(test_pattern *pattern);
 /* Draws sample `index` of the pattern with this key: CS_DIMENSIONS coordinates. */
 void test_draw(const test_pattern *pattern, cs_u32 key, cs_u32 index, cs_f32 *tuple);
 
-/* Writes bytes as the text of a data URI: 4 letters for 3 bytes, and a final 0. `size` is a multiple
- * of 3. */
+/* Writes bytes as the text of a data URI: 4 letters for 3 bytes, and a final 0. `size` is a
+ * multiple of 3. */
 void test_base64(const void *data, size_t size, char *text);
 
 #endif

@@ -45,8 +45,18 @@ static void add_blocks(const clshear_film *film, double weight, block_sums *to)
     }
 }
 
+/* How much of the light comes in at a time, with ramps that take these parts of it. */
+static double openness(double opening, double closing, double time)
+{
+    double open = 1.0;
+    if (time < opening) open = time / opening;
+    if (1.0 - time < closing) open = (1.0 - time) / closing;
+    return open / (1.0 - 0.5 * (opening + closing));
+}
+
 /* The mean of still pictures at the middles of SLICES parts of the shutter. */
-static block_sums sum_of_slices(test_fixture *made, const clshear_settings *settings)
+static block_sums sum_of_slices(test_fixture *made, const clshear_settings *settings,
+                                const double *ramps)
 {
     block_sums sums = {{0}, {0}};
     clshear_settings *still = test_settings(settings, SIDE, SIDE, 16);
@@ -54,7 +64,7 @@ static block_sums sum_of_slices(test_fixture *made, const clshear_settings *sett
         place_camera(still, (i + 0.5) / SLICES);
         test_set(still, CLSHEAR_SEED, "%d", i + 1);
         clshear_film *film = test_render(made->scene, still);
-        add_blocks(film, 1.0 / SLICES, &sums);
+        add_blocks(film, openness(ramps[0], ramps[1], (i + 0.5) / SLICES) / SLICES, &sums);
         clshear_film_free(film);
     }
     clshear_settings_free(still);
@@ -77,22 +87,25 @@ static void the_mean_is_that_of_time_slices(void **state)
     test_fixture *made = *state;
     static const struct {
         const char *aperture, *radius, *shear, *wrong;
-    } cases[] = {{"square", "25", "equal-area", ""},
-                 {"disk", "25", "equal-area", ""},
-                 {"square", "0", "equal-area", ""},
-                 {"square", "25", "equal-area", "9"},
-                 {"polygon", "25", "none", ""}};
+        double ramps[2];
+    } cases[] = {{"square", "25", "equal-area", "", {0.0, 0.0}},
+                 {"disk", "25", "equal-area", "", {0.0, 0.0}},
+                 {"square", "0", "equal-area", "", {0.0, 0.0}},
+                 {"square", "25", "equal-area", "9", {0.0, 0.0}},
+                 {"square", "25", "equal-area", "", {0.25, 0.5}},
+                 {"polygon", "25", "none", "", {0.0, 0.0}}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         clshear_settings *settings = test_settings(made->settings, SIDE, SIDE, 1024);
         test_set(settings, CLSHEAR_APERTURE, "%s", cases[k].aperture);
         test_set(settings, CLSHEAR_LENS_RADIUS, "%s", cases[k].radius);
         test_set(settings, CLSHEAR_SHEAR, "%s", cases[k].shear);
         if (*cases[k].wrong) test_set(settings, CLSHEAR_SHEAR_PX, "%s", cases[k].wrong);
-        const block_sums slices = sum_of_slices(made, settings);
+        const block_sums slices = sum_of_slices(made, settings, cases[k].ramps);
         block_sums moving = {{0}, {0}};
         place_camera(settings, 0.0);
         test_set(settings, CLSHEAR_REPLICATES, "16");
         test_ok(clshear_settings_set_numbers(settings, CLSHEAR_CAMERA_TO, eyes[1], 6));
+        test_ok(clshear_settings_set_numbers(settings, CLSHEAR_SHUTTER_RAMPS, cases[k].ramps, 2));
         clshear_film *film = test_render(made->scene, settings);
         add_blocks(film, 1.0, &moving);
         compare(&moving, &slices);
@@ -318,6 +331,19 @@ static void the_shear_of_time_lowers_the_variance(void **state)
     assert_above(variance[0], 2.0 * variance[1]);
 }
 
+/* Ramps that take more than all of the time are refused. */
+static void ramps_have_to_fit(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = test_settings(made->settings, SIDE, SIDE, 4);
+    clshear_film *film = NULL;
+    test_set(settings, CLSHEAR_SHUTTER_RAMPS, "0.75,0.5");
+    test_refused(clshear_render(made->scene, settings, &film), CLSHEAR_BAD_ARGUMENT,
+                 "shutter ramps 0.75,0.5: must be 1 together at most");
+    assert_null(film);
+    clshear_settings_free(settings);
+}
+
 /* Slope of the variance of one pixel over N = 64, 256, 1024, from 2048 patterns of each. */
 static double slope_of_pixel(test_fixture *made, const char *sampler, const char *shear)
 {
@@ -363,6 +389,7 @@ int main(void)
         cmocka_unit_test(velocities_are_those_of_the_film),
         cmocka_unit_test(the_integrand_has_the_time),
         cmocka_unit_test(the_shear_of_time_lowers_the_variance),
+        cmocka_unit_test(ramps_have_to_fit),
         cmocka_unit_test(a_pixel_converges_as_it_did),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);

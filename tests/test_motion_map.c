@@ -5,6 +5,7 @@
 
 #include "clshear/device/hash.h"
 #include "clshear/device/motion.h"
+#include "clshear/device/shutter.h"
 
 static cs_f32 uniform(cs_u32 index, cs_u32 dimension)
 {
@@ -43,6 +44,34 @@ static cs_moving_sample random_sample(cs_u32 i, cs_u32 aperture, const motion_ca
     for (cs_u32 d = 0; d < 5; d++)
         tuple[d] = uniform(i, d);
     return mapped(tuple, aperture, at);
+}
+
+/* Light that a trapezoid has let in up to a time. */
+static double let_in(double opening, double closing, double time)
+{
+    const double start = fmin(time, opening), end = fmax(time - (1.0 - closing), 0.0);
+    const double risen = opening > 0.0 ? 0.5 * start * start / opening : 0.0;
+    const double fallen = closing > 0.0 ? end - 0.5 * end * end / closing : end;
+    return risen + fmin(fmax(time - opening, 0.0), 1.0 - closing - opening) + fallen;
+}
+
+/* As much light has come in before a time of the shutter as was asked for. */
+static void times_follow_the_shutter(void **state)
+{
+    (void)state;
+    static const cs_shutter shutters[] = {{0, 0}, {0.25f, 0.25f}, {0.5f, 0.5f}, {0, 1},
+                                          {1, 0}, {0.1f, 0.6f},   {0.3f, 0}};
+    for (size_t k = 0; k < sizeof shutters / sizeof *shutters; k++)
+        for (int i = 0; i <= 1000; i++) {
+            const cs_f32 part = (cs_f32)i / 1000.0f;
+            const cs_f32 time = cs_shutter_time(part, shutters[k]);
+            const double opening = (double)shutters[k].opening;
+            const double closing = (double)shutters[k].closing;
+            assert_true(time >= 0.0f && time <= 1.0f);
+            assert_near(let_in(opening, closing, (double)time),
+                        (double)part * let_in(opening, closing, 1.0), 2e-6);
+        }
+    assert_true(cs_shutter_time(0.3f, shutters[0]) == 0.3f);
 }
 
 /* Distribution of the sum of three boxes, in double precision. */
@@ -163,6 +192,7 @@ static void fibres_are_followed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(times_follow_the_shutter),
         cmocka_unit_test(quantiles_invert_the_distribution),
         cmocka_unit_test(samples_are_inside),
         cmocka_unit_test(measure_is_kept),

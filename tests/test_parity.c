@@ -1,6 +1,6 @@
 /* The device computes the same as the host: tuples equal bit for bit, and sheared points, of what
- * moves too, up to a few ulps. (Division and square root need not be correctly rounded in OpenCL; on CPUs they
- * are.) */
+ * moves too, up to a few ulps. (Division and square root need not be correctly rounded in OpenCL;
+ * on CPUs they are.) */
 #include "support.h"
 
 #include <math.h>
@@ -40,9 +40,9 @@ static void run_points(cs_device *device, const cs_launch *frame, const cs_array
                                      {.buffer = profiles},
                                      {.buffer = buffer}};
     const uint32_t features = velocity->x != 0.0f || velocity->y != 0.0f ? CS_FEATURE_MOTION : 0u;
-    assert_int_equal(CS_RUN_WITH(device, POINTS, features, (count + packet - 1) / packet, arguments,
-                                 &error),
-                     CLSHEAR_OK);
+    assert_int_equal(
+        CS_RUN_WITH(device, POINTS, features, (count + packet - 1) / packet, arguments, &error),
+        CLSHEAR_OK);
     assert_int_equal(cs_buffer_read(buffer, 0, size, points, &error), CLSHEAR_OK);
     cs_buffer_free(buffer);
     cs_buffer_free(table);
@@ -84,11 +84,9 @@ static void compare_moving(const cs_launch *frame, const test_pattern *drawn,
         cs_f32 t[CS_DIMENSIONS];
         test_draw(drawn, key, i, t);
         cs_camera_sample tuple = {t[0], t[1], t[2], t[3]};
-        const cs_f32 time =
-            cs_draw_time(&frame->pattern, drawn->rows.items, key, i, 0, &tuple);
-        const cs_moving_sample p =
-            cs_shear_moving(tuple, time, frame->shear_mode, &frame->camera.optics, optics->items,
-                            shear, velocity);
+        const cs_f32 time = cs_draw_time(&frame->pattern, drawn->rows.items, key, i, 0, &tuple);
+        const cs_moving_sample p = cs_shear_moving(
+            tuple, time, frame->shear_mode, &frame->camera.optics, optics->items, shear, velocity);
         const float place[5] = {p.point.x, p.point.y, p.point.u, p.point.v, p.time};
         for (cs_u32 k = 0; k < 5; k++)
             assert_at_most(ulps(given[k], place[k]), 64.0);

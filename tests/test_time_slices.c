@@ -20,8 +20,8 @@ static const double eyes[2][6] = {{0.0, 2.0, 6.0, 0.0, 0.5, 0.0}, {0.7, 2.3, 5.8
 /* A floor, and a card that goes from (-1, 0.2, 0) to (1.2, 0.9, 0.6) within one second. */
 static const char *moving_card(void)
 {
-    static const float numbers[FLOATS] = {-1, 0, 1,  1,   0,    1,  1,   0,   -1, -1, 0, -1,
-                                          0,  1, -1, 0.2f, 0, 1.2f, 0.9f, 0.6f};
+    static const float numbers[FLOATS] = {-1, 0,  1, 1, 0,  1,    1, 0,    -1,   -1,
+                                          0,  -1, 0, 1, -1, 0.2f, 0, 1.2f, 0.9f, 0.6f};
     static const unsigned short indices[6] = {0, 1, 2, 0, 2, 3};
     unsigned char bytes[BYTES] = {0};
     char data[2 * BYTES], text[4096];
@@ -127,7 +127,6 @@ static void the_picture_is_the_mean_of_256_still_ones(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_picture_is_the_mean_of_256_still_ones)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_picture_is_the_mean_of_256_still_ones)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -105,7 +105,7 @@ static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sampl
         cs_shear_moving(point, time, launch->shear_mode, &launch->camera.optics, lens_table,
                         place->shear, place->velocity);
     drawn->point[k] = moving.point;
-    drawn->time[k] = moving.time;
+    drawn->time[k] = cs_shutter_time(moving.time, launch->shutter);
 #else
     drawn->point[k] = cs_shear(point.x, point.y, point.u, point.v, launch->shear_mode,
                                &launch->camera.optics, lens_table, place->shear);

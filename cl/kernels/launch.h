@@ -4,6 +4,7 @@
 
 #include "clshear/device/camera.h"
 #include "clshear/device/sampler/sampler.h"
+#include "clshear/device/shutter.h"
 #include "kernels/features.h"
 
 enum {
@@ -27,6 +28,7 @@ CS_SHARED_WORDS(cs_camera_motion, 15);
 typedef struct cs_launch {
     cs_camera camera;        /* where the shutter opens */
     cs_camera_motion motion; /* with the feature MOTION */
+    cs_shutter shutter;      /* likewise */
     cs_pattern pattern;
     cs_u32 seed;
     cs_u32 replicate;
@@ -51,7 +53,7 @@ typedef struct cs_launch {
     cs_u32 planes;      /* of AOVs that are kept: a set of CS_PLANE_ numbers */
     cs_u32 goes_on;     /* 1: more samples follow the pattern's last, so it is not finished */
 } cs_launch;
-CS_SHARED_WORDS(cs_launch, 92);
+CS_SHARED_WORDS(cs_launch, 94);
 
 /* How many pixels a work-item draws, so that their packets make CS_TOGETHER.
  * blocks: of a pixel's pattern in the launch. packet: lanes. */

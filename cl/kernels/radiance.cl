@@ -36,7 +36,7 @@ static inline void cs_shear_point(const cs_launch *launch, cs_optics_table lens_
  *
  * x, y: the pixel. points: CS_EVALUATED planes of `count` floats: place in the pixel (its left
  * upper corner is 0, 0), lens coordinates in aperture widths from the centre, a sample for area
- * lights, and the time of the shutter, 0 to 1, which only the feature MOTION reads; or, where
+ * lights, and the part of the exposure, 0 to 1, which only the feature MOTION reads; or, where
  * `tuples` is not 0, what a sampler draws, to be sheared by `shear` and `velocity` as
  * launch.shear_mode says, with the lens table. radiance: out, three planes of `count` floats. The
  * others: the scene, see cs_scene_buffers. Paths draw independent numbers, fixed by the point:
@@ -53,11 +53,14 @@ CS_KERNEL void cs_radiance_at(const cs_launch launch, const uint x, const uint y
     for (int plane = 0; plane < CS_EVALUATED; plane++)
         point[plane] = *(__global const cs_vfloat *)(points + (size_t)plane * count + first);
     if (tuples) cs_shear_point(&launch, lens_table, shear, velocity, point);
+#if CS_HAS(MOTION)
+    const cs_vfloat time = cs_shutter_time(point[CS_DIMENSIONS], launch.shutter);
+#endif
 #if CS_HAS(MOVING)
-    scene.time = point[CS_DIMENSIONS];
+    scene.time = time;
 #endif
 #if CS_HAS(MOTION)
-    const cs_eye eye = cs_eye_at(&launch, point[CS_DIMENSIONS]);
+    const cs_eye eye = cs_eye_at(&launch, time);
     cs_ray ray = cs_eye_ray(&launch, &eye, point[CS_AT_FILM] + (cs_f32)x,
                             point[CS_END_FILM] + (cs_f32)y, point[CS_AT_LENS], point[CS_END_LENS]);
 #else

@@ -172,8 +172,8 @@ clshear_status cs_points_integrate_4d(const clshear_points *points, clshear_func
     float *places = malloc((dimensions + 1) * CHUNK * sizeof *places);
     float *values = places + dimensions * CHUNK;
     CS_REQUIRE(places != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    CS_REQUIRE(dimensions > 0, CLSHEAR_BAD_ARGUMENT,
-               "points of %s: must begin with x, y, u, v", points->names);
+    CS_REQUIRE(dimensions > 0, CLSHEAR_BAD_ARGUMENT, "points of %s: must begin with x, y, u, v",
+               points->names);
     for (size_t set = 0; set < points->sets; set++)
         means[set] = 0.0;
     for (size_t first = 0; first < all; first += CHUNK) {

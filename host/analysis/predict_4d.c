@@ -36,23 +36,12 @@ static const part parts_at_rest[] = {{"x", 1, {0}},
                                      {"block", 4, {0, 1, 2, 3}},
                                      {"tail", 0, {0}}};
 
-static const part moving_parts[] = {{"x", 1, {0}},
-                                    {"y", 1, {1}},
-                                    {"u", 1, {2}},
-                                    {"v", 1, {3}},
-                                    {"t", 1, {4}},
-                                    {"xy", 2, {0, 1}},
-                                    {"xu", 2, {0, 2}},
-                                    {"xv", 2, {0, 3}},
-                                    {"yu", 2, {1, 2}},
-                                    {"yv", 2, {1, 3}},
-                                    {"uv", 2, {2, 3}},
-                                    {"xt", 2, {0, 4}},
-                                    {"yt", 2, {1, 4}},
-                                    {"ut", 2, {2, 4}},
-                                    {"vt", 2, {3, 4}},
-                                    {"block", 5, {0, 1, 2, 3, 4}},
-                                    {"tail", 0, {0}}};
+static const part moving_parts[] = {
+    {"x", 1, {0}},     {"y", 1, {1}},     {"u", 1, {2}},     {"v", 1, {3}},
+    {"t", 1, {4}},     {"xy", 2, {0, 1}}, {"xu", 2, {0, 2}}, {"xv", 2, {0, 3}},
+    {"yu", 2, {1, 2}}, {"yv", 2, {1, 3}}, {"uv", 2, {2, 3}}, {"xt", 2, {0, 4}},
+    {"yt", 2, {1, 4}}, {"ut", 2, {2, 4}}, {"vt", 2, {3, 4}}, {"block", 5, {0, 1, 2, 3, 4}},
+    {"tail", 0, {0}}};
 
 static int reach_of(const clshear_reach *reach, int rank)
 {
@@ -75,15 +64,15 @@ static cs_lattice lattice_of(const part *p, int reach)
             .counts = {FOLD, half / FOLD + 1}};
     if (p->rank == 2)
         return (cs_lattice){
-            .sets = {{.coordinate = {first}, .first = {-reach}, .step = {1}, .wide = whole, .deep = 1},
-                     {.coordinate = {second}, .step = {1}, .wide = half, .deep = 1}},
+            .sets =
+                {{.coordinate = {first}, .first = {-reach}, .step = {1}, .wide = whole, .deep = 1},
+                 {.coordinate = {second}, .step = {1}, .wide = half, .deep = 1}},
             .counts = {whole, half}};
     cs_lattice block = {.sets = {{{0, 2}, {-reach, -reach}, {1, 1}, whole, whole},
                                  {{1, 3}, {-reach, 0}, {1, 1}, whole, half}},
                         .counts = {whole * whole, whole * half}};
     if (p->rank == 5) {
-        block.sets[1] =
-            (cs_frequencies){{1, 3, 4}, {-reach, -reach, 0}, {1, 1, 1}, whole, whole};
+        block.sets[1] = (cs_frequencies){{1, 3, 4}, {-reach, -reach, 0}, {1, 1, 1}, whole, whole};
         block.counts[1] *= whole;
     }
     return block;
@@ -173,8 +162,7 @@ static clshear_status predict_part(const question *q, const part *part, size_t i
     cs_error *error = cs_thread_error();
     const int reach = reach_of(q->reach, part->rank);
     const cs_lattice lattice = lattice_of(part, reach);
-    const cs_part_marginal marginal =
-        marginal_of(part, q->dimensions, reach, points_of(q->reach));
+    const cs_part_marginal marginal = marginal_of(part, q->dimensions, reach, points_of(q->reach));
     cs_energy energy = {0};
     float *power = malloc((size_t)lattice.counts[0] * lattice.counts[1] * sizeof *power);
     CS_REQUIRE(power != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for a spectrum");
@@ -242,12 +230,12 @@ clshear_status cs_predict_variance_4d(clshear_context *context, const clshear_po
                         .reach = reach,
                         .dimensions = (int)cs_points_arguments(samples)};
     const part *parts = q.dimensions == 5 ? moving_parts : parts_at_rest;
-    const size_t tail = (q.dimensions == 5 ? sizeof moving_parts : sizeof parts_at_rest) /
-                            sizeof *parts - 1;
+    const size_t tail =
+        (q.dimensions == 5 ? sizeof moving_parts : sizeof parts_at_rest) / sizeof *parts - 1;
     clshear_prediction p = {.parts = tail + 1};
     double seen = 0.0;
-    CS_REQUIRE(q.dimensions > 0, CLSHEAR_BAD_ARGUMENT,
-               "samples of %s: must begin with x, y, u, v", samples->names);
+    CS_REQUIRE(q.dimensions > 0, CLSHEAR_BAD_ARGUMENT, "samples of %s: must begin with x, y, u, v",
+               samples->names);
     CS_TRY(check_reach(&q, error));
     CS_TRY(measure_energy(&q, (points_of(reach) + 7) / 8, &p.energy, error));
     for (size_t i = 0; i < tail; i++) {

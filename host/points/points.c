@@ -64,7 +64,7 @@ enum {
 /* As the kernels draw them where nothing lights with an area. */
 static void draw_timed(const draw_job *job, cs_u32 key, cs_u32 index, float *point)
 {
-    cs_f32 tuple[CS_MAIN_DIMENSIONS];
+    cs_f32 tuple[CS_MAIN_DIMENSIONS] = {0.0f};
     cs_draw(&job->pattern, job->table, key, index, tuple);
     cs_camera_sample place = {tuple[CS_AT_FILM], tuple[CS_END_FILM], tuple[CS_AT_LENS],
                               tuple[CS_END_LENS]};

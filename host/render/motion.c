@@ -1,9 +1,14 @@
 #include "render/motion.h"
 
+#include <math.h>
 #include <stdlib.h>
 
+#include "clshear/device/lens.h"
 #include "oracle/oracle.h"
 #include "scene/camera.h"
+
+/* Difference of two depths, as a part of them, below which they are those of one surface. */
+#define SAME_DEPTH 0.01f
 
 /* Eye and target of the settings for the end of the shutter; `view` where they are not set. */
 static cs_view closing_view(const cs_job *job, const cs_view *view)
@@ -53,9 +58,19 @@ static int differ(const cs_view *open, const cs_view *closed)
     return different;
 }
 
+cs_shutter cs_motion_shutter(const cs_job *job)
+{
+    const double *ramps = cs_numbers(&job->settings, SHUTTER_RAMPS);
+    return (cs_shutter){(cs_f32)ramps[0], (cs_f32)ramps[1]};
+}
+
 clshear_status cs_motion_begin(cs_job *job, const cs_view *view, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
+    const cs_shutter shutter = cs_motion_shutter(job);
+    CS_REQUIRE(shutter.opening + shutter.closing <= 1.0f, CLSHEAR_BAD_ARGUMENT,
+               "shutter ramps %g,%g: must be 1 together at most", (double)shutter.opening,
+               (double)shutter.closing);
     cs_shutter_cameras *cameras = &job->cameras;
     const cs_view closing = closing_view(job, view);
     const cs_view middle = view_between(view, &closing, 0.5f);
@@ -85,6 +100,47 @@ done:
     return status;
 }
 
+/* The velocity of what a pixel sees at `depth`, along the ray through its centre in the middle of
+ * the shutter, as if it were at rest. */
+static cs_velocity velocity_at_rest(const cs_job *job, size_t index, cs_f32 depth)
+{
+    const size_t width = (size_t)(job->window[1] - job->window[0]);
+    const size_t row = index / width, column = index - row * width;
+    const cs_f32 x = (cs_f32)job->window[0] + (cs_f32)column + 0.5f;
+    const cs_f32 y = (cs_f32)job->window[2] + (cs_f32)row + 0.5f;
+    const cs_ray ray = cs_lens_ray(job->cameras.middle, x, y, 0.0f, 0.0f);
+    float point[3];
+    for (int i = 0; i < 3; i++)
+        point[i] = ray.origin[i] + depth * ray.direction[i];
+    return cs_oracle_velocity(&job->cameras.open, &job->cameras.closed, point, point);
+}
+
+/* The velocity that goes with a rule's shear. The nearest and the farthest surface of a pixel are
+ * taken for that of the centre if they are as deep, and to be at rest otherwise. */
+static cs_velocity velocity_of_rule(const cs_job *job, size_t index, cs_rule rule)
+{
+    const cs_velocity none = {0.0f, 0.0f};
+    const cs_depth *depth = &job->depth[index];
+    const cs_f32 seen = rule == CS_RULE_NEAR ? depth->near : depth->far;
+    if (!cs_rule_has_velocity(rule)) return none;
+    if ((rule != CS_RULE_NEAR && rule != CS_RULE_FAR) || !isfinite(seen) || seen <= 0.0f ||
+        fabsf(seen - depth->centre) < SAME_DEPTH * seen)
+        return job->velocities_px[index];
+    return velocity_at_rest(job, index, seen);
+}
+
+/* The same for the shear, which takes the exposure to be even: while the shutter is open, as it is
+ * in the middle of a trapezoid, so much of the motion comes with a part of the exposure. */
+static cs_velocity velocity_while_open(const cs_job *job, size_t index, cs_rule rule)
+{
+    const cs_shutter shutter = cs_motion_shutter(job);
+    const cs_f32 whole = 1.0f - 0.5f * (shutter.opening + shutter.closing);
+    cs_velocity velocity = velocity_of_rule(job, index, rule);
+    velocity.x *= whole;
+    velocity.y *= whole;
+    return velocity;
+}
+
 clshear_status cs_motion_upload(const cs_job *job, const uint8_t *rules, cs_buffer **buffer,
                                 cs_error *error)
 {
@@ -95,7 +151,7 @@ clshear_status cs_motion_upload(const cs_job *job, const uint8_t *rules, cs_buff
     CS_REQUIRE(used != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
                job->pixel_count);
     for (size_t i = 0; i < job->pixel_count; i++)
-        if (cs_rule_has_velocity((cs_rule)rules[i])) used[i] = job->velocities_px[i];
+        used[i] = velocity_while_open(job, i, (cs_rule)rules[i]);
     CS_TRY(cs_buffer_create(job->scene->context->device, job->pixel_count * sizeof *used, used,
                             buffer, error));
 done:

@@ -4,6 +4,9 @@
 
 #include "render/render_job.h"
 
+/* The shutter of the settings. */
+cs_shutter cs_motion_shutter(const cs_job *job);
+
 /* Makes the cameras of the shutter from `view`, the camera where it opens. The job's camera must be
  * complete. Sets job->moves. */
 clshear_status cs_motion_begin(cs_job *job, const cs_view *view, cs_error *error);

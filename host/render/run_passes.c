@@ -3,6 +3,7 @@
 #include "render/aov.h"
 #include "render/checkpoint.h"
 #include "render/live.h"
+#include "render/motion.h"
 #include "render/resume.h"
 #include "render/rounds.h"
 
@@ -18,6 +19,7 @@ cs_pass cs_job_pass(const cs_job *job)
     return (cs_pass){.scene = job->scene,
                      .launch = {.camera = job->camera,
                                 .motion = job->motion,
+                                .shutter = cs_motion_shutter(job),
                                 .seed = job->seed,
                                 .image_width = (cs_u32)job->width,
                                 .crop_x = (cs_u32)job->window[0],

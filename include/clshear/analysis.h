@@ -211,7 +211,8 @@ CLSHEAR_API clshear_status clshear_radiance_of_samples(clshear_scene *scene,
                                                        size_t count, float *rgb);
 
 /* The same at points of five coordinates, of which the last is the time: 0 where the shutter opens
- * and 1 where it closes. It makes no difference where nothing moves. */
+ * and 1 where it closes; with ramps, the part of the exposure that has come in before. It makes no
+ * difference where nothing moves. */
 CLSHEAR_API clshear_status clshear_moving_radiance(clshear_scene *scene,
                                                    const clshear_settings *settings, int x, int y,
                                                    const float *points, size_t count, float *rgb);
@@ -270,9 +271,10 @@ typedef struct clshear_reach {
 
 /* Predicts the variance of the mean of a function at N samples that are shifted at random around
  * the torus. The samples' coordinates must begin with x, y, u, v; if the time t is the fifth, it is
- * one more coordinate of the function. A full lattice of frequencies would be too small, so each part covers its own range. The tail has the power of
- * random points. The function's energy at a frequency is the cross power of independently shifted
- * grids, and so free of aliases and noise on average.
+ * one more coordinate of the function. A full lattice of frequencies would be too small, so each
+ * part covers its own range. The tail has the power of random points. The function's energy at a
+ * frequency is the cross power of independently shifted grids, and so free of aliases and noise on
+ * average.
  *
  * The parts are the frequencies of x, y, u and v alone, of xy, xu, xv, yu, yv and uv, of three or
  * more coordinates ("block"), and the rest ("tail"); with the time also those of t, xt, yt, ut and

@@ -34,7 +34,7 @@ typedef struct pixel_view {
     int y;
     float shear_px;
     float velocity_px[2];
-    int moves; /* whether the time is a coordinate too */
+    int moves;  /* whether the time is a coordinate too */
     float *rgb; /* radiance on its way */
 } pixel_view;
 

@@ -116,8 +116,8 @@ static int check(const predict_job *job)
 /* The shear that is given, or the oracle's; and the velocity. */
 static clshear_status find_shear(const predict_job *job, pixel_view *v)
 {
-    const clshear_status status = clshear_pixel_motion(v->view.scene, v->settings, v->x, v->y,
-                                                       &v->moves, v->velocity_px);
+    const clshear_status status =
+        clshear_pixel_motion(v->view.scene, v->settings, v->x, v->y, &v->moves, v->velocity_px);
     if (status != CLSHEAR_OK) return status;
     for (size_t i = 0; i < job->source.velocity_px.count; i++)
         v->velocity_px[i] = (float)job->source.velocity_px.items[i];

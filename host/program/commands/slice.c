@@ -1,4 +1,5 @@
-/* clshear slice: the integrand of a pixel over two of its coordinates, or over the four of film and lens. */
+/* clshear slice: the integrand of a pixel over two of its coordinates, or over the four of film and
+ * lens. */
 #include <clshear/analysis.h>
 #include <stdlib.h>
 #include <string.h>
@@ -97,8 +98,8 @@ static clshear_status find_slope(const slice_job *job, clshear_scene *scene, sli
     clshear_status status =
         clshear_pixel_shear(scene, settings, (int)pixel[0], (int)pixel[1], &shear);
     if (status == CLSHEAR_OK)
-        status = clshear_pixel_motion(scene, settings, (int)pixel[0], (int)pixel[1], &moves,
-                                      velocity);
+        status =
+            clshear_pixel_motion(scene, settings, (int)pixel[0], (int)pixel[1], &moves, velocity);
     if (status == CLSHEAR_OK)
         status = clshear_settings_get_number(settings, CLSHEAR_ANAMORPHIC, &anamorphic);
     const double extent = (double)clshear_lens_extent(settings) * (double)shear;
@@ -126,8 +127,8 @@ static int compute(const slice_job *job, clshear_scene *scene, slice_values *sli
         place(job, slice, i, points + COORDINATES * i);
     clshear_status status = find_slope(job, scene, slice);
     if (status == CLSHEAR_OK)
-        status = clshear_moving_radiance(scene, job->options.settings, (int)pixel[0],
-                                         (int)pixel[1], points, slice->count, slice->rgb);
+        status = clshear_moving_radiance(scene, job->options.settings, (int)pixel[0], (int)pixel[1],
+                                         points, slice->count, slice->rgb);
     free(points);
     return exit_status_of(status);
 }
