@@ -48,15 +48,18 @@ typedef struct cs_drawn {
 #endif
 } cs_drawn;
 
-/* Whether a shear leaves the second pair of its tuples nothing but the place on the fibre. A disk
- * or a polygon with a shear of exactly 0 has none: the rule of its pixel is not to shear. */
-static inline int cs_keeps_fibre(const cs_launch *launch, cs_f32 shear)
+/* Whether a light gets the lens's pair of a tuple. Not without a shear; a shear of exactly 0 is
+ * one, of a pixel whose rule is not to shear. Nor with `sobol`, where the light's pair belongs to
+ * the net too: the lens's pair moves the fibre of chords a little, and the exchange gains nothing
+ * there (docs/notes/lenses.md). Squares and images exchange always. */
+static inline int cs_exchanges_pairs(const cs_launch *launch, cs_f32 shear)
 {
-    return launch->shear_mode == (cs_u32)CS_SHEAR_EQUAL_AREA &&
-           (shear != 0.0f || !cs_has_chord_map(&launch->camera.optics));
+    if (launch->shear_mode != (cs_u32)CS_SHEAR_EQUAL_AREA) return 0;
+    return !cs_has_chord_map(&launch->camera.optics) ||
+           (shear != 0.0f && launch->pattern.sampler != (cs_u32)CS_SAMPLER_SOBOL);
 }
 
-/* The pair of samples `index` for area lights. Under the equal-area shear it takes the place of the
+/* The pair of samples `index` for area lights. Where cs_exchanges_pairs, it takes the place of the
  * lens's pair in `point`, a tuple, and the lens gets the light's own: the first pair decides what
  * is seen and the light's pair whether it is lit, while the lens's only moves along the fibre. So
  * those two should be the pair that the sampler makes together. */
@@ -65,7 +68,7 @@ static inline cs_pair cs_draw_light(const cs_launch *launch, cs_sample_table sam
                                     cs_camera_sample *point)
 {
     cs_pair light = cs_draw_extra(&launch->pattern, sample_table, key, index, CS_SLOT_LIGHT);
-    if (!cs_keeps_fibre(launch, shear)) return light;
+    if (!cs_exchanges_pairs(launch, shear)) return light;
     cs_pair lens = light;
     light.x = point->u;
     light.y = point->v;

@@ -6,8 +6,7 @@
 
 #include "fp_contract_off.h"
 
-/* A point of the pixel and a point of the lens. cs_shear_alone also takes the tuple in [0, 1)^4
- * that they are made from in this form. */
+/* A point of the pixel and a point of the lens. */
 typedef struct cs_camera_sample {
     cs_vfloat x; /* pixels from the pixel's left edge; wide filters reach below 0 and beyond 1 */
     cs_vfloat y; /* pixels from the pixel's upper edge, likewise */

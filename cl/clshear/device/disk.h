@@ -12,10 +12,6 @@
 
 #define CS_DISK_RADIUS 0.564189584f
 
-/* Limit of error^3 / mass^2 before a step (cs_root_step_of), below which the step leaves less than
- * 2e-6. */
-#define CS_ROOT_TOLERANCE 2e-5f
-
 /* Area between an arc of at most half the circle and its chord, from sine and 1 - cosine of the
  * angle it spans: (angle - sine) / (2 pi), error 6e-8, relative error 7e-7. Both come from the
  * chord's ends without any root. Arcs beyond a right angle are taken from their supplement. */
@@ -99,34 +95,6 @@ CS_INLINED cs_vfloat cs_disk_quantile(cs_vfloat mass)
     p = p * q + 1.40539194f;
     cs_vfloat u = CS_DISK_RADIUS * (1.0f - q * p);
     return mass < 0.5f ? -u : u;
-}
-
-/* A step towards a root. */
-typedef struct cs_root_step {
-    cs_vfloat back; /* the step: the next t is t - back */
-    cs_vint rough;  /* mask of the lanes whose result is not good enough */
-} cs_root_step;
-
-/* Halley's step from t towards F(t) = mass, given value = F(t), density = F'(t), slope = F''(t). It
- * solves sqrt(F) = sqrt(mass), which is nearly linear in the tails too.
- *
- * An error e of F before the step leaves up to 0.06 e^3 / mass^2 after it for the distributions
- * here, in a few corners up to e^3 / mass^2: where that is too much, lanes are rough. */
-CS_INLINED cs_root_step cs_root_step_of(cs_vfloat mass_root, cs_vfloat value, cs_vfloat density,
-                                        cs_vfloat slope)
-{
-    cs_root_step step;
-    value = cs_max(value, (cs_vfloat)(1e-12f));
-    density = cs_max(density, (cs_vfloat)(1e-6f));
-    cs_vfloat root = cs_sqrt(value);
-    cs_vfloat excess = root - mass_root;
-    cs_vfloat square = density * density;
-    cs_vfloat divisor = square * (2.0f * root + excess) - 2.0f * value * excess * slope;
-    cs_vfloat mass = mass_root * mass_root;
-    cs_vfloat error = cs_abs(value - mass);
-    step.back = 4.0f * value * excess * density / cs_max(divisor, root * square);
-    step.rough = error * error * error > CS_ROOT_TOLERANCE * (mass * mass);
-    return step;
 }
 
 /* From the square [-1/2, 1/2]^2 to the disk of area 1, in place: the concentric map (Shirley & Chiu
