@@ -39,6 +39,7 @@ static clshear_status draw(clshear_context *context, const cs_launch *launch, co
     clshear_status status = CLSHEAR_OK;
     cs_device *device = context->device;
     cs_buffer *rows = NULL, *profiles = NULL, *out = NULL;
+    const cs_velocity still = {0.0f, 0.0f};
     const cs_u32 pixel = 0, packet = (cs_u32)cs_device_packet(device);
     const size_t size = SAMPLES * CS_POINT_VALUES * sizeof *points;
     CS_TRY(cs_buffer_create(device, table->count * table->item_size, table->items, &rows, error));
@@ -48,6 +49,7 @@ static clshear_status draw(clshear_context *context, const cs_launch *launch, co
     const cs_argument arguments[] = {{.value = launch, .size = sizeof *launch},
                                      {.value = &pixel, .size = sizeof pixel},
                                      {.value = &shear_px, .size = sizeof shear_px},
+                                     {.value = &still, .size = sizeof still},
                                      {.buffer = rows},
                                      {.buffer = profiles},
                                      {.buffer = out}};
