@@ -19,8 +19,8 @@ typedef struct cs_framing {
  * front wall. */
 cs_framing cs_framing_default(const cs_scene *scene, int z_up);
 
-/* Whether a scene stands on z = 0 as one stands that has +Z up: it begins there, rises by a quarter of
- * its size or more, and goes on below y = 0. */
+/* Whether a scene stands on z = 0 as one stands that has +Z up: it begins there, rises by a quarter
+ * of its size or more, and goes on below y = 0. */
 int cs_framing_stands_on_z(const cs_scene *scene);
 
 /* The nearest camera in that direction whose picture, of this size, shows every triangle inside a

@@ -35,7 +35,7 @@ for name in "$@"; do
     [ -z "$seeds" ] || [ ! -d "$seeds/$name" ] || cp "$seeds/$name"/* "corpus_$name"/
     ln -sf tests/fuzz/fuzz "fuzz_$name"
     words="$root/tests/fuzz/dictionaries/$name"
-    [ -f "$words" ] || words=/dev/null
+    words=${words:+$([ ! -f "$words" ] || echo "-dict=$words")}
     # libFuzzer counts the clock's time, which is another on a busy machine.
     count_seconds
     begun=$spent
@@ -43,7 +43,7 @@ for name in "$@"; do
     inputs=0
     while [ "$used" -lt "$seconds" ]; do
         "./fuzz_$name" -max_total_time=$((seconds - used)) -max_len=4096 -timeout=20 \
-            -rss_limit_mb=4096 -print_final_stats=1 -close_fd_mask=1 -dict="$words" \
+            -rss_limit_mb=4096 -print_final_stats=1 -close_fd_mask=1 ${words:+"$words"} \
             -artifact_prefix="$name-" "corpus_$name" >"$name.log" 2>&1 || {
             tail -n 40 "$name.log"
             exit 1
