@@ -117,9 +117,10 @@ int main(int argc, char **argv)
         for (int s = 0; s < 2; s++) {
             bench_set(state.settings, CLSHEAR_APERTURE, apertures[a]);
             bench_set(state.settings, CLSHEAR_SHEAR, shears[s]);
-            printf("\n%s aperture, shear %s\n\n| sampler | N | M tuples per CPU s | of the frame |\n"
-                   "|---|---|---|---|\n",
-                   a == 0 ? "square" : "disk", s == 0 ? "none" : "equal-area");
+            printf(
+                "\n%s aperture, shear %s\n\n| sampler | N | M tuples per CPU s | of the frame |\n"
+                "|---|---|---|---|\n",
+                a == 0 ? "square" : "disk", s == 0 ? "none" : "equal-area");
             for (cs_u32 sampler = 0; sampler < CS_SAMPLER_COUNT; sampler++)
                 if (state.sampler == NULL || strcmp(state.sampler, cs_sampler_name(sampler)) == 0)
                     measure_sampler(&state, sampler);
