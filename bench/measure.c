@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 static int store(const bench_flag *flag, const char *value)
 {
@@ -50,6 +51,13 @@ double bench_quantile(double *values, int count, double part)
 {
     qsort(values, (size_t)count, sizeof *values, ascending);
     return values[(int)(part * count)];
+}
+
+double bench_cpu_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 int bench_rounds(int wanted)

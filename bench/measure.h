@@ -27,6 +27,10 @@ void bench_read_flags(int argc, char **argv, const bench_flag *flags, size_t cou
 double bench_median(double *values, int count);
 double bench_quantile(double *values, int count, double part);
 
+/* CPU seconds of the process so far, of all its threads: on a busy machine it tells more than the
+ * clock on the wall. */
+double bench_cpu_s(void);
+
 /* Clamps a number of rounds to 1 ... BENCH_MOST_ROUNDS. */
 int bench_rounds(int wanted);
 

@@ -4,19 +4,11 @@
 
 #include "support.h"
 
-static void write_bytes(const char *name, const void *bytes, size_t size)
-{
-    FILE *stream = fopen(test_path(name), "wb");
-    assert_non_null(stream);
-    assert_int_equal(fwrite(bytes, 1, size, stream), size);
-    fclose(stream);
-}
-
 void material_picture(const char *name, const unsigned char texels[16])
 {
     unsigned char bytes[18 + 16] = {0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 2, 0, 32, 0x28};
     memcpy(bytes + 18, texels, 16);
-    write_bytes(name, bytes, sizeof bytes);
+    test_bytes(name, bytes, sizeof bytes);
 }
 
 void material_even_picture(const char *name, int red, int green, int blue, int alpha)
@@ -48,7 +40,7 @@ const char *material_gltf(const char *material)
     char text[4096];
     memcpy(bytes, data, sizeof data);
     memcpy(bytes + sizeof data, indices, sizeof indices);
-    write_bytes("material.bin", bytes, sizeof bytes);
+    test_bytes("material.bin", bytes, sizeof bytes);
     snprintf(text, sizeof text,
              "{'asset':{'version':'2.0'},'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}],"
              "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':1},'indices':2,"

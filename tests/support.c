@@ -58,21 +58,26 @@ void test_expect_refusal(clshear_status status, clshear_status expected, const c
 
 const char *test_path(const char *name)
 {
-    static char paths[4][1024];
+    static char paths[8][1024];
     static int next;
-    char *path = paths[next++ % 4];
+    char *path = paths[next++ % 8];
     snprintf(path, sizeof paths[0], "%s/%s", SCRATCH, name);
+    return path;
+}
+
+const char *test_bytes(const char *name, const void *bytes, size_t size)
+{
+    const char *path = test_path(name);
+    FILE *stream = fopen(path, "wb");
+    assert_non_null(stream);
+    assert_int_equal(fwrite(bytes, 1, size, stream), size);
+    fclose(stream);
     return path;
 }
 
 const char *test_file(const char *name, const char *text)
 {
-    const char *path = test_path(name);
-    FILE *stream = fopen(path, "wb");
-    assert_non_null(stream);
-    fputs(text, stream);
-    fclose(stream);
-    return path;
+    return test_bytes(name, text, strlen(text));
 }
 
 const char *test_warnings(void)

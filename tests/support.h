@@ -42,7 +42,8 @@ void test_expect_refusal(clshear_status status, clshear_status expected, const c
 /* Path of a file in the scratch folder. Valid for the next few calls. */
 const char *test_path(const char *name);
 
-/* Writes a text file into the scratch folder and returns its path. */
+/* Writes a file of bytes or of text into the scratch folder and returns its path. */
+const char *test_bytes(const char *name, const void *bytes, size_t size);
 const char *test_file(const char *name, const char *text);
 
 /* Joined warnings since the last call, of contexts made by test_context. Owned by this file. */

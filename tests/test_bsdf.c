@@ -91,6 +91,19 @@ static double dot(const float *a, const float *b)
     return (double)a[0] * (double)b[0] + (double)a[1] * (double)b[1] + (double)a[2] * (double)b[2];
 }
 
+static cs_bsdf_value value_of(const cs_surface *surface, const float *out, const float *in)
+{
+    const cs_bsdf_view view = cs_bsdf_view_of(surface, out);
+    return cs_bsdf_eval(&view, in);
+}
+
+static cs_bsdf_direction draw(const cs_surface *surface, const float *out, cs_pair pair,
+                              float choice)
+{
+    const cs_bsdf_view view = cs_bsdf_view_of(surface, out);
+    return cs_bsdf_sample(&view, pair, choice);
+}
+
 static float unit_number(cs_u32 seed, cs_u32 index)
 {
     return (float)(cs_key(seed, index) >> 8) * 0x1p-24f;
@@ -106,15 +119,15 @@ static void check_draws(int kind, const float *normal)
     for (int i = 0; i < SIDE * SIDE; i++) {
         const cs_pair pair = {((float)(i % SIDE) + 0.5f) / SIDE, ((float)(i / SIDE) + 0.5f) / SIDE};
         const float choice = unit_number(3, (cs_u32)i);
-        const cs_bsdf_direction drawn = cs_bsdf_sample(&surface, out, pair, choice);
+        const cs_bsdf_direction drawn = draw(&surface, out, pair, choice);
         const double cosine = dot(drawn.in, normal);
-        if (!(drawn.density > 0.0f)) continue;
+        if (!(drawn.value.density > 0.0f)) continue;
         assert_true(fabs(dot(drawn.in, drawn.in) - 1.0) < 1e-5 && cosine > -1e-6);
-        const cs_bsdf_value value = cs_bsdf_eval(&surface, out, drawn.in);
+        const cs_bsdf_value value = value_of(&surface, out, drawn.in);
         const float longer[3] = {3.0f * drawn.in[0], 3.0f * drawn.in[1], 3.0f * drawn.in[2]};
-        const double density = (double)cs_bsdf_density(&surface, out, longer);
-        assert_near(density, drawn.density, 2e-3 * density + 1e-6);
-        const double share = cosine / (double)drawn.density / (SIDE * SIDE);
+        const double density = (double)value_of(&surface, out, longer).density;
+        assert_near(density, drawn.value.density, 2e-3 * density + 1e-6);
+        const double share = cosine / (double)drawn.value.density / (SIDE * SIDE);
         reflected += (double)(drawn.value.scale * drawn.value.colour[0]) * share;
         evaluated += (double)(value.scale * value.colour[0]) * share;
         cosines_sum += share;
@@ -168,17 +181,16 @@ static double albedo_of(const lobe *lobe, const cs_surface *surface, const float
         const float choice = ((float)layer + unit_number(3, i)) / CHOICES;
         cs_bsdf_direction drawn;
         if (i % 2 == 0) {
-            drawn = cs_bsdf_sample(surface, out, pair, choice);
-            if (!(drawn.density > 0.0f)) continue;
+            drawn = draw(surface, out, pair, choice);
+            if (!(drawn.value.density > 0.0f)) continue;
         } else {
             horizon_draw(pair, drawn.in);
-            drawn.value = cs_bsdf_eval(surface, out, drawn.in);
-            drawn.density = cs_bsdf_density(surface, out, drawn.in);
+            drawn.value = value_of(surface, out, drawn.in);
         }
         const double height = dot(drawn.in, surface->normal);
         const double other = height > 0.0 ? horizon_density(height) : 0.0;
         sum += (double)drawn.value.scale * (double)drawn.value.colour[0] * fabs(height) *
-               (height < 0.0 ? 1.0 / growth(lobe) : 1.0) / ((double)drawn.density + other);
+               (height < 0.0 ? 1.0 / growth(lobe) : 1.0) / ((double)drawn.value.density + other);
     }
     return sum / (ACROSS * ACROSS * CHOICES);
 }
@@ -226,11 +238,11 @@ static void smooth_glass_obeys_fresnel(void **state)
             for (cs_u32 i = 0; i < 10000; i++) {
                 const cs_pair pair = {unit_number(1, i), unit_number(2, i)};
                 const cs_bsdf_direction drawn =
-                    cs_bsdf_sample(&surface, out, pair, ((float)i + 0.5f) / 10000.0f);
-                if (!(drawn.density > 0.0f)) continue;
+                    draw(&surface, out, pair, ((float)i + 0.5f) / 10000.0f);
+                if (!(drawn.value.density > 0.0f)) continue;
                 const double height = dot(drawn.in, surface.normal);
                 const double weight =
-                    (double)drawn.value.colour[0] * fabs(height) / (double)drawn.density;
+                    (double)drawn.value.colour[0] * fabs(height) / (double)drawn.value.density;
                 assert_true(isfinite(weight));
                 if (height > 0.0) {
                     reflected += weight / 10000.0;
@@ -262,8 +274,8 @@ static void values_are_symmetric(void **state)
                 direction[k][1] = sqrtf(1.0f - z * z) * sinf(angle);
                 direction[k][2] = z;
             }
-            const cs_bsdf_value a = cs_bsdf_eval(&surface, direction[0], direction[1]);
-            const cs_bsdf_value b = cs_bsdf_eval(&surface, direction[1], direction[0]);
+            const cs_bsdf_value a = value_of(&surface, direction[0], direction[1]);
+            const cs_bsdf_value b = value_of(&surface, direction[1], direction[0]);
             assert_near(a.colour[0], b.colour[0], 2e-3 * (double)a.colour[0] + 1e-6);
         }
 }
@@ -290,12 +302,12 @@ static void refraction_is_symmetric(void **state)
         const float height = 0.3f + 0.7f * unit_number(4, i);
         const float out[3] = {sqrtf(1.0f - height * height), 0.0f, height};
         const cs_pair pair = {unit_number(5, i), 0.9f * unit_number(6, i)};
-        const cs_bsdf_direction drawn = cs_bsdf_sample(&surface, out, pair, 0.99f);
+        const cs_bsdf_direction drawn = draw(&surface, out, pair, 0.99f);
         if (drawn.in[2] > -0.3f) continue;
         count++;
         surface.inside = -1;
         surface.normal[2] = surface.outward[2] = -1.0f;
-        const cs_bsdf_value back = cs_bsdf_eval(&surface, drawn.in, out);
+        const cs_bsdf_value back = value_of(&surface, drawn.in, out);
         const double here = (double)drawn.value.colour[0] * part_seen((double)-drawn.in[2], width);
         const double there = (double)back.colour[0] * part_seen((double)height, width);
         assert_near(there, here * 1.5 * 1.5, 2e-3 * there);
@@ -328,15 +340,15 @@ static void check_chi_square(const lobe *lobe, float roughness, float cosine)
         const float angle = 2.0f * CS_PI * ((float)x + 0.5f) / (ACROSS * STEPS);
         const float in[3] = {sqrtf(1.0f - z * z) * cosf(angle), sqrtf(1.0f - z * z) * sinf(angle),
                              z};
-        const double part = (double)cs_bsdf_density(&surface, out, in) * 4.0 * (double)CS_PI /
+        const double part = (double)value_of(&surface, out, in).density * 4.0 * (double)CS_PI /
                             (ACROSS * DOWN * STEPS * STEPS);
         expected[y / STEPS * ACROSS + x / STEPS] += part * DRAWS;
         total += part;
     }
     for (cs_u32 i = 0; i < DRAWS; i++) {
         const cs_pair pair = {unit_number(1, i), unit_number(2, i)};
-        const cs_bsdf_direction drawn = cs_bsdf_sample(&surface, out, pair, unit_number(3, i));
-        if (!(drawn.density > 0.0f)) continue;
+        const cs_bsdf_direction drawn = draw(&surface, out, pair, unit_number(3, i));
+        if (!(drawn.value.density > 0.0f)) continue;
         double angle = atan2((double)drawn.in[1], (double)drawn.in[0]) / (2.0 * (double)CS_PI);
         if (angle < 0.0) angle += 1.0;
         int x = (int)(angle * ACROSS), y = (int)((0.5 + 0.5 * (double)drawn.in[2]) * DOWN);

@@ -215,6 +215,32 @@ static void previews_do_not_disturb(void **state)
     clshear_settings_free(settings);
 }
 
+static void count_line(void *user, const char *line)
+{
+    int *count = user;
+    assert_non_null(strstr(line, "the render goes on"));
+    ++*count;
+}
+
+/* A checkpoint that cannot be written is an alarm, told once; without one it is a warning. */
+static void lost_work_is_an_alarm(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = settings_of(made, 4096);
+    int alarms = 0;
+    test_set(settings, CLSHEAR_CHECKPOINT, "%s", test_path("no/such/folder/state"));
+    test_set(settings, CLSHEAR_EVERY, "0");
+    clshear_context_set_alarm(made->context, count_line, &alarms);
+    test_warnings();
+    clshear_film_free(test_render(made->scene, settings));
+    assert_int_equal(alarms, 1);
+    assert_string_equal(test_warnings(), "");
+    clshear_context_set_alarm(made->context, NULL, NULL);
+    clshear_film_free(test_render(made->scene, settings));
+    assert_non_null(strstr(test_warnings(), "the render goes on"));
+    clshear_settings_free(settings);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -222,6 +248,7 @@ int main(void)
         cmocka_unit_test(other_renders_do_not_go_on),
         cmocka_unit_test(damaged_checkpoints_are_refused),
         cmocka_unit_test(previews_do_not_disturb),
+        cmocka_unit_test(lost_work_is_an_alarm),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);
 }

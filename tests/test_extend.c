@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "clshear/analysis.h"
+
 static clshear_settings *settings_of(test_fixture *made, const char *sampler, uint32_t spp)
 {
     clshear_settings *settings = test_settings(made->settings, 24, 24, spp);
@@ -124,6 +126,38 @@ static void an_interrupted_extension_is_whole(void **state)
     clshear_settings_free(settings);
 }
 
+/* An even environment of 4 x 2 texels, as a file. */
+static const char *environment_of(float radiance)
+{
+    static const char *const names[3] = {"R", "G", "B"};
+    const char *path = test_path("sky.exr");
+    float texels[8];
+    for (int i = 0; i < 8; i++)
+        texels[i] = radiance;
+    const float *const planes[3] = {texels, texels, texels};
+    test_ok(clshear_image_write(path, 4, 2, 3, names, planes));
+    return path;
+}
+
+/* A file that has the same name and another picture is another environment. */
+static void another_environment_is_refused(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = settings_of(made, "sz", 64);
+    clshear_film *more = NULL;
+    test_set(settings, CLSHEAR_ENVIRONMENT, "%s", environment_of(1.0f));
+    clshear_film *film = test_render(made->scene, settings);
+    test_set(settings, CLSHEAR_SPP, "128");
+    environment_of(2.0f);
+    test_refused(clshear_render_extend(made->scene, settings, film, &more), CLSHEAR_BAD_ARGUMENT,
+                 "another environment image");
+    environment_of(1.0f);
+    test_ok(clshear_render_extend(made->scene, settings, film, &more));
+    clshear_film_free(more);
+    clshear_film_free(film);
+    clshear_settings_free(settings);
+}
+
 static int stop_at_once(void *user, const clshear_progress *progress)
 {
     (void)user, (void)progress;
@@ -201,6 +235,7 @@ int main(void)
         cmocka_unit_test(an_extension_that_never_began_is_whole),
         cmocka_unit_test(the_choice_of_the_pilot_stays),
         cmocka_unit_test(mismatched_bases_are_refused),
+        cmocka_unit_test(another_environment_is_refused),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);
 }

@@ -338,10 +338,12 @@ static void directions_follow_their_density(void **state)
     }
     assert_near(total, 1.0, 1e-4);
     for (cs_u32 i = 0; i < DRAWS; i++) {
-        float direction[3], x, y;
-        const float density = cs_lat_long_draw(&image, (float)(cs_key(1, i) >> 8) * 0x1p-24f,
-                                               (float)(cs_key(2, i) >> 8) * 0x1p-24f, direction);
+        float direction[3], x, y, drawn_x = (float)(cs_key(1, i) >> 8) * 0x1p-24f;
+        float drawn_y = (float)(cs_key(2, i) >> 8) * 0x1p-24f;
+        const float density = cs_lat_long_draw(&image, &drawn_x, &drawn_y, direction);
         cs_lat_long_place(&image, direction, &x, &y);
+        assert_near(drawn_x, x, 1e-4);
+        assert_near(drawn_y, y, 1e-4);
         if (i < 1000) assert_near(density, density_of(&image, direction), 1e-3 * (double)density);
         seen[cs_cell_at(y * DOWN, DOWN) * ACROSS + cs_cell_at(x * ACROSS, ACROSS)] += 1.0;
     }

@@ -1,34 +1,16 @@
 /* Scene files as the device sees them: wraps, colours of vertices, cameras, smoothness, places far
- * from the origin. Uses the public interface alone. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+ * from the origin. */
+#include "support.h"
 
 #include <math.h>
 #include <stdio.h>
 
-#include "clshear/clshear.h"
-
 static clshear_context *context;
-static char warnings[2048];
-
-static void collect(void *user, const char *line)
-{
-    const size_t used = strlen(warnings);
-    (void)user;
-    snprintf(warnings + used, sizeof warnings - used, "%s\n", line);
-}
 
 static int open_context(void **state)
 {
     (void)state;
-    if (clshear_context_create(NULL, &context) != CLSHEAR_OK) return -1;
-    clshear_context_set_warning(context, collect, NULL);
+    context = test_context();
     return 0;
 }
 
@@ -39,27 +21,6 @@ static int close_context(void **state)
     return 0;
 }
 
-static void ok(clshear_status status)
-{
-    if (status != CLSHEAR_OK) fail_msg("%s", clshear_message());
-}
-
-static const char *write_file(const char *name, const void *bytes, size_t size)
-{
-    static char path[512];
-    snprintf(path, sizeof path, "%s/%s", SCRATCH, name);
-    FILE *stream = fopen(path, "wb");
-    assert_non_null(stream);
-    assert_int_equal(fwrite(bytes, 1, size, stream), size);
-    fclose(stream);
-    return path;
-}
-
-static const char *write_text(const char *name, const char *text)
-{
-    return write_file(name, text, strlen(text));
-}
-
 /* Settings for one pixel that is lit head-on, so that radiance is albedo: by a point light at
  * distance 1 with intensity pi. */
 static clshear_settings *look_at(double x, double y, double z)
@@ -68,15 +29,15 @@ static clshear_settings *look_at(double x, double y, double z)
     const double eye[3] = {x, y, z + 2}, target[3] = {x, y, z};
     const double light[6] = {x, y, z + 1, pi, pi, pi};
     clshear_settings *settings = NULL;
-    ok(clshear_settings_create(&settings));
-    ok(clshear_settings_set_integer(settings, CLSHEAR_WIDTH, 1));
-    ok(clshear_settings_set_integer(settings, CLSHEAR_HEIGHT, 1));
-    ok(clshear_settings_set_integer(settings, CLSHEAR_SPP, 4));
-    ok(clshear_settings_set_number(settings, CLSHEAR_FOV, 0.05));
-    ok(clshear_settings_set_number(settings, CLSHEAR_LENS_RADIUS, 0.0));
-    ok(clshear_settings_set_numbers(settings, CLSHEAR_EYE, eye, 3));
-    ok(clshear_settings_set_numbers(settings, CLSHEAR_TARGET, target, 3));
-    ok(clshear_settings_set_numbers(settings, CLSHEAR_LIGHT, light, 6));
+    test_ok(clshear_settings_create(&settings));
+    test_ok(clshear_settings_set_integer(settings, CLSHEAR_WIDTH, 1));
+    test_ok(clshear_settings_set_integer(settings, CLSHEAR_HEIGHT, 1));
+    test_ok(clshear_settings_set_integer(settings, CLSHEAR_SPP, 4));
+    test_ok(clshear_settings_set_number(settings, CLSHEAR_FOV, 0.05));
+    test_ok(clshear_settings_set_number(settings, CLSHEAR_LENS_RADIUS, 0.0));
+    test_ok(clshear_settings_set_numbers(settings, CLSHEAR_EYE, eye, 3));
+    test_ok(clshear_settings_set_numbers(settings, CLSHEAR_TARGET, target, 3));
+    test_ok(clshear_settings_set_numbers(settings, CLSHEAR_LIGHT, light, 6));
     return settings;
 }
 
@@ -87,7 +48,7 @@ static void expect_colour(clshear_scene *scene, double x, double y, double z, fl
     const char *names[3] = {"R", "G", "B"};
     clshear_settings *settings = look_at(x, y, z);
     clshear_film *film = NULL;
-    ok(clshear_render(scene, settings, &film));
+    test_ok(clshear_render(scene, settings, &film));
     for (int c = 0; c < 3; c++) {
         const float value = *clshear_film_channel(film, names[c]);
         if (!(fabsf(value - expected[c]) < 0.01f))
@@ -101,8 +62,8 @@ static void expect_colour(clshear_scene *scene, double x, double y, double z, fl
 static clshear_scene *load(const char *path, const clshear_settings *settings)
 {
     clshear_scene *scene = NULL;
-    warnings[0] = '\0';
-    ok(clshear_scene_load(context, path, settings, &scene));
+    test_warnings(); /* of what was before */
+    test_ok(clshear_scene_load(context, path, settings, &scene));
     return scene;
 }
 
@@ -116,13 +77,12 @@ static void maps_beyond_their_edges(void **state)
     static const char *const wraps[2] = {"10497", "33648"};
     char text[2048];
     (void)state;
-    write_file("wrap.ppm", picture, sizeof picture);
-    write_text("wrap.mtl", "newmtl t\nKd 1 1 1\nmap_Kd -clamp on wrap.ppm\n");
-    clshear_scene *scene =
-        load(write_text("wrap.obj", "mtllib wrap.mtl\nv 0 0 0\nv 3 0 0\nv 3 3 0\n"
-                                    "v 0 3 0\nvt -1 -1\nvt 2 -1\nvt 2 2\n"
-                                    "vt -1 2\nusemtl t\nf 1/1 2/2 3/3 4/4\n"),
-             NULL);
+    test_bytes("wrap.ppm", picture, sizeof picture);
+    test_file("wrap.mtl", "newmtl t\nKd 1 1 1\nmap_Kd -clamp on wrap.ppm\n");
+    clshear_scene *scene = load(test_file("wrap.obj", "mtllib wrap.mtl\nv 0 0 0\nv 3 0 0\nv 3 3 0\n"
+                                                      "v 0 3 0\nvt -1 -1\nvt 2 -1\nvt 2 2\n"
+                                                      "vt -1 2\nusemtl t\nf 1/1 2/2 3/3 4/4\n"),
+                                NULL);
     expect_colour(scene, 1.25, 1.25, 0, 0, 0, 1);
     expect_colour(scene, 0.2, 0.2, 0, 0, 0, 1);
     expect_colour(scene, 2.8, 0.1, 0, 1, 1, 1);
@@ -145,7 +105,7 @@ static void maps_beyond_their_edges(void **state)
                  "\"buffers\":[{\"byteLength\":32,\"uri\":\"data:;base64,"
                  "AAAAAAEAAAAAAQAAAQEAAAABAAABAQAAAAAAAAEAAAA=\"}]}",
                  wraps[mirror], wraps[mirror]);
-        scene = load(write_text("wrap.gltf", text), NULL);
+        scene = load(test_file("wrap.gltf", text), NULL);
         expect_colour(scene, 1.25, 1.25, 0, 0, 0, 1);
         if (mirror)
             expect_colour(scene, 0.25, 1.25, 0, 1, 1, 1);
@@ -163,10 +123,10 @@ static void maps_beyond_their_edges(void **state)
 static void vertices_have_colours(void **state)
 {
     (void)state;
-    write_text("half.mtl", "newmtl h\nKd 0.5 0.5 0.5\n");
+    test_file("half.mtl", "newmtl h\nKd 0.5 0.5 0.5\n");
     clshear_scene *scene =
-        load(write_text("ramp.obj", "mtllib half.mtl\nusemtl h\nv -1 -1 0 1 0 0\nv 1 -1 0 0 1 0\n"
-                                    "v 1 1 0 0 1 0\nv -1 1 0 1 0 0\nf 1 2 3 4\n"),
+        load(test_file("ramp.obj", "mtllib half.mtl\nusemtl h\nv -1 -1 0 1 0 0\nv 1 -1 0 0 1 0\n"
+                                   "v 1 1 0 0 1 0\nv -1 1 0 1 0 0\nf 1 2 3 4\n"),
              NULL);
     expect_colour(scene, -0.9, 0.3, 0, 0.475f, 0.025f, 0);
     expect_colour(scene, 0.5, -0.2, 0, 0.125f, 0.375f, 0);
@@ -181,20 +141,20 @@ static void far_scenes_look_alike(void **state)
     clshear_settings *settings = NULL;
     (void)state;
     clshear_scene *scene =
-        load(write_text("far.obj", "v 500000 4649776 100\nv 500002 4649776 100\n"
-                                   "v 500002 4649778 100\nv 500000 4649778 100\nf 1 2 3 4\n"),
+        load(test_file("far.obj", "v 500000 4649776 100\nv 500002 4649776 100\n"
+                                  "v 500002 4649778 100\nv 500000 4649778 100\nf 1 2 3 4\n"),
              NULL);
-    assert_non_null(strstr(warnings, "far from the origin, at 500001,4649777,100;"));
+    assert_non_null(strstr(test_warnings(), "far from the origin, at 500001,4649777,100;"));
     expect_colour(scene, 500000.125, 4649777.5, 100, 0.5f, 0.5f, 0.5f);
     expect_colour(scene, 499999.875, 4649777.5, 100, 0, 0, 0); /* beside it */
-    ok(clshear_settings_create(&settings));
-    ok(clshear_settings_set_text(settings, CLSHEAR_ORBIT, "0,0"));
-    ok(clshear_camera_complete(scene, settings));
-    ok(clshear_settings_get_numbers(settings, CLSHEAR_EYE, eye, 3, &count));
+    test_ok(clshear_settings_create(&settings));
+    test_ok(clshear_settings_set_text(settings, CLSHEAR_ORBIT, "0,0"));
+    test_ok(clshear_camera_complete(scene, settings));
+    test_ok(clshear_settings_get_numbers(settings, CLSHEAR_EYE, eye, 3, &count));
     assert_true(eye[0] == 500001.0 && eye[1] == 4649777.0 && eye[2] > 102.0 && eye[2] < 104.0);
     const clshear_light light = {
         .struct_size = sizeof light, .position = {500001, 4649777, 101}, .colour = {3, 3, 3}};
-    ok(clshear_scene_add_light(scene, &light));
+    test_ok(clshear_scene_add_light(scene, &light));
     clshear_settings_free(settings);
     clshear_scene_free(scene);
 }
@@ -206,17 +166,17 @@ static void cameras_are_chosen(void **state)
     clshear_settings *settings = NULL;
     (void)state;
     clshear_scene *scene = load(
-        write_text("cameras.gltf",
-                   "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0},{\"camera\":0,"
-                   "\"translation\":[0,0,5]},{\"camera\":1,\"translation\":[0,0,9]}],"
-                   "\"cameras\":[{\"name\":\"near\",\"type\":\"perspective\",\"perspective\":"
-                   "{\"yfov\":0.5}},{\"name\":\"far\",\"type\":\"orthographic\",\"orthographic\":"
-                   "{\"xmag\":2,\"ymag\":1.5}}],\"meshes\":[{\"primitives\":[{\"attributes\":{"
-                   "\"POSITION\":0}"
-                   "}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5121,\"count\":3,"
-                   "\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":12,"
-                   "\"byteStride\":4}],\"buffers\":[{\"byteLength\":12,"
-                   "\"uri\":\"data:;base64,AAAAAAEAAAAAAQAA\"}]}"),
+        test_file("cameras.gltf",
+                  "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0},{\"camera\":0,"
+                  "\"translation\":[0,0,5]},{\"camera\":1,\"translation\":[0,0,9]}],"
+                  "\"cameras\":[{\"name\":\"near\",\"type\":\"perspective\",\"perspective\":"
+                  "{\"yfov\":0.5}},{\"name\":\"far\",\"type\":\"orthographic\",\"orthographic\":"
+                  "{\"xmag\":2,\"ymag\":1.5}}],\"meshes\":[{\"primitives\":[{\"attributes\":{"
+                  "\"POSITION\":0}"
+                  "}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5121,\"count\":3,"
+                  "\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":12,"
+                  "\"byteStride\":4}],\"buffers\":[{\"byteLength\":12,"
+                  "\"uri\":\"data:;base64,AAAAAAEAAAAAAQAA\"}]}"),
         NULL);
     assert_string_equal(clshear_scene_camera(scene, 1), "far");
     assert_null(clshear_scene_camera(scene, 2));
@@ -225,22 +185,22 @@ static void cameras_are_chosen(void **state)
         double z, width; /* 0: in perspective. The picture is twice as high as wide */
     } cases[] = {{NULL, 5, 0}, {"far", 9, 1.5}, {"0", 5, 0}, {"1", 9, 1.5}};
     for (int i = 0; i < 4; i++) {
-        ok(clshear_settings_create(&settings));
+        test_ok(clshear_settings_create(&settings));
         if (cases[i].name != NULL)
-            ok(clshear_settings_set_text(settings, CLSHEAR_CAMERA, cases[i].name));
-        ok(clshear_settings_set_integer(settings, CLSHEAR_WIDTH, 256));
-        ok(clshear_camera_complete(scene, settings));
-        ok(clshear_settings_get_numbers(settings, CLSHEAR_EYE, eye, 3, &count));
+            test_ok(clshear_settings_set_text(settings, CLSHEAR_CAMERA, cases[i].name));
+        test_ok(clshear_settings_set_integer(settings, CLSHEAR_WIDTH, 256));
+        test_ok(clshear_camera_complete(scene, settings));
+        test_ok(clshear_settings_get_numbers(settings, CLSHEAR_EYE, eye, 3, &count));
         assert_true(eye[2] == cases[i].z);
         const int parallel = clshear_settings_is_set(settings, CLSHEAR_ORTHOGRAPHIC);
         assert_int_equal(clshear_settings_is_set(settings, CLSHEAR_FOV), !parallel);
         width = 0.0;
-        if (parallel) ok(clshear_settings_get_number(settings, CLSHEAR_ORTHOGRAPHIC, &width));
+        if (parallel) test_ok(clshear_settings_get_number(settings, CLSHEAR_ORTHOGRAPHIC, &width));
         assert_true(width == cases[i].width);
         clshear_settings_free(settings);
     }
-    ok(clshear_settings_create(&settings));
-    ok(clshear_settings_set_text(settings, CLSHEAR_CAMERA, "side"));
+    test_ok(clshear_settings_create(&settings));
+    test_ok(clshear_settings_set_text(settings, CLSHEAR_CAMERA, "side"));
     assert_int_equal(clshear_camera_complete(scene, settings), CLSHEAR_BAD_ARGUMENT);
     assert_string_equal(clshear_message(), "camera side: the scene has 2: 0 \"near\", 1 \"far\"");
     clshear_settings_free(settings);
@@ -272,7 +232,7 @@ static const char *write_3ds(const float corners[3][3])
     memcpy(bytes + used, &(uint16_t){0x4120}, 2);
     memcpy(bytes + used + 2, &(uint32_t){16}, 4);
     memcpy(bytes + used + 6, face, 10);
-    return write_file("one.3ds", bytes, sizeof bytes);
+    return test_bytes("one.3ds", bytes, sizeof bytes);
 }
 
 /* +Z is up by the format's convention, and coordinates are those of the file. */
@@ -292,11 +252,11 @@ static void up_is_z_in_3ds(void **state)
         clshear_settings *settings = NULL;
         double up[3];
         size_t count = 0;
-        ok(clshear_settings_create(&settings));
-        ok(clshear_settings_set_text(settings, CLSHEAR_ORBIT, "20,0"));
-        if (z_up >= 0) ok(clshear_settings_set_integer(settings, CLSHEAR_Z_UP, z_up));
-        ok(clshear_camera_complete(scene, settings));
-        ok(clshear_settings_get_numbers(settings, CLSHEAR_UP, up, 3, &count));
+        test_ok(clshear_settings_create(&settings));
+        test_ok(clshear_settings_set_text(settings, CLSHEAR_ORBIT, "20,0"));
+        if (z_up >= 0) test_ok(clshear_settings_set_integer(settings, CLSHEAR_Z_UP, z_up));
+        test_ok(clshear_camera_complete(scene, settings));
+        test_ok(clshear_settings_get_numbers(settings, CLSHEAR_UP, up, 3, &count));
         for (int axis = 0; axis < 3; axis++)
             assert_true(fabs(up[axis] - ups[z_up != 0][axis]) < 1e-6);
         clshear_settings_free(settings);
@@ -309,14 +269,13 @@ static void smoothness_is_a_setting(void **state)
 {
     clshear_settings *settings = NULL;
     (void)state;
-    const char *path =
-        write_text("roof.obj", "v -1 -1 -1\nv 0 -1 0\nv 0 1 0\nv -1 1 -1\nv 1 -1 -1\n"
-                               "v 1 1 -1\nf 1 2 3 4\nf 2 5 6 3\n");
+    const char *path = test_file("roof.obj", "v -1 -1 -1\nv 0 -1 0\nv 0 1 0\nv -1 1 -1\nv 1 -1 -1\n"
+                                             "v 1 1 -1\nf 1 2 3 4\nf 2 5 6 3\n");
     clshear_scene *scene = load(path, NULL);
     expect_colour(scene, -0.001, 0, 0, 0.3536f, 0.3536f, 0.3536f); /* cos 45 of 0.5 */
     clshear_scene_free(scene);
-    ok(clshear_settings_create(&settings));
-    ok(clshear_settings_set_number(settings, CLSHEAR_SMOOTH, 100.0));
+    test_ok(clshear_settings_create(&settings));
+    test_ok(clshear_settings_set_number(settings, CLSHEAR_SMOOTH, 100.0));
     scene = load(path, settings);
     expect_colour(scene, -0.001, 0, 0, 0.5f, 0.5f, 0.5f);
     clshear_scene_free(scene);

@@ -3,6 +3,9 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <time.h>
+
+#include "base/status.h"
 
 static clshear_settings *settings_of(test_fixture *made, int size, const char *sampler)
 {
@@ -156,10 +159,12 @@ static void the_promised_error_is_kept(void **state)
     clshear_settings_free(settings);
 }
 
-/* Time ends a render within its time, at a whole round: the variance is there. */
+/* Time ends a render within its time, at a whole round: the variance is there. The time is the
+ * processor's, of this program: it does not pass while others take turns. */
 static void time_ends_a_render(void **state)
 {
     test_fixture *made = *state;
+    cs_clock = CLOCK_PROCESS_CPUTIME_ID;
     clshear_settings *settings = settings_of(made, 64, "sz");
     test_set(settings, CLSHEAR_TIME, "1.5");
     test_set(settings, CLSHEAR_SPP, "1000000");
@@ -167,7 +172,8 @@ static void time_ends_a_render(void **state)
     const clshear_film_info info = test_film_info(film);
     assert_true(info.complete);
     assert_string_equal(info.stopped_by, "time");
-    assert_at_most(info.render_s, 3.0); /* twice: other processes take turns */
+    cs_clock = CLOCK_MONOTONIC;
+    assert_at_most(info.render_s, 3.0); /* twice */
     assert_at_least(info.samples, 64 * 64 * 64);
     assert_non_null(clshear_film_channel(film, "Variance.G"));
     clshear_film_free(film);

@@ -2,12 +2,14 @@
  * samples through Embree.
  *
  *   bench_frame [--mesh box|spheres|terrain] [--triangles N] [--spp N] [--size PX] [--rounds N]
- *               [--threads N] [--packet W] [--lens R] [--sampler NAME] [--aperture disk|square]
- *               [--json FILE]
+ *               [--threads N] [--packet W] [--lens R] [--sampler NAME]
+ *               [--aperture disk|square|hexagon] [--filter NAME] [--blur PX] [--json FILE]
  *
  * Embree receives precomputed camera rays in the kernel's order: its time is intersection, shading,
  * occlusion and sums. Drawing and shearing the same tuples, with the kernel's vector code
- * (cs_draw_sum), is timed separately and added in a second ratio. Rounds are interleaved. The
+ * (cs_draw_sum, with a shear of --blur pixels in every pixel), is timed separately and added in a
+ * second ratio. What it takes of the frame is a ratio of CPU times, unsheared tuples beside sheared
+ * ones: each the least of all rounds. Rounds are interleaved. The
  * medians of their ratios are printed against medium and high quality, with one, 8 or 16 rays or
  * streams at a time. The kernel's time is also compared with cs_trace on the same rays: the rest is
  * the time without traversal. Exits with 1 if the two pictures differ. */
@@ -30,7 +32,8 @@ static const float intensity = 2.0f;
 typedef struct bench {
     bench_view view;
     int rounds, packet;
-    const char *json, *sampler, *aperture;
+    double blur_px; /* shear of the tuples that are drawn alone */
+    const char *json, *sampler, *aperture, *filter;
     clshear_context *context;
     clshear_scene *scene;
     clshear_settings *settings;
@@ -61,17 +64,17 @@ static double embree_s(bench *state, int kind)
 }
 
 /* Measures drawing and shearing alone, for every pixel. */
-static double tuples_s(bench *state)
+static double tuples_s(bench *state, cs_u32 shear_mode)
 {
     const bench_view *view = &state->view;
     cs_device *device = state->context->device;
     const cs_u32 pixels = (cs_u32)(view->size * view->size);
-    const float shear_px = 3.0f;
+    const float shear_px = (float)state->blur_px;
     cs_buffer *rows = NULL;
     cs_launch frame = {.camera = view->frame,
                        .pattern = view->pattern,
                        .pixel_count = pixels,
-                       .shear_mode = CS_SHEAR_EQUAL_AREA};
+                       .shear_mode = shear_mode};
     cs_error *error = cs_thread_error();
     bench_must(cs_table_cache_find(&state->context->tables, device, &view->pattern, &rows, error));
     const cs_argument arguments[] = {{.value = &frame, .size = sizeof frame},
@@ -203,6 +206,7 @@ static double difference(const bench *state)
 
 typedef struct times {
     double kernel[BENCH_MOST_ROUNDS], tuples[BENCH_MOST_ROUNDS];
+    double frame_cpu, tuples_cpu[2]; /* least CPU seconds; unsheared tuples, then sheared ones */
     double trace[2][BENCH_MOST_ROUNDS];
     double embree[KINDS][BENCH_MOST_ROUNDS];
 } times;
@@ -211,12 +215,20 @@ static void measure_rounds(bench *state, times *t)
 {
     const ray_planes *rays = &state->view.rays;
     kernel_s(state); /* compiles the kernel */
-    tuples_s(state);
+    tuples_s(state, CS_SHEAR_EQUAL_AREA);
+    t->frame_cpu = t->tuples_cpu[0] = t->tuples_cpu[1] = INFINITY;
     for (int round = 0; round < state->rounds; round++) {
         for (int kind = 0; kind < KINDS; kind++)
             t->embree[kind][round] = embree_s(state, kind);
+        const double start = bench_cpu_s();
         t->kernel[round] = kernel_s(state);
-        t->tuples[round] = tuples_s(state);
+        const double drawn = bench_cpu_s();
+        t->tuples[round] = tuples_s(state, CS_SHEAR_EQUAL_AREA);
+        const double sheared = bench_cpu_s();
+        tuples_s(state, CS_SHEAR_NONE);
+        t->frame_cpu = fmin(t->frame_cpu, drawn - start);
+        t->tuples_cpu[0] = fmin(t->tuples_cpu[0], bench_cpu_s() - sheared);
+        t->tuples_cpu[1] = fmin(t->tuples_cpu[1], sheared - drawn);
     }
     upload(state, rays->origins, rays->directions);
     trace_s(state, 0, rays->reach);
@@ -244,6 +256,7 @@ static void report(bench *state, times *t)
     bench_record_number(record, "spp", state->view.spp);
     bench_record_text(record, "sampler", cs_sampler_name(state->view.sampler));
     bench_record_text(record, "aperture", state->aperture);
+    bench_record_text(record, "filter", state->filter);
     printf("| Embree | Msamples/s | ratio, tuples for free | ratio, with tuples |\n"
            "|---|---|---|---|\n");
     for (int kind = 0; kind < KINDS; kind++) {
@@ -261,18 +274,21 @@ static void report(bench *state, times *t)
                kind % 2 ? "high" : "medium", samples / bench_median(t->embree[kind], rounds),
                without, with);
     }
-    const double kernel = bench_median(t->kernel, rounds), tuples = bench_median(t->tuples, rounds);
+    const double kernel = bench_median(t->kernel, rounds);
+    const double tuples = t->tuples_cpu[1] / t->frame_cpu;
     const double traced = t->trace[0][0] + t->trace[1][0];
-    printf("kernel %.2f Msamples/s; tuples %.0f %%, traversal %.0f %% of it, the rest %.0f %%\n"
+    printf("kernel %.2f Msamples/s; tuples and map %.1f %% of it (%.1f %% without shear), "
+           "traversal %.0f %%, all but traversal %.0f %%\n"
            "ratio %.2f (%.2f with tuples) to single rays, %.2f (%.2f) to Embree's best\n\n",
-           samples / kernel, 100.0 * tuples / kernel, 100.0 * traced, 100.0 * (1.0 - traced),
-           best_free[0], best[0], best_free[1], best[1]);
+           samples / kernel, 100.0 * tuples, 100.0 * t->tuples_cpu[0] / t->frame_cpu,
+           100.0 * traced, 100.0 * (1.0 - traced), best_free[0], best[0], best_free[1], best[1]);
     bench_record_number(record, "msamples_per_s", samples / kernel);
     bench_record_number(record, "ratio_single_free", best_free[0]);
     bench_record_number(record, "ratio_single", best[0]);
     bench_record_number(record, "ratio_best_free", best_free[1]);
     bench_record_number(record, "ratio_best", best[1]);
-    bench_record_number(record, "share_tuples", tuples / kernel);
+    bench_record_number(record, "blur_px", state->blur_px);
+    bench_record_number(record, "share_tuples", tuples);
     bench_record_number(record, "share_traversal", traced);
     bench_record_end(record);
 }
@@ -295,6 +311,23 @@ static void close_all(bench *state)
     bench_view_close(&state->view);
 }
 
+/* Reads the names of aperture and filter, as settings do; a hexagon is a polygon of six blades. */
+static void choose_optics(bench *state)
+{
+    bench_view *view = &state->view;
+    int64_t aperture = 0, filter = 0;
+    const int is_hexagon = strcmp(state->aperture, "hexagon") == 0;
+    clshear_settings *settings = bench_settings(NULL);
+    bench_set_text(settings, CLSHEAR_APERTURE, is_hexagon ? "polygon" : state->aperture);
+    bench_set_text(settings, CLSHEAR_FILTER, state->filter);
+    bench_must(clshear_settings_get_integer(settings, CLSHEAR_APERTURE, &aperture));
+    bench_must(clshear_settings_get_integer(settings, CLSHEAR_FILTER, &filter));
+    view->aperture = (clshear_aperture)aperture;
+    view->filter = (clshear_filter)filter;
+    view->blades = is_hexagon ? 6 : 0;
+    clshear_settings_free(settings);
+}
+
 int main(int argc, char **argv)
 {
     bench state = {.view = {.mesh = "spheres",
@@ -303,7 +336,9 @@ int main(int argc, char **argv)
                             .spp = 64,
                             .lens_radius = 0.05},
                    .rounds = 5,
-                   .aperture = "disk"};
+                   .blur_px = 3.0,
+                   .aperture = "disk",
+                   .filter = "box"};
     static times t;
     bench_view *view = &state.view;
     const bench_flag flags[] = {BENCH_VIEW_FLAGS(view),
@@ -311,6 +346,8 @@ int main(int argc, char **argv)
                                 {.name = "packet", .number = &state.packet},
                                 {.name = "sampler", .text = &state.sampler},
                                 {.name = "aperture", .text = &state.aperture},
+                                {.name = "filter", .text = &state.filter},
+                                {.name = "blur", .real = &state.blur_px},
                                 {.name = "json", .text = &state.json}};
     bench_read_flags(argc, argv, flags, sizeof flags / sizeof *flags);
     state.rounds = bench_rounds(state.rounds);
@@ -319,15 +356,16 @@ int main(int argc, char **argv)
         fprintf(stderr, "bench_frame: %s\n", error.message);
         return 2;
     }
-    view->square = strcmp(state.aperture, "square") == 0;
+    choose_optics(&state);
     bench_view_open(view);
     open_scene(&state);
     reserve(&state);
-    printf("%s, %zu triangles, %d x %d pixels, %d samples of %s, %s aperture, packets of %d, %d "
+    printf("%s, %zu triangles, %d x %d pixels, %d samples of %s, %s aperture, %s filter, packets "
+           "of %d, %d "
            "threads\n\n",
            view->mesh, cs_scene_triangle_count(&view->scene), view->size, view->size, view->spp,
-           cs_sampler_name(view->sampler), state.aperture, cs_device_packet(state.context->device),
-           cs_device_threads(state.context->device));
+           cs_sampler_name(view->sampler), state.aperture, state.filter,
+           cs_device_packet(state.context->device), cs_device_threads(state.context->device));
     measure_rounds(&state, &t);
     report(&state, &t);
     const double off = difference(&state);

@@ -38,11 +38,12 @@ static void place_camera(bench_view *view, cs_error *error)
     memcpy(camera->target, target, sizeof target);
     memcpy(view->light, light, sizeof light);
     camera->lens_radius = (float)view->lens_radius;
-    camera->aperture = view->square ? CLSHEAR_APERTURE_SQUARE : CLSHEAR_APERTURE_DISK;
+    camera->aperture = view->aperture;
+    camera->blades = view->blades;
     camera->focal_distance = 1.5f;
     camera->fov_deg = 45.0f;
     must(cs_camera_frame(camera, view->size, view->size, &view->frame, error), error);
-    must(cs_optics_make(&view->camera, CLSHEAR_FILTER_BOX, 0.0f, &view->optics, error), error);
+    must(cs_optics_make(&view->camera, view->filter, 0.0f, &view->optics, error), error);
     view->frame.optics = view->optics.optics;
 }
 
@@ -56,7 +57,9 @@ clshear_settings *bench_view_settings(const bench_view *view)
     bench_set(settings, CLSHEAR_FOV, (double)camera->fov_deg);
     bench_set(settings, CLSHEAR_LENS_RADIUS, (double)camera->lens_radius);
     bench_set(settings, CLSHEAR_FOCAL_DISTANCE, (double)camera->focal_distance);
+    if (camera->blades > 0) bench_set(settings, CLSHEAR_BLADES, camera->blades);
     bench_set(settings, CLSHEAR_APERTURE, camera->aperture);
+    bench_set(settings, CLSHEAR_FILTER, view->filter);
     bench_set(settings, CLSHEAR_WIDTH, view->size);
     bench_set(settings, CLSHEAR_HEIGHT, view->size);
     return settings;

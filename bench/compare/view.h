@@ -16,7 +16,9 @@ typedef struct bench_view {
     int threads;
     double lens_radius;
     cs_u32 sampler;
-    int square; /* 1: square aperture, 0: round */
+    clshear_aperture aperture;
+    int blades; /* of a polygon */
+    clshear_filter filter;
     cs_scene scene;
     cs_accel *accel;
     cs_flat_bvh bvh;
@@ -41,7 +43,7 @@ typedef struct bench_view {
     {.name = "lens", .real = &(view)->lens_radius}
 /* clang-format on */
 
-/* Fills in the members below `square`. On failure, prints a line and exits with 1. */
+/* Fills in the members below `filter`. On failure, prints a line and exits with 1. */
 void bench_view_open(bench_view *view);
 void bench_view_close(bench_view *view);
 

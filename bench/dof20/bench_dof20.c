@@ -17,7 +17,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "measure.h"
 
@@ -54,13 +53,6 @@ typedef struct errors {
     double relative; /* MSE */
     double variance; /* mean of the Variance channels, 0 without them */
 } errors;
-
-static double cpu_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static clshear_film_info info_of(const clshear_film *film)
 {
@@ -189,9 +181,9 @@ static void measure(bench *b, const method *how, size_t samples, int seed, clshe
         for (size_t m = 0; m < METHODS; m++) /* compiles */
             clshear_film_free(render_with(b, &methods[m], 16, 0));
     }
-    const double before = cpu_s();
+    const double before = bench_cpu_s();
     clshear_film *film = render_with(b, how, samples, seed);
-    const double took = cpu_s() - before;
+    const double took = bench_cpu_s() - before;
     const errors e = compare(film, reference);
     FILE *file = must_append(b->csv);
     fprintf(file, "%s%.6g,%.6g,%.6g,%.6g,%.6g\n", start, e.mse, e.relative, took, e.variance,

@@ -35,9 +35,8 @@ static inline cs_place cs_place_of(const cs_launch *launch, cs_u32 index, cs_u32
 /* Packets that are drawn before any of them is traced. Their draws do not depend on each other and
  * overlap in the processor; one by one they wait on their own latency. */
 typedef struct cs_drawn {
-    int count;              /* packets, at most CS_TOGETHER */
-    int place[CS_TOGETHER]; /* whose samples they are */
-    cs_f32 shear[CS_TOGETHER];
+    int count;                   /* packets, at most CS_TOGETHER */
+    int place[CS_TOGETHER];      /* whose samples they are */
     cs_vint active[CS_TOGETHER]; /* lanes that are samples of the pattern */
     cs_camera_sample point[CS_TOGETHER];
 #if CS_HAS(MOTION)
@@ -49,15 +48,24 @@ typedef struct cs_drawn {
 #endif
 } cs_drawn;
 
+/* Whether a shear leaves the second pair of its tuples nothing but the place on the fibre. A disk
+ * or a polygon with a shear of exactly 0 has none: the rule of its pixel is not to shear. */
+static inline int cs_keeps_fibre(const cs_launch *launch, cs_f32 shear)
+{
+    return launch->shear_mode == (cs_u32)CS_SHEAR_EQUAL_AREA &&
+           (shear != 0.0f || !cs_has_chord_map(&launch->camera.optics));
+}
+
 /* The pair of samples `index` for area lights. Under the equal-area shear it takes the place of the
  * lens's pair in `point`, a tuple, and the lens gets the light's own: the first pair decides what
  * is seen and the light's pair whether it is lit, while the lens's only moves along the fibre. So
  * those two should be the pair that the sampler makes together. */
 static inline cs_pair cs_draw_light(const cs_launch *launch, cs_sample_table sample_table,
-                                    cs_u32 key, cs_vuint index, cs_camera_sample *point)
+                                    cs_u32 key, cs_vuint index, cs_f32 shear,
+                                    cs_camera_sample *point)
 {
     cs_pair light = cs_draw_extra(&launch->pattern, sample_table, key, index, CS_SLOT_LIGHT);
-    if (launch->shear_mode != (cs_u32)CS_SHEAR_EQUAL_AREA) return light;
+    if (!cs_keeps_fibre(launch, shear)) return light;
     cs_pair lens = light;
     light.x = point->u;
     light.y = point->v;
@@ -86,9 +94,9 @@ static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sampl
     drawn->light[k].x = (cs_vfloat)(0.0f);
     drawn->light[k].y = (cs_vfloat)(0.0f);
     if (launch->area_lights > 0u)
-        drawn->light[k] = cs_draw_light(launch, sample_table, place->key, index, &point);
+        drawn->light[k] =
+            cs_draw_light(launch, sample_table, place->key, index, place->shear, &point);
     drawn->place[k] = number;
-    drawn->shear[k] = place->shear;
     drawn->active[k] = active;
 #if CS_HAS(MOTION)
     cs_vfloat time = cs_draw_time(&launch->pattern, sample_table, place->key, index,
@@ -99,8 +107,8 @@ static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sampl
     drawn->point[k] = moving.point;
     drawn->time[k] = cs_shutter_time(moving.time, launch->shutter);
 #else
-    drawn->point[k] =
-        cs_shear_alone(point, launch->shear_mode, &launch->camera.optics, lens_table, place->shear);
+    drawn->point[k] = cs_shear(point.x, point.y, point.u, point.v, launch->shear_mode,
+                               &launch->camera.optics, lens_table, place->shear);
 #endif
 #if CS_HAS(PATHS)
     drawn->index[k] = index;
@@ -117,10 +125,6 @@ static inline void cs_draw_packets(const cs_launch *launch, cs_sample_table samp
     for (int number = 0; number < count; number++)
         for (cs_u32 at = start; drawn->count < CS_TOGETHER && at < end; at += (cs_u32)CS_PACKET)
             cs_draw_packet(launch, sample_table, lens_table, places, number, at, end, drawn);
-#if !CS_HAS(MOTION)
-    cs_shear_together(drawn->point, drawn->shear, drawn->count, launch->shear_mode,
-                      &launch->camera.optics);
-#endif
 }
 
 #endif

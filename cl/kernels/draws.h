@@ -20,6 +20,12 @@ typedef struct cs_draws {
     cs_vuint index;
 } cs_draws;
 
+typedef struct cs_numbers {
+    cs_pair light;
+    cs_pair bsdf;
+    cs_pair choice;
+} cs_numbers;
+
 /* A pair for surface number `depth` of the paths. Each is padding with a key of its own, as well
  * stratified as the pairs of a tuple. */
 static inline cs_pair cs_draw_at(const cs_draws *draws, cs_u32 depth, cs_u32 purpose)

@@ -40,6 +40,19 @@ static inline void cs_radiance_add(cs_radiance *found, cs_u32 met, int colour, c
 #endif
 }
 
+/* The same in one lane. */
+static inline void cs_radiance_add_lane(cs_radiance *found, int lane, cs_u32 met, int colour,
+                                        cs_f32 light)
+{
+    ((cs_f32 *)&found->channel[colour])[lane] += light;
+#if CS_HAS(AOVS)
+    int first = met == 0u ? CS_PLANE_EMISSION : met == 1u ? CS_PLANE_DIRECT : CS_PLANE_INDIRECT;
+    ((cs_f32 *)&found->plane[first + colour])[lane] += light;
+#else
+    (void)met;
+#endif
+}
+
 /* Keeps what the planes tell of the surfaces that are seen first; other lanes stay. */
 static inline void cs_note_surface(const cs_surface *surface, cs_radiance *found)
 {

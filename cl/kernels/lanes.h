@@ -1,23 +1,105 @@
-/* Lanes of a packet one by one, for what has no vector form: loads from places of their own.
- * Shared.
+/* Loads from a place of its own in each lane, which have no vector form. Shared.
  *
- *     cs_float_each x;
- *     x.all = packet;
- *     for (int lane = 0; lane < CS_PACKET; lane++)
- *         CS_LANE(x) = table[(cs_u32)CS_LANE(x)]; */
+ * Everything around them, places and weights, is computed for all lanes at once. */
 #ifndef CS_KERNELS_LANES_H
 #define CS_KERNELS_LANES_H
 
 #include "clshear/device/packet.h"
 
+/* Integer parts of floats in [0, 2^31), as signed integers. */
+static inline cs_vint cs_whole(cs_vfloat x)
+{
+    return cs_as_vint(cs_to_vuint(x));
+}
+
 #ifdef CS_DEVICE
-#define CS_LANE(value) ((value).lane[lane])
-typedef cs_float_lanes cs_float_each;
+
+static inline cs_vfloat cs_from_whole(cs_vint x)
+{
+    return CS_OVER_LANES(convert_float)(x);
+}
+
+/* A packet of what `of` is at each lane; of four neighbours, a quarter of a packet each. Written
+ * out: lanes that are stored one by one cannot be loaded as a packet before all stores are done. */
+#if CS_PACKET == 16
+#define CS_EACH_LANE(of)                                                                      \
+    (cs_vfloat)(of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7), of(8), of(9), of(10), \
+                of(11), of(12), of(13), of(14), of(15))
+#define CS_QUARTER(of, q) (cs_vfloat)(of(4 * q), of(4 * q + 1), of(4 * q + 2), of(4 * q + 3))
+#define CS_TRANSPOSED(quarter, a, b, c, d)                                                    \
+    (cs_vfloat)(quarter[0].s##a##b##c##d, quarter[1].s##a##b##c##d, quarter[2].s##a##b##c##d, \
+                quarter[3].s##a##b##c##d)
+#elif CS_PACKET == 8
+#define CS_EACH_LANE(of) (cs_vfloat)(of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7))
+#elif CS_PACKET == 4
+#define CS_EACH_LANE(of) (cs_vfloat)(of(0), of(1), of(2), of(3))
 #else
-#define CS_LANE(value) ((value).all)
-typedef struct cs_float_each {
-    cs_vfloat all;
-} cs_float_each;
+#define CS_EACH_LANE(of) of(0)
 #endif
+
+/* table[index] in each lane. */
+static inline cs_vfloat cs_gather(CS_GLOBAL const cs_f32 *table, cs_vint index)
+{
+    cs_int_lanes place;
+    place.all = index;
+#define CS_ONE(i) table[place.lane[i]]
+    return CS_EACH_LANE(CS_ONE);
+#undef CS_ONE
+}
+
+/* Four neighbours, from table[index] on, in each lane. */
+static inline void cs_gather_four(CS_GLOBAL const cs_f32 *table, cs_vint index, cs_vfloat *found)
+{
+#if CS_PACKET == 16
+    cs_int_lanes place;
+    place.all = index;
+    cs_vfloat quarter[4];
+#define CS_ONE(i) vload4(0, table + place.lane[i])
+    quarter[0] = CS_QUARTER(CS_ONE, 0);
+    quarter[1] = CS_QUARTER(CS_ONE, 1);
+    quarter[2] = CS_QUARTER(CS_ONE, 2);
+    quarter[3] = CS_QUARTER(CS_ONE, 3);
+#undef CS_ONE
+    found[0] = CS_TRANSPOSED(quarter, 0, 4, 8, c);
+    found[1] = CS_TRANSPOSED(quarter, 1, 5, 9, d);
+    found[2] = CS_TRANSPOSED(quarter, 2, 6, a, e);
+    found[3] = CS_TRANSPOSED(quarter, 3, 7, b, f);
+#else
+    for (int i = 0; i < 4; i++)
+        found[i] = cs_gather(table, index + i);
+#endif
+}
+
+#else
+
+static inline cs_vfloat cs_from_whole(cs_vint x)
+{
+    return (cs_vfloat)x;
+}
+
+static inline cs_vfloat cs_gather(const cs_f32 *table, cs_vint index)
+{
+    return table[index];
+}
+
+static inline void cs_gather_four(const cs_f32 *table, cs_vint index, cs_vfloat *found)
+{
+    for (cs_i32 i = 0; i < 4; i++)
+        found[i] = table[index + i];
+}
+
+#endif
+
+/* Four neighbours from table[first] on and four from table[second] on, blended linearly: `part` is
+ * the weight of the second ones, 0 to 1. */
+static inline void cs_blend_four(CS_GLOBAL const cs_f32 *table, cs_vint first, cs_vint second,
+                                 cs_vfloat part, cs_vfloat *found)
+{
+    cs_vfloat other[4];
+    cs_gather_four(table, first, found);
+    cs_gather_four(table, second, other);
+    for (int i = 0; i < 4; i++)
+        found[i] += part * (other[i] - found[i]);
+}
 
 #endif

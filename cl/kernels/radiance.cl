@@ -3,6 +3,7 @@
 #include "clshear/device/shear.h"
 #include "kernels/motion.h"
 #include "kernels/path.h"
+#include "kernels/radiance.h"
 #include "launch.h"
 
 /* Shears a point of film, lens and, with the feature MOTION, time in place. */
@@ -76,8 +77,14 @@ __kernel void cs_radiance_at(const cs_launch launch, const uint x, const uint y,
     number = cs_hash_lanes(number + cs_as_vuint(point[CS_DIMENSIONS]));
 #endif
     cs_draws draws = {&launch.pattern, 0, launch.seed, number};
-    cs_radiance found =
-        cs_path_along(&scene, &launch, &ray, light, &draws, point[CS_AT_FILM] == point[CS_AT_FILM]);
+    cs_paths paths;
+    paths.launch = &launch;
+    cs_path_begin(&paths, 0, &ray, light, &draws, point[CS_AT_FILM] == point[CS_AT_FILM]);
+#if CS_HAS(MOVING)
+    paths.path[0].time = scene.time;
+#endif
+    cs_follow_paths(&scene, &paths, 1);
+    cs_radiance found = paths.found[0];
 #else
     cs_radiance found = cs_radiance_along(&scene, launch.lights, &ray, light,
                                           point[CS_AT_FILM] == point[CS_AT_FILM]);

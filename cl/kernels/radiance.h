@@ -9,14 +9,14 @@
 #include "kernels/hits.h"
 #include "kernels/light/escaped.h"
 
-/* Adds what a light reflects from the surface towards `out`. The shadow ray begins at `origin`, off
- * the surface, and ends where `light->towards` does: what the light gives does not shift. lights:
- * their number. */
+/* Adds what a light reflects from the surface that is in view. The shadow ray begins at `origin`,
+ * off the surface, and ends where `light->towards` does: what the light gives does not shift.
+ * lights: their number. */
 static inline void cs_add_light(const cs_scene_buffers *scene, cs_u32 lights,
-                                const cs_surface *surface, const cs_vfloat *origin,
-                                const cs_vfloat *out, const cs_light_sample *light,
-                                cs_radiance *radiance)
+                                const cs_bsdf_view *view, const cs_vfloat *origin,
+                                const cs_light_sample *light, cs_radiance *radiance)
 {
+    const cs_surface *surface = view->surface;
     cs_vint facing =
         surface->hit & (light->weight > 0.0f) & (cs_dot(surface->outward, light->towards) > 0.0f);
     if (!cs_any(facing)) return;
@@ -34,7 +34,7 @@ static inline void cs_add_light(const cs_scene_buffers *scene, cs_u32 lights,
 #else
     (void)lights;
 #endif
-    cs_bsdf_value bsdf = cs_bsdf_eval(surface, out, light->towards);
+    cs_bsdf_value bsdf = cs_bsdf_eval(view, light->towards);
     cs_vfloat weight = blocked.distance > 0.0f ? light->weight * bsdf.scale : (cs_vfloat)(0.0f);
     for (int c = 0; c < 3; c++)
         cs_radiance_add(radiance, 1u, c, weight * light->colour[c] * bsdf.colour[c]);
@@ -53,7 +53,7 @@ static inline void cs_add_escaped(const cs_scene_buffers *scene, cs_u32 lights, 
         cs_vint sees = active & (hit->triangle == (cs_vint)(CS_NO_HIT));
         cs_escaped found;
         if (light->kind == CS_LIGHT_ENVIRONMENT) {
-            found = cs_escape_to_environment(scene, light, ray, (cs_vfloat)(0.0f));
+            found = cs_escape_to_environment(scene, light, ray, (cs_vfloat)(0.0f), 0);
         } else if (cs_is_shape(light)) {
             sees = hit->triangle == (cs_vint)(cs_shape_hit(i));
             found = cs_escape_to_shape(light, ray);
@@ -91,9 +91,10 @@ static inline cs_radiance cs_radiance_along(const cs_scene_buffers *scene, cs_u3
         cs_radiance_add(&radiance, 0u, i, surface.emission[i]);
         out[i] = -ray->direction[i];
     }
+    cs_bsdf_view view = cs_bsdf_view_of(&surface, out);
     for (cs_u32 i = 0u; i < lights; i++) {
         cs_light_sample light = cs_sample_light(scene, scene->lights + i, &surface, light_pair);
-        cs_add_light(scene, lights, &surface, origin, out, &light, &radiance);
+        cs_add_light(scene, lights, &view, origin, &light, &radiance);
     }
     return radiance;
 }

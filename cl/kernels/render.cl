@@ -4,72 +4,155 @@
 #include "clshear/device/lens.h"
 #include "kernels/draw.h"
 #include "kernels/path.h"
+#include "kernels/radiance.h"
 
-static inline void cs_trace_packet(const cs_launch *launch, const cs_scene_buffers *scene,
-                                   cs_sample_table sample_table, const cs_place *place,
-                                   const cs_drawn *drawn, int packet, cs_radiance *radiance)
+/* A packet's camera: at rest, or where it is at the lanes' times. */
+static inline cs_eye cs_eye_of(const cs_launch *launch, const cs_drawn *drawn, int packet)
 {
-#if CS_HAS(MOVING)
-    cs_scene_buffers moved = *scene;
-    moved.time = drawn->time[packet];
-    scene = &moved;
-#endif
-    cs_camera_sample point = drawn->point[packet];
 #if CS_HAS(MOTION)
-    const cs_eye eye = cs_eye_at(launch, drawn->time[packet]);
-    cs_ray ray = cs_eye_ray(launch, &eye, point.x + (cs_f32)place->x, point.y + (cs_f32)place->y,
-                            point.u, point.v);
+    return cs_eye_at(launch, drawn->time[packet]);
 #else
-    const cs_eye eye = launch->camera;
-    cs_ray ray = cs_lens_ray(launch->camera, point.x + (cs_f32)place->x, point.y + (cs_f32)place->y,
-                             point.u, point.v);
+    (void)drawn;
+    (void)packet;
+    return launch->camera;
 #endif
-#if CS_HAS(PATHS)
-    cs_draws draws = {&launch->pattern, sample_table, place->key, drawn->index[packet]};
-    *radiance =
-        cs_path_along(scene, launch, &ray, drawn->light[packet], &draws, drawn->active[packet]);
-#else
-    (void)sample_table;
-    *radiance =
-        cs_radiance_along(scene, launch->lights, &ray, drawn->light[packet], drawn->active[packet]);
-#endif
-    cs_note_depth(&eye, radiance);
 }
 
-/* Samples at places `start` to `end` of the order of a few pixels, gathered and merged into them.
- * Of several pixels there are no more than are drawn together. */
+static inline cs_ray cs_camera_ray(const cs_launch *launch, const cs_eye *eye,
+                                   const cs_place *place, cs_camera_sample point)
+{
+#if CS_HAS(MOTION)
+    return cs_eye_ray(launch, eye, point.x + (cs_f32)place->x, point.y + (cs_f32)place->y, point.u,
+                      point.v);
+#else
+    (void)eye;
+    return cs_lens_ray(launch->camera, point.x + (cs_f32)place->x, point.y + (cs_f32)place->y,
+                       point.u, point.v);
+#endif
+}
+
+/* Updates of a pixel whose samples are traced together. */
+#if CS_HAS(PATHS)
+#define CS_FLUSHES CS_POOL_FLUSHES
+#else
+#define CS_FLUSHES 1
+#endif
+
+#if CS_HAS(PATHS)
+/* Traces the packets of CS_FLUSHES updates of one pixel, or of one of several pixels. radiance: of
+ * each packet, CS_TOGETHER for each update. */
+static inline void cs_trace_packets(const cs_launch *launch, const cs_scene_buffers *scene,
+                                    cs_sample_table sample_table, const cs_place *places,
+                                    const cs_drawn *drawn, int flushes, cs_radiance *radiance)
+{
+    cs_paths paths;
+    cs_radiance *wanted[CS_POOL];
+    int count = 0;
+    paths.launch = launch;
+    for (int f = 0; f < flushes; f++)
+        for (int packet = 0; packet < drawn[f].count; packet++) {
+            const cs_place *place = places + drawn[f].place[packet];
+            cs_draws draws = {&launch->pattern, sample_table, place->key, drawn[f].index[packet]};
+            const cs_eye eye = cs_eye_of(launch, drawn + f, packet);
+            cs_ray ray = cs_camera_ray(launch, &eye, place, drawn[f].point[packet]);
+            cs_path_begin(&paths, count, &ray, drawn[f].light[packet], &draws,
+                          drawn[f].active[packet]);
+#if CS_HAS(MOVING)
+            paths.path[count].time = drawn[f].time[packet];
+#endif
+            wanted[count++] = radiance + f * CS_TOGETHER + packet;
+            int is_last = packet + 1 < drawn[f].count
+                              ? drawn[f].place[packet + 1] != drawn[f].place[packet]
+                              : f + 1 == flushes;
+            if (!is_last) continue;
+            cs_follow_paths(scene, &paths, count);
+            for (int i = 0; i < count; i++)
+                *wanted[i] = paths.found[i];
+            count = 0;
+        }
+}
+#else
+static inline void cs_trace_packets(const cs_launch *launch, const cs_scene_buffers *scene,
+                                    cs_sample_table sample_table, const cs_place *places,
+                                    const cs_drawn *drawn, int flushes, cs_radiance *radiance)
+{
+    (void)sample_table;
+    (void)flushes;
+    for (int packet = 0; packet < drawn->count; packet++) {
+        const cs_eye eye = cs_eye_of(launch, drawn, packet);
+        cs_ray ray =
+            cs_camera_ray(launch, &eye, places + drawn->place[packet], drawn->point[packet]);
+        cs_scene_buffers at = *scene;
+#if CS_HAS(MOVING)
+        at.time = drawn->time[packet];
+#endif
+        radiance[packet] = cs_radiance_along(&at, launch->lights, &ray, drawn->light[packet],
+                                             drawn->active[packet]);
+    }
+}
+#endif
+
+/* What was gathered since the pixel's last update. */
+typedef struct cs_gathered {
+    cs_accumulator accumulator;
+#if CS_HAS(AOVS)
+    cs_aov_sums sums;
+#endif
+    int first; /* whether that is nothing yet */
+} cs_gathered;
+
+/* Gathers what packets that were drawn together found, and merges it into the pixels. goes_on:
+ * whether more packets are part of the update. */
+static inline void cs_gather_packets(const cs_launch *launch, const cs_place *places,
+                                     const cs_drawn *drawn, cs_radiance *radiance, int goes_on,
+                                     cs_gathered *gathered, CS_GLOBAL cs_pixel *pixels,
+                                     CS_GLOBAL cs_exact_sum *aovs)
+{
+    for (int packet = 0; packet < drawn->count; packet++) {
+        const cs_place *place = places + drawn->place[packet];
+        cs_radiance *found = radiance + packet;
+        const cs_eye eye = cs_eye_of(launch, drawn, packet);
+        cs_note_depth(&eye, found);
+        cs_accumulator_add(&gathered->accumulator, found->channel, found->shadow_rays,
+                           drawn->active[packet], gathered->first);
+#if CS_HAS(AOVS)
+        cs_aov_sums_add(&gathered->sums, found, drawn->active[packet], gathered->first);
+#else
+        (void)aovs;
+#endif
+        gathered->first =
+            packet + 1 < drawn->count ? drawn->place[packet + 1] != drawn->place[packet] : !goes_on;
+        if (!gathered->first) continue;
+        cs_accumulator_merge(pixels + place->state, &gathered->accumulator);
+#if CS_HAS(AOVS)
+        cs_aov_sums_merge(launch, &gathered->sums, place->state, aovs);
+#endif
+    }
+}
+
+/* Samples at places `start` to `end` of the order of a few pixels, gathered and merged into them:
+ * of one pixel as many as CS_FLUSHES updates have, of several no more than are drawn together. */
 static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *scene,
                              cs_sample_table sample_table, cs_optics_table lens_table,
                              const cs_place *places, int count, cs_u32 start, cs_u32 end,
                              CS_GLOBAL cs_pixel *pixels, CS_GLOBAL cs_exact_sum *aovs)
 {
-    cs_drawn drawn;
-    cs_accumulator accumulator;
-#if CS_HAS(AOVS)
-    cs_aov_sums sums;
-#else
-    (void)aovs;
-#endif
-    int first = 1;
-    for (; start < end; start += (cs_u32)(CS_TOGETHER * CS_PACKET)) {
-        int more = count == 1 && start + (cs_u32)(CS_TOGETHER * CS_PACKET) < end;
-        cs_draw_packets(launch, sample_table, lens_table, places, count, start, end, &drawn);
-        for (int packet = 0; packet < drawn.count; packet++) {
-            const cs_place *place = places + drawn.place[packet];
-            cs_radiance radiance;
-            cs_trace_packet(launch, scene, sample_table, place, &drawn, packet, &radiance);
-            cs_accumulator_add(&accumulator, radiance.channel, radiance.shadow_rays,
-                               drawn.active[packet], first);
-#if CS_HAS(AOVS)
-            cs_aov_sums_add(&sums, &radiance, drawn.active[packet], first);
-#endif
-            first =
-                packet + 1 < drawn.count ? drawn.place[packet + 1] != drawn.place[packet] : !more;
-            if (first) cs_accumulator_merge(pixels + place->state, &accumulator);
-#if CS_HAS(AOVS)
-            if (first) cs_aov_sums_merge(launch, &sums, place->state, aovs);
-#endif
-        }
+    const cs_u32 step = (cs_u32)(CS_TOGETHER * CS_PACKET);
+    cs_drawn drawn[CS_FLUSHES];
+    cs_radiance radiance[CS_FLUSHES * CS_TOGETHER];
+    cs_gathered gathered;
+    gathered.first = 1;
+    while (start < end) {
+        int draws = 0;
+        for (; draws < CS_FLUSHES && start < end; start += step)
+            cs_draw_packets(launch, sample_table, lens_table, places, count, start, end,
+                            drawn + draws++);
+        cs_trace_packets(launch, scene, sample_table, places, drawn, draws, radiance);
+        /* An update is what is drawn together, but with one lane: there it is all. */
+        int goes_on = CS_PACKET == 1 && count == 1 && start < end;
+        for (int d = 0; d < draws; d++)
+            cs_gather_packets(launch, places, drawn + d, radiance + d * CS_TOGETHER, goes_on,
+                              &gathered, pixels, aovs);
     }
 }
 
@@ -105,8 +188,9 @@ __kernel void cs_render(const cs_launch launch, __global cs_pixel *pixels,
         (void)velocities;
 #endif
     }
-    for (cs_u32 block = launch.first_block; block < launch.last_block; block += CS_FLUSH_BLOCKS) {
-        cs_u32 end = min(block + (cs_u32)CS_FLUSH_BLOCKS, launch.last_block) * (cs_u32)CS_BLOCK;
+    const cs_u32 step = (cs_u32)(CS_FLUSHES * CS_FLUSH_BLOCKS);
+    for (cs_u32 block = launch.first_block; block < launch.last_block; block += step) {
+        cs_u32 end = min(block + step, launch.last_block) * (cs_u32)CS_BLOCK;
         cs_sample(&launch, &scene, sample_table, lens_table, places, count,
                   block * (cs_u32)CS_BLOCK, end, pixels, aovs);
     }

@@ -107,9 +107,9 @@ static inline void cs_hit_triangle(cs_shape_pointer triangle, cs_i32 index, cons
  *
  * Works on copies: through the caller's pointers every update of the hit might change the ray, and
  * the compiler would fetch it anew at each step. */
-static inline cs_hit cs_walk_octant(CS_GLOBAL const cs_node *nodes,
-                                    CS_GLOBAL const cs_triangle *triangles, const cs_ray ray,
-                                    const cs_walk walk, int octant, const int any_hit, cs_hit hit)
+CS_INLINED cs_hit cs_walk_octant(CS_GLOBAL const cs_node *nodes,
+                                 CS_GLOBAL const cs_triangle *triangles, const cs_ray ray,
+                                 const cs_walk walk, int octant, const int any_hit, cs_hit hit)
 {
     const int negative[3] = {octant & 1, octant >> 1 & 1, octant >> 2 & 1};
     cs_u32 stack[CS_STACK];
@@ -163,11 +163,20 @@ static inline cs_hit cs_walk_octant(CS_GLOBAL const cs_node *nodes,
     }
 }
 
+/* The octants of directions: a bit for each axis, set where the direction is negative along it. */
+static inline cs_vint cs_octants(const cs_vfloat *direction)
+{
+    cs_vint octants = (cs_vint)(0);
+    for (int axis = 0; axis < 3; axis++)
+        octants += direction[axis] < 0.0f ? (cs_vint)(1 << axis) : (cs_vint)(0);
+    return octants;
+}
+
 /* Traces the lanes whose hit->distance is positive, up to that distance. Closest hit: `hit` gets
  * the nearest triangle and its distance. Any hit: the distance of a lane that is blocked becomes
- * negative. `any_hit` must be a literal. */
-static inline void cs_traverse(const cs_scene_buffers *scene, const cs_ray *ray, const int any_hit,
-                               cs_hit *hit)
+ * negative. `any_hit` must be a literal: each of the two is compiled for itself. */
+CS_INLINED void cs_traverse(const cs_scene_buffers *scene, const cs_ray *ray, const int any_hit,
+                            cs_hit *hit)
 {
     cs_walk walk;
     cs_vint octants = (cs_vint)(0);

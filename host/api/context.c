@@ -40,7 +40,17 @@ void clshear_context_free(clshear_context *context)
 void clshear_context_set_warning(clshear_context *context,
                                  void (*warn)(void *user, const char *line), void *user)
 {
-    if (context != NULL) context->log = (cs_log){warn, user};
+    if (context == NULL) return;
+    context->log.warn = warn;
+    context->log.user = user;
+}
+
+void clshear_context_set_alarm(clshear_context *context,
+                               void (*alarm)(void *user, const char *line), void *user)
+{
+    if (context == NULL) return;
+    context->log.alarm = alarm;
+    context->log.alarm_user = user;
 }
 
 const char *clshear_context_message(const clshear_context *context)

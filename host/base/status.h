@@ -2,6 +2,8 @@
 #ifndef CS_BASE_STATUS_H
 #define CS_BASE_STATUS_H
 
+#include <time.h>
+
 #include "clshear/common.h"
 
 #ifdef __cplusplus
@@ -41,15 +43,21 @@ cs_error *cs_thread_error(void);
         }                                                    \
     } while (0)
 
-/* The receiver of warnings; NULL `warn`: none. */
+/* The receiver of warnings; NULL `warn`: none. `alarm` receives those of work that may be lost;
+ * NULL: `warn` does. */
 typedef struct cs_log {
     void (*warn)(void *user, const char *line);
     void *user;
+    void (*alarm)(void *user, const char *line);
+    void *alarm_user;
 } cs_log;
 
 void cs_warn(const cs_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void cs_alarm(const cs_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Monotonic time in seconds. */
+/* Time in seconds, from any moment on, by the clock `cs_clock`: CLOCK_MONOTONIC, unless a test that
+ * must not depend on what else the machine does puts another there before it renders. */
+extern clockid_t cs_clock;
 double cs_now_s(void);
 
 #ifdef __cplusplus

@@ -17,15 +17,17 @@ typedef struct cs_environment_cache {
     struct stat file; /* as it was when it was read */
     cs_light light;
     cs_buffer *image;
+    cs_u32 fingerprint; /* of the image */
 } cs_environment_cache;
 
 void cs_environment_cache_init(cs_environment_cache *cache);
 void cs_environment_cache_free(cs_environment_cache *cache);
 
 /* As cs_environment_read, with the image on the device: `image`, NULL for a colour, is freed by
- * cs_buffer_free. A file is read again when it has changed since. Any thread may call this. */
+ * cs_buffer_free; `fingerprint`, of what is in it, is 0 for a colour. A file is read again when it
+ * has changed since. Any thread may call this. */
 clshear_status cs_environment_cache_find(cs_environment_cache *cache, cs_device *device,
                                          const char *text, cs_light *light, cs_buffer **image,
-                                         cs_error *error);
+                                         cs_u32 *fingerprint, cs_error *error);
 
 #endif

@@ -1,41 +1,12 @@
 #include "device/device.h"
 
-#include <pthread.h>
-#include <stdatomic.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "device/opencl.h"
+#include "device/objects.h"
 #include "device/pocl_cache.h"
 #include "device/program.h"
-
-/* What is compiled for a set of features. */
-typedef struct cs_variant {
-    cl_program programs[CS_PROGRAM_COUNT];
-    cl_kernel kernels[CS_KERNEL_COUNT];
-    size_t local_sizes[CS_KERNEL_COUNT]; /* of each kernel's work-groups, once it is made */
-} cs_variant;
-
-struct cs_device {
-    pthread_mutex_t lock; /* of programs, kernels and their arguments */
-    cl_device_id id;
-    cl_context context;
-    cl_command_queue queue;
-    cs_variant variants[CS_FEATURE_SETS];
-    size_t local_size; /* of a work-group, where the kernel allows that many */
-    int packet;
-    int threads;
-    int is_partition;
-    char name[256];
-    char driver[256];
-};
-
-struct cs_buffer {
-    atomic_int references;
-    cl_mem memory;
-    cl_command_queue queue;
-};
+#include "device/recorder.h"
 
 #define KERNEL_ROW(identifier, name, program, arguments) \
     {#name, CS_PROGRAM_##program, CS_ARGUMENTS_##identifier},
@@ -238,72 +209,6 @@ int cs_device_threads(const cs_device *device)
     return device->threads;
 }
 
-clshear_status cs_buffer_create(cs_device *device, size_t size, const void *initial,
-                                cs_buffer **result, cs_error *error)
-{
-    clshear_status status = CLSHEAR_OK;
-    cl_int code;
-    cl_ulong limit = 0;
-    cs_buffer *buffer = calloc(1, sizeof *buffer);
-    CS_REQUIRE(buffer != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    atomic_init(&buffer->references, 1);
-    clGetDeviceInfo(device->id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof limit, &limit, NULL);
-    if (size < 4) size = 4; /* kernels never look into an absent table, but OpenCL wants one */
-    CS_REQUIRE(size <= limit, CLSHEAR_OUT_OF_MEMORY,
-               "%s: a buffer of %zu MB is too large (the device allows %zu MB); make the scene or "
-               "the image smaller",
-               device->name, size >> 20, (size_t)limit >> 20);
-    buffer->queue = device->queue;
-    buffer->memory = clCreateBuffer(device->context, CL_MEM_READ_WRITE, size, NULL, &code);
-    CS_OPENCL(code, "%s: no memory for a buffer of %zu MB", device->name, size >> 20);
-    if (initial != NULL) {
-        CS_TRY(cs_buffer_write(buffer, 0, size, initial, error));
-    } else {
-        const cl_uint zero = 0;
-        CS_OPENCL(clEnqueueFillBuffer(device->queue, buffer->memory, &zero, sizeof zero, 0,
-                                      size / 4 * 4, 0, NULL, NULL),
-                  "%s: cannot clear a buffer of %zu MB", device->name, size >> 20);
-        CS_OPENCL(clFinish(device->queue), "%s: cannot clear a buffer", device->name);
-    }
-    *result = buffer;
-    buffer = NULL;
-done:
-    cs_buffer_free(buffer);
-    return status;
-}
-
-clshear_status cs_buffer_read(const cs_buffer *buffer, size_t offset, size_t size, void *target,
-                              cs_error *error)
-{
-    const cl_int code = clEnqueueReadBuffer(buffer->queue, buffer->memory, CL_TRUE, offset, size,
-                                            target, 0, NULL, NULL);
-    if (code == CL_SUCCESS) return CLSHEAR_OK;
-    return cs_opencl_fail(error, code, "cannot read %zu bytes from the device", size);
-}
-
-clshear_status cs_buffer_write(cs_buffer *buffer, size_t offset, size_t size, const void *source,
-                               cs_error *error)
-{
-    const cl_int code = clEnqueueWriteBuffer(buffer->queue, buffer->memory, CL_TRUE, offset, size,
-                                             source, 0, NULL, NULL);
-    return code == CL_SUCCESS
-               ? CLSHEAR_OK
-               : cs_opencl_fail(error, code, "cannot write %zu bytes to the device", size);
-}
-
-cs_buffer *cs_buffer_retain(cs_buffer *buffer)
-{
-    atomic_fetch_add(&buffer->references, 1);
-    return buffer;
-}
-
-void cs_buffer_free(cs_buffer *buffer)
-{
-    if (buffer == NULL || atomic_fetch_sub(&buffer->references, 1) > 1) return;
-    if (buffer->memory != NULL) clReleaseMemObject(buffer->memory);
-    free(buffer);
-}
-
 /* Sets the kernel's arguments and starts it, with the device locked: the arguments are the
  * kernel's, whichever thread set them. */
 static clshear_status start(cs_device *device, cs_kernel kernel, cs_u32 features, size_t count,
@@ -318,6 +223,11 @@ static clshear_status start(cs_device *device, cs_kernel kernel, cs_u32 features
     const cs_variant *variant = &device->variants[features];
     size_t local = variant->local_sizes[kernel];
     size_t global = (count + local - 1) / local * local;
+    if (device->recorder != NULL) {
+        const cs_recorded_launch launch = {
+            name, kernel_list[kernel].program, features, global, local, arguments, argument_count};
+        CS_TRY(cs_recorder_launch(device->recorder, &launch, error));
+    }
     for (cl_uint i = 0; i < argument_count; i++) {
         const cs_argument *argument = &arguments[i];
         const void *value =

@@ -17,13 +17,22 @@ const char *cs_device_source(void)
     return (const char *)cs_device_text;
 }
 
-/* What a program has besides the public headers. */
-static const char *private_text(cs_program which)
+void cs_program_texts(cs_program which, const char *texts[2])
 {
 #define CS_PROGRAM_TEXT(identifier, text) text,
-    static const unsigned char *const texts[CS_PROGRAM_COUNT] = {CS_PROGRAM_LIST(CS_PROGRAM_TEXT)};
+    static const unsigned char *const own[CS_PROGRAM_COUNT] = {CS_PROGRAM_LIST(CS_PROGRAM_TEXT)};
 #undef CS_PROGRAM_TEXT
-    return (const char *)texts[which];
+    texts[0] = cs_device_source();
+    texts[1] = (const char *)own[which];
+}
+
+void cs_program_options(cl_device_id device, int packet, cs_u32 features,
+                        char options[CS_PROGRAM_OPTIONS])
+{
+    (void)device;
+    snprintf(options, CS_PROGRAM_OPTIONS,
+             "-cl-std=CL1.2 -DCS_KEEP_FP_CONTRACT_OFF -DCS_PACKET=%d -DCS_FEATURES=%u", packet,
+             features);
 }
 
 /* The first line of a build log that reports an error. */
@@ -58,14 +67,13 @@ clshear_status cs_program_build(cl_context context, cl_device_id device, cs_prog
     clshear_status status = CLSHEAR_OK;
     cl_int code;
     cl_program program = NULL;
-    char options[128];
+    char options[CS_PROGRAM_OPTIONS];
+    const char *texts[2];
     CS_TRY(cs_pocl_cache_check(device, error));
-    const char *texts[] = {cs_device_source(), private_text(which)};
+    cs_program_texts(which, texts);
     program = clCreateProgramWithSource(context, 2, texts, NULL, &code);
     CS_OPENCL(code, "cannot load the kernels");
-    snprintf(options, sizeof options,
-             "-cl-std=CL1.2 -DCS_KEEP_FP_CONTRACT_OFF -DCS_PACKET=%d -DCS_FEATURES=%u", packet,
-             features);
+    cs_program_options(device, packet, features, options);
     code = clBuildProgram(program, 1, &device, options, NULL, NULL);
     if (code != CL_SUCCESS) {
         status = build_failure(program, device, code, error);

@@ -38,6 +38,7 @@ clshear_status cs_import_here(const char *path, const cs_import_options *options
     const cs_other_reader reader = reader_for(&bytes, path, other);
     CS_TRY(reader(&bytes, &model, error));
     scene->z_up = model.z_up;
+    scene->up_is_open = model.up_is_open;
     cs_bytes_free(&bytes);
     CS_TRY(cs_model_build(&model, options->smooth_degrees, scene, error));
     CS_TRY(cs_scene_finish(scene, path, error));

@@ -77,6 +77,7 @@ typedef struct cs_model {
     cs_array lights;     /* cs_model_light */
     cs_array cameras;    /* cs_model_camera */
     int z_up;            /* convention of the format: +Z is up and -Y in front; else +Y and +Z */
+    int up_is_open;      /* the format has no such convention, and +Y is a guess */
     double cutting;      /* points that may still be looked at to cut polygons */
     size_t without_area; /* faces with fewer than three corners: points and lines */
 } cs_model;

@@ -138,6 +138,7 @@ clshear_status cs_read_obj(cs_bytes *bytes, cs_model *model, cs_error *error)
 {
     obj_reader reader = {.model = model, .error = error, .material = CS_NO_INDEX};
     clshear_status status = cs_bytes_to_utf8(bytes, model->path, error);
+    model->up_is_open = 1;
     cs_obj_begin(&reader);
     reader.lines = cs_lines_of(bytes);
     for (char *at = cs_lines_next(&reader.lines); at != NULL && status == CLSHEAR_OK;

@@ -373,6 +373,7 @@ clshear_status cs_read_ply(cs_bytes *bytes, cs_model *model, cs_error *error)
 {
     ply_reader *reader = calloc(1, sizeof *reader);
     if (reader == NULL) return cs_model_full(model, error);
+    model->up_is_open = 1;
     reader->model = model;
     reader->error = error;
     reader->corners.item_size = sizeof(cs_corner);

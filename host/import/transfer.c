@@ -53,6 +53,7 @@ int cs_send_scene(int pipe, cs_scene *scene)
     memcpy(frame.bounds, scene->bounds, sizeof frame.bounds);
     frame.degenerate = scene->degenerate;
     frame.z_up = (uint64_t)scene->z_up;
+    frame.up_is_open = (uint64_t)scene->up_is_open;
     if (!cs_send_record(pipe, CS_RECORD_FRAME, 0, &frame, sizeof frame)) return 0;
     cs_scene_arrays(scene, arrays);
     for (int i = 0; i < CS_SCENE_ARRAYS; i++)

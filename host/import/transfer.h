@@ -23,7 +23,8 @@ typedef struct cs_scene_frame {
     double origin[3];
     float bounds[2][3];
     uint64_t degenerate;
-    uint64_t z_up; /* 0 or 1 */
+    uint64_t z_up; /* 0 or 1, as the next */
+    uint64_t up_is_open;
 } cs_scene_frame;
 
 enum {

@@ -142,6 +142,7 @@ static int take_record(child *from, const cs_record *record, cs_scene *scene, co
         memcpy(scene->bounds, frame.bounds, sizeof frame.bounds);
         scene->degenerate = (size_t)frame.degenerate;
         scene->z_up = frame.z_up != 0;
+        scene->up_is_open = frame.up_is_open != 0;
         return 1;
     case CS_RECORD_ARRAY:
         return state->count < CS_SCENE_ARRAYS &&

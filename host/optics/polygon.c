@@ -100,29 +100,42 @@ float cs_polygon_unit(const cs_view *camera)
     return sqrtf(0.5f * blades * sinf(2.0f * CS_PI / blades));
 }
 
+/* Appends the marginal of u, with the chords along v. Returns its second moment through `moment`
+ * and its segments through `segments`. */
+static clshear_status append_marginal(const corner *corners, int blades, cs_optics_tables *tables,
+                                      cs_u32 *segments, double *moment, cs_error *error)
+{
+    double knots[MOST_BLADES] = {0};
+    *segments = knots_of(corners, blades, knots) - 1;
+    const size_t size = (size_t)(*segments + 1) * CS_MARGINAL_COLUMNS;
+    cs_f32 *rows = cs_array_extend(&tables->table, size);
+    if (rows == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    *moment = fill_rows(corners, blades, knots, *segments, rows);
+    return CLSHEAR_OK;
+}
+
 clshear_status cs_polygon_make(const cs_view *camera, cs_optics_tables *tables, cs_error *error)
 {
     const int blades = camera->blades;
     const float rotation_deg = camera->blade_rotation_deg;
     cs_optics *optics = &tables->optics;
+    clshear_status status = CLSHEAR_OK;
     corner corners[MOST_BLADES];
-    double knots[MOST_BLADES] = {0};
     if (blades < 3 || blades > MOST_BLADES)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "an aperture of %d blades: must be 3 to %d",
                        blades, MOST_BLADES);
     if (!isfinite(rotation_deg))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "blade rotation: must be finite");
     place_corners(corners, blades, fmod((double)rotation_deg, 360.0));
-    const cs_u32 segments = knots_of(corners, blades, knots) - 1;
-    cs_f32 *rows = cs_array_extend(&tables->table, (size_t)(segments + 1) * CS_MARGINAL_COLUMNS);
-    if (rows == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    const double moment = fill_rows(corners, blades, knots, segments, rows);
-    const double half_width = hypot(corners[0].u, corners[0].v);
     optics->marginal = CS_MARGINAL_POLYGON;
-    optics->segments[0] = segments;
     for (int axis = 0; axis < 2; axis++) {
-        optics->half_width[axis] = (cs_f32)half_width;
+        double moment = 0.0;
+        CS_TRY(append_marginal(corners, blades, tables, &optics->segments[axis], &moment, error));
+        optics->half_width[axis] = (cs_f32)hypot(corners[0].u, corners[0].v);
         optics->deviation[axis] = (cs_f32)sqrt(moment);
+        for (int i = 0; i < blades; i++)
+            corners[i] = (corner){corners[i].v, corners[i].u};
     }
-    return CLSHEAR_OK;
+done:
+    return status;
 }

@@ -83,6 +83,10 @@ static clshear_status default_view(const clshear_scene *scene, const clshear_set
             "--orbit 35,20 shows it from outside, --z-up sets it upright if it lies on its side");
     else
         *view = frame_scene(&scene->scene, settings);
+    if (!is_room && !is_placed && !cs_is_set(settings, Z_UP) && scene->scene.up_is_open &&
+        cs_framing_stands_on_z(&scene->scene))
+        cs_warn(&scene->context->log,
+                "the scene stands on z = 0; if it lies on its side, --z-up sets it upright");
     return CLSHEAR_OK;
 }
 

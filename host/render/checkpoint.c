@@ -195,8 +195,9 @@ clshear_status cs_checkpoint_save(cs_job *job, cs_pass *pass, int at_once, cs_er
         if (!tape.is_good) reason = tape.reason;
     }
     if (reason != 0 && !job->save_fails) /* said once */
-        cs_warn(&job->scene->context->log,
-                "checkpoint %s: cannot be written: %s; the render goes on", path, strerror(reason));
+        cs_alarm(&job->scene->context->log,
+                 "checkpoint %s: cannot be written: %s; the render goes on", path,
+                 strerror(reason));
     job->save_fails = reason != 0;
     job->saved_s = cs_now_s();
     return status;

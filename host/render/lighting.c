@@ -110,7 +110,8 @@ static clshear_status add_environment(const clshear_scene *scene, const clshear_
     cs_light light;
     if (text == NULL || *text == '\0' || strcmp(text, "none") == 0) return CLSHEAR_OK;
     CS_TRY(cs_environment_cache_find(&scene->context->environments, scene->context->device, text,
-                                     &light, &lighting->environment, error));
+                                     &light, &lighting->environment,
+                                     &lighting->environment_fingerprint, error));
     cs_environment_show(&view, &light);
     CS_TRY(add(lights, &light, error));
 done:

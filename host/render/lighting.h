@@ -16,6 +16,7 @@ typedef struct cs_lighting {
     cs_array list;          /* cs_light */
     cs_buffer *lights;      /* the same on the device */
     cs_buffer *environment; /* an image and its tables; NULL: none */
+    cs_u32 environment_fingerprint;
     cs_u32 count;
     cs_u32 features;   /* CS_FEATURE_ bits that the lights need */
     cs_u32 area_count; /* of them: lights that are sampled by a pair of the tuple */

@@ -108,8 +108,11 @@ static clshear_status report(const cs_pass *pass, double now_s, cs_error *error)
     const clshear_progress progress = {
         .fraction = part < 1.0 ? part : 1.0,
         .samples_per_s = mean_rate,
-        .remaining_s = pass->total > pass->done ? (pass->total - pass->done) / mean_rate : 0.0,
+        .remaining_s = pass->total > pass->done && !pass->is_open
+                           ? (pass->total - pass->done) / mean_rate
+                           : 0.0,
         .noise = pass->noise,
+        .noise_pixel = pass->noise_pixel,
     };
     return tell(pass->settings, &progress, error);
 }

@@ -40,7 +40,9 @@ typedef struct cs_pass {
     clshear_status (*between)(void *user, cs_error *error);
     void *user;
     cs_place place;
-    double noise; /* of the picture, for the progress callback; 0: unknown */
+    double noise;       /* of the picture, for the progress callback; 0: unknown */
+    double noise_pixel; /* likewise, of its pixels */
+    int is_open;        /* whether a promise may end the render, and nobody knows yet when */
     double start_s;
     double rate;  /* samples per second of the last launches */
     double done;  /* samples */

@@ -7,6 +7,7 @@
 #include "oracle/oracle.h"
 #include "pattern/pattern.h"
 #include "render/aov.h"
+#include "render/live.h"
 #include "render/motion.h"
 #include "render/pilot.h"
 #include "render/resume.h"
@@ -208,6 +209,7 @@ void cs_job_free(cs_job *job)
     cs_adaptive_free(&job->adaptive);
     cs_resume_free(job);
     cs_rounds_free(job);
+    cs_live_free(job);
     for (size_t b = 0; b < job->batch_count; b++)
         cs_batch_free(&job->batches[b]);
     cs_pixels_free(&job->pixels);

@@ -55,9 +55,12 @@ void cs_recipe_of(const cs_job *job, char *text, size_t size)
     add_array(&world, &scene->textures);
     add_array(&world, &scene->texels);
     cs_record_list(&job->settings, CS_USE_RECIPE, text, size);
-    const size_t used = strlen(text);
-    snprintf(text + used, size - used, "lens table=%08x;lights=%08x;scene=%08x", lens, light,
-             world);
+    size_t used = strlen(text);
+    used += (size_t)snprintf(text + used, size - used, "lens table=%08x;lights=%08x;", lens, light);
+    if (job->lighting.environment != NULL && used < size)
+        used += (size_t)snprintf(text + used, size - used, "environment image=%08x;",
+                                 job->lighting.environment_fingerprint);
+    if (used < size) snprintf(text + used, size - used, "scene=%08x", world);
 }
 
 /* The picture that is extended. */

@@ -27,6 +27,18 @@ typedef struct cs_rounds {
     cs_u32 replicate;                  /* of the round in progress */
 } cs_rounds;
 
+struct cs_viewer;
+
+/* Who sees the picture while it is rendered: see live.h. */
+typedef struct cs_live {
+    struct cs_viewer *viewer; /* NULL: none, or lost */
+    clshear_film *film;       /* on its way to the viewer; owned; NULL: none is */
+    double shown_s;           /* when the viewer's last film was made, ... */
+    double cost_s;            /* ... and how long that took */
+    double kept_s;            /* when the file was written */
+    int file_fails;           /* whether that failed */
+} cs_live;
+
 typedef struct cs_job {
     clshear_scene *scene;
     clshear_settings settings; /* the caller's, completed */
@@ -38,6 +50,7 @@ typedef struct cs_job {
     cs_u32 pilot_spp; /* that pilots are a part of */
     cs_stop stop;
     cs_rounds rounds;
+    cs_live live;
     cs_u32 seed;
     int width; /* of the whole image, px */
     int height;
@@ -82,6 +95,7 @@ typedef struct cs_job {
     double prepass_s;
     double pilot_s;
     double kernel_s;
+    double drawn; /* samples of the passes */
 } cs_job;
 
 /* Copies and completes the settings (NULL: fallbacks), checks them, and makes window, lights,

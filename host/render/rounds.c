@@ -157,6 +157,14 @@ done:
     return status;
 }
 
+void cs_rounds_tell(const cs_job *job, cs_pass *pass)
+{
+    const cs_stop *stop = &job->stop;
+    pass->noise = stop->last.noise;
+    pass->noise_pixel = stop->last.pixels;
+    pass->is_open = cs_stop_has_rules(stop) && !(stop->time_s > 0.0) && !(stop->last.samples > 0.0);
+}
+
 /* Plans the next round, which is empty where the render ends, and tells the pass what to expect.
  * `work` says how rounds are cut; samples_of_unit: of all pixels, for one unit of it. */
 static void plan(cs_job *job, cs_pass *pass, cs_work work, double samples_of_unit)
@@ -171,7 +179,7 @@ static void plan(cs_job *job, cs_pass *pass, cs_work work, double samples_of_uni
     if (job->stop.time_s > 0.0 && work.units_per_s > 0.0)
         most = fmin(most, work.done + work.left_s * work.units_per_s);
     pass->total = samples_of_unit * (fmax(most, next) - had);
-    pass->noise = job->stop.last.noise;
+    cs_rounds_tell(job, pass);
     job->rounds.to = next - had;
 }
 

@@ -21,6 +21,9 @@ clshear_status cs_rounds_read(const cs_job *job, size_t first, size_t count, cs_
 /* What was promised, reached and left, in the metadata. */
 clshear_status cs_rounds_describe(const cs_job *job, clshear_film *film);
 
+/* Gives the pass what the last look has seen, for the progress callback. */
+void cs_rounds_tell(const cs_job *job, cs_pass *pass);
+
 void cs_rounds_free(cs_job *job);
 
 #endif

@@ -2,6 +2,7 @@
 #include "optics/shear_mode.h"
 #include "render/aov.h"
 #include "render/checkpoint.h"
+#include "render/live.h"
 #include "render/motion.h"
 #include "render/resume.h"
 #include "render/rounds.h"
@@ -44,27 +45,11 @@ typedef struct progress {
     cs_pass *pass;
 } progress;
 
-/* Shows the picture so far, if the caller wants it. */
-static clshear_status show(cs_job *job, cs_error *error)
-{
-    const cs_preview *preview = &job->settings.preview;
-    clshear_film *film = NULL;
-    if (preview->wanted == NULL || preview->show == NULL || !preview->wanted(preview->user))
-        return CLSHEAR_OK;
-    const clshear_status status = cs_job_resolve(job, &film, error);
-    if (status != CLSHEAR_OK) return status;
-    film->info.complete = 0;
-    const clshear_status marked = cs_film_set_int(film, "clshear.interrupted", 1);
-    if (marked == CLSHEAR_OK) preview->show(preview->user, film);
-    cs_film_free(film);
-    return marked;
-}
-
 static clshear_status between_launches(void *user, cs_error *error)
 {
     const progress *now = user;
     const clshear_status status = cs_checkpoint_save(now->job, now->pass, 0, error);
-    return status == CLSHEAR_OK ? show(now->job, error) : status;
+    return status == CLSHEAR_OK ? cs_live_update(now->job, error) : status;
 }
 
 cs_u32 cs_job_patterns(const cs_job *job)
@@ -91,6 +76,7 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
     clshear_status status = CLSHEAR_OK;
     cs_pass pass = cs_job_pass(job);
     progress now = {job, &pass};
+    double before = 0.0;
     pass.shears = job->shears;
     pass.velocities = job->velocities;
     pass.pixels = &job->pixels;
@@ -103,6 +89,8 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
         pass.total += (double)cs_job_patterns(job) * (double)job->batches[b].pixel_count *
                       job->batches[b].pattern.grid.count;
     CS_TRY(cs_checkpoint_load(job, &pass, error));
+    before = pass.done;
+    cs_rounds_tell(job, &pass);
     status = job->adaptive.begin > 0         ? cs_adaptive_run(job, &pass, error)
              : cs_stop_has_rules(&job->stop) ? cs_rounds_run(job, &pass, error)
                                              : run_replicates(job, &pass, error);
@@ -112,5 +100,6 @@ clshear_status cs_job_run_passes(cs_job *job, cs_error *error)
     }
 done:
     job->kernel_s += pass.kernel_s;
+    job->drawn = pass.done - before;
     return status;
 }

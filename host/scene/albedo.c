@@ -14,11 +14,12 @@ static float table[CS_ALBEDO_FLOATS];
 /* Albedos for one cosine and roughness, by a lattice: facets by visible normals, each of which
  * counts with shadowing over masking; sheen by directions that crowd at the horizon, where it
  * shines: their height is a square. */
-static void integrate(float cosine, float roughness, double *albedo)
+static void integrate(float cosine, float roughness, double *albedo, double *sheen)
 {
     const float width = cs_facet_width(roughness);
     const float out[3] = {sqrtf(1.0f - cosine * cosine), 0.0f, cosine};
     const float slant = cs_facet_slant(cosine, width);
+    *sheen = 0.0;
     for (int p = 0; p < CS_ALBEDO_PLANES; p++)
         albedo[p] = 0.0;
     for (int i = 0; i < POINTS; i++) {
@@ -38,20 +39,23 @@ static void integrate(float cosine, float roughness, double *albedo)
                              height};
         float half_way[3];
         cs_half_way(out, in, half_way);
-        albedo[CS_ALBEDO_SHEEN] += (double)(4.0f * CS_PI * pair.y * height *
-                                            cs_sheen(half_way[2], cosine, height, roughness));
+        *sheen += (double)(4.0f * CS_PI * pair.y * height *
+                           cs_sheen(half_way[2], cosine, height, roughness));
     }
+    *sheen /= POINTS;
     for (int p = 0; p < CS_ALBEDO_PLANES; p++)
         albedo[p] /= POINTS;
 }
 
-/* 2 int E(c) c dc of the linear pieces; Simpson's rule is exact for them. */
-static float average_of(const float *values)
+/* 2 int E(c) c dc of the linear pieces between every `stride`-th value; Simpson's rule is exact for
+ * them. */
+static float average_of(const float *values, int stride)
 {
     double sum = 0.0;
     const double step = 1.0 / (CS_ALBEDO_COSINES - 1);
     for (int i = 0; i + 1 < CS_ALBEDO_COSINES; i++) {
-        const double a = (double)values[i], b = (double)values[i + 1], c = i * step;
+        const double a = (double)values[i * stride], b = (double)values[(i + 1) * stride];
+        const double c = i * step;
         sum += (a * c + 4.0 * 0.5 * (a + b) * (c + 0.5 * step) + b * (c + step)) * step / 6.0;
     }
     return (float)(2.0 * sum);
@@ -62,17 +66,16 @@ static void make_table(void)
     for (int r = 0; r < CS_ALBEDO_ROUGHNESSES; r++) {
         float *row = table + (size_t)r * CS_ALBEDO_ROW;
         for (int c = 0; c < CS_ALBEDO_COSINES; c++) {
-            double albedo[CS_ALBEDO_PLANES];
+            double albedo[CS_ALBEDO_PLANES], sheen;
             const float cosine = (float)c / (CS_ALBEDO_COSINES - 1);
             integrate(cosine > 1e-3f ? cosine : 1e-3f, (float)r / (CS_ALBEDO_ROUGHNESSES - 1),
-                      albedo);
+                      albedo, &sheen);
             for (int p = 0; p < CS_ALBEDO_PLANES; p++)
-                row[p * (CS_ALBEDO_COSINES + 1) + c] = (float)albedo[p];
+                row[c * CS_ALBEDO_PLANES + p] = (float)albedo[p];
+            row[CS_ALBEDO_FIBRES + c] = (float)sheen;
         }
-        for (int p = 0; p < CS_ALBEDO_PLANES; p++) {
-            float *plane = row + p * (CS_ALBEDO_COSINES + 1);
-            plane[CS_ALBEDO_COSINES] = average_of(plane);
-        }
+        for (int p = 0; p < CS_ALBEDO_PLANES; p++)
+            row[CS_ALBEDO_COSINES * CS_ALBEDO_PLANES + p] = average_of(row + p, CS_ALBEDO_PLANES);
     }
 }
 

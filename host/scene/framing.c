@@ -73,6 +73,17 @@ cs_framing cs_framing_default(const cs_scene *scene, int z_up)
     return framing;
 }
 
+int cs_framing_stands_on_z(const cs_scene *scene)
+{
+    double low[3], size[3], most = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = (double)scene->bounds[0][axis] + scene->origin[axis];
+        size[axis] = (double)scene->bounds[1][axis] - (double)scene->bounds[0][axis];
+        most = fmax(most, size[axis]);
+    }
+    return fabs(low[2]) <= 1e-4 * most && size[2] >= 0.25 * most && low[1] <= -0.01 * most;
+}
+
 /* Unit vectors of the picture in coordinates of the file: right, up, and towards the camera. */
 static void picture_axes(const cs_framing *framing, float frame[3][3])
 {

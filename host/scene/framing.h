@@ -19,6 +19,10 @@ typedef struct cs_framing {
  * front wall. */
 cs_framing cs_framing_default(const cs_scene *scene, int z_up);
 
+/* Whether a scene stands on z = 0 as one stands that has +Z up: it begins there, rises by a quarter of
+ * its size or more, and goes on below y = 0. */
+int cs_framing_stands_on_z(const cs_scene *scene);
+
 /* The nearest camera in that direction whose picture, of this size, shows every triangle inside a
  * margin. Eye and target are relative to the scene's origin. The lens is not chosen. */
 cs_view cs_framing_view(const cs_scene *scene, const cs_framing *framing, int width, int height);

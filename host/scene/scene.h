@@ -39,6 +39,7 @@ typedef struct cs_scene {
     size_t degenerate;           /* triangles left out */
     float bounds[2][3];          /* low and high corner */
     int z_up;         /* convention of the format: +Z is up and -Y in front; else +Y and +Z */
+    int up_is_open;   /* the format has no such convention, and +Y is a guess */
     double origin[3]; /* in coordinates of the file; all others here are relative to it */
 } cs_scene;
 

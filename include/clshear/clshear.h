@@ -144,6 +144,8 @@ typedef struct clshear_progress {
     double samples_per_s; /* mean rate since the start; 0 while depths are found */
     double remaining_s;   /* estimate; 0 while it is unknown */
     double noise;         /* relative standard error when a stop rule last looked; 0: it has not */
+    double
+        noise_pixel; /* as CLSHEAR_NOISE_PIXEL has it; 0: that rule is not set, or has not looked */
 } clshear_progress;
 
 /* Calls `progress` a few times a second during renders with these settings, in the rendering
@@ -177,6 +179,11 @@ CLSHEAR_API void clshear_context_free(clshear_context *context);
 CLSHEAR_API void clshear_context_set_warning(clshear_context *context,
                                              void (*warn)(void *user, const char *line),
                                              void *user);
+
+/* Calls `alarm`, not the warning callback, with one line where a render goes on although its work
+ * may be lost: its checkpoint cannot be written. NULL: the warning callback gets such lines. */
+CLSHEAR_API void clshear_context_set_alarm(clshear_context *context,
+                                           void (*alarm)(void *user, const char *line), void *user);
 
 /* The message of the last failed call on this object, from any thread; "" before any failure. Valid
  * until the calling thread next asks for the message of any object. */

@@ -62,7 +62,8 @@
  *
  * number    value of the enumerator; never reused, because compiled programs depend on it. It also
  *           gives the group in lists: 1 samples, 20 image, 40 camera, 50 lens, 60 light,
- *           70 reading, 80 device, 90 stopping, 100 motion, and all numbers up to the next group
+ *           70 reading, 80 device, 90 stopping, 100 motion, 110 live view, and all numbers up to
+ *           the next group
  * name      name of the flag, without dashes
  * aliases   other names of the flag, separated by spaces
  * kind      SWITCH (0 or 1), INTEGER, NUMBER, CHOICE (a name out of `choices`), TEXT
@@ -199,6 +200,10 @@
       "CPU threads; 0: all") \
     X(PACKET, 82, "packet", "", INTEGER, 1, 1, "", 1, 16, none, PRIVATE, "W", \
       "samples traced together: 1, 4, 8 or 16") \
+    X(RECORD, 83, "record", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "FILE", \
+      "capsule of the launches, for tools/replay.c") \
+    X(FORCE, 84, "force", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
+      "use a device that fails its test") \
     /* Stopping */ \
     X(NOISE, 90, "noise", "", NUMBER, 1, 1, "", 1e-6, 1, none, RECORD, "R", \
       "stop when the picture's relative error is below R") \
@@ -209,7 +214,7 @@
     X(CHECKPOINT, 93, "checkpoint", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "FILE", \
       "keep what is rendered there, for --resume") \
     X(EVERY, 94, "every", "", NUMBER, 1, 1, "60", 0, 1e9, none, PRIVATE, "S", \
-      "seconds between two checkpoints") \
+      "seconds between two checkpoints, or previews") \
     X(RESUME, 95, "resume", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
       "go on from the checkpoint, if there is one") \
     X(SHARD, 96, "shard", "", TEXT, 1, 1, "", 0, 0, none, RECORD, "K/N", \
@@ -229,8 +234,13 @@
       "frame of the animation, from 0") \
     X(FPS, 106, "fps", "", NUMBER, 1, 1, "24", 1e-3, 1e6, none, RECIPE, "N", \
       "frames per second of the animation") \
-    X(SHUTTER_RAMPS, 115, "shutter-ramps", "", NUMBER, 2, 1, "0,0", 0, 1, none, RECIPE, "OPENING,CLOSING", \
-      "parts of the shutter's time that it opens and closes")
+    X(SHUTTER_RAMPS, 107, "shutter-ramps", "", NUMBER, 2, 1, "0,0", 0, 1, none, RECIPE, "OPENING,CLOSING", \
+      "parts of the shutter's time that it opens and closes") \
+    /* Live view */ \
+    X(DISPLAY, 110, "display", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "HOST:PORT", \
+      "send it as it grows to a viewer there: tev, HDRView") \
+    X(PREVIEW, 111, "preview", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "FILE", \
+      "write the picture so far there, as often as --every")
 /* clang-format on */
 
 #endif

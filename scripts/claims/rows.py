@@ -20,8 +20,15 @@ class Row:
     command: str
 
     @property
-    def agrees(self):
-        return self.low <= self.expected_high and self.high >= self.expected_low
+    def verdict(self):
+        """"agrees", "differs", "open" (the interval is too wide to tell) or "" (nothing is expected)."""
+        ends = [math.isinf(self.expected_low), math.isinf(self.expected_high)]
+        if all(ends):
+            return ''
+        if self.high < self.expected_low or self.low > self.expected_high:
+            return 'differs'
+        inside = self.expected_low <= self.low and self.high <= self.expected_high
+        return 'agrees' if inside or not any(ends) else 'open'
 
 
 groups = {}
@@ -61,9 +68,9 @@ def shown(value):
 
 
 def markdown(rows):
-    lines = ['| claim | expected | measured | 95 % interval | | command |', '|---|---|---|---|---|---|']
+    lines = ['| row | claim | expected | measured | 95 % interval | | command |', '|---|---|---|---|---|---|---|']
     for r in rows.values():
-        verdict = 'agrees' if r.agrees else '**differs**'
-        lines.append(f'| {r.claim} | {r.literature} | {shown(r.value)} | {shown(r.low)} … '
+        verdict = r.verdict if r.verdict in ('agrees', '') else f'**{r.verdict}**'
+        lines.append(f'| {r.name} | {r.claim} | {r.literature} | {shown(r.value)} | {shown(r.low)} … '
                      f'{shown(r.high)} | {verdict} | `{r.command}` |')
     return '\n'.join(lines)

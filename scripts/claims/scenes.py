@@ -1,23 +1,22 @@
-"""Rows on pixels of the Cornell box: convergence, gains, predictions."""
-import math
-import statistics
-import tempfile
-
+"""Rows on pixels of scenes: convergence, gains, the oracle's error."""
 import measure
-from measure import Studies, clshear, gain_between, interval, prediction, ratio
+from expectation import (LESS, LITTLE, MORE, MUCH_MORE, OPEN, STEEP, STEEPER, rate)
+from measure import Studies, clshear, gain_between, ratio_of
 from rows import group, row
 
 BOX = 'scenes/cornell.obj --quiet'
-WALL, EDGE, WEDGE, FOCUS = '302,130', '146,330', '154,213', '242,488'
+WALL, EDGE, WEDGE = '302,130', '146,330', '154,213'
 FOURS = '--nsamps 64,256,1024,4096'
 
 
-def study(pixel, words, batches=measure.BATCHES):
-    return Studies(f'{BOX} --pixels {pixel} {words}', batches)
+def command(pixel, words, scene=BOX):
+    return f'clshear converge {scene} --pixels {pixel} {words}'
 
 
-def command(pixel, words):
-    return f'clshear converge {BOX} --pixels {pixel} {words}'
+def study(pixel, words, scene=BOX, batches=measure.BATCHES):
+    """One pixel, or one of several 'X,Y;X,Y' that are measured by one run: pixel is (one, all)."""
+    one, several = pixel if isinstance(pixel, tuple) else (pixel, pixel)
+    return Studies(f'{scene} --pixels {several} {words}', 'pixel ' + one.replace(',', ':'), batches)
 
 
 @group
@@ -27,20 +26,21 @@ def wall():
     s = study(WALL, words)
     shown = command(WALL, words)
     yield row('wall-none', 'a wall out of focus, mj, no shear: slope from 64', '-1', s.slope('none', 64),
-              (-1.05, -0.95), shown)
-    yield row('wall-sheared', '… equal-area shear', '-1.5', s.slope('equal-area', 64), (-1.55, -1.4), shown)
+              rate(-1.0), shown)
+    yield row('wall-sheared', '… equal-area shear', '-1.5', s.slope('equal-area', 64), rate(-1.5), shown)
     yield row('wall-toroidal', '… the literal, toroidal shear', '-1.5', s.slope('toroidal', 64),
-              (-1.55, -1.4), shown)
-    yield row('wall-sheared-first', '… which is no power of N: equal-area shear, from 64 to 256', 'varies',
-              s.slope('equal-area', 64, 256), (-2.2, -1), shown)
-    yield row('wall-sheared-second', '… and from 256 to 1024', 'varies',
-              s.slope('equal-area', 256, 1024), (-2.2, -1), shown)
-    for n, expected, words in [(16, (0.8, 2), 'none'), (1024, (8, math.inf), '10 and more'),
-                               (4096, (10, math.inf), 'more')]:
+              rate(-1.5), shown)
+    for name, low, high in [('zeroth', 16, 64), ('first', 64, 256), ('second', 256, 1024), ('third', 1024, 4096)]:
+        yield row(f'wall-sheared-{name}', f'… equal-area shear, from {low} to {high}', '–',
+                  s.slope('equal-area', low, high), OPEN, shown)
+        yield row(f'wall-toroidal-{name}', f'… toroidal shear, from {low} to {high}', '–',
+                  s.slope('toroidal', low, high), OPEN, shown)
+    for n, expected, told in [(16, LITTLE, 'little'), (1024, MUCH_MORE, '10 and more'),
+                              (4096, MUCH_MORE, '10 and more')]:
         yield row(f'wall-gain-{n}', f'… variance without over with the equal-area shear at N = {n}',
-                  words, s.gain(n), expected, shown)
+                  told, s.gain(n), expected, shown)
     yield row('wall-toroidal-cost', '… variance with the toroidal shear over that without, N = 1024', '< 1',
-              s.gain(1024, 'toroidal', 'none'), (0, 1), shown)
+              s.gain(1024, 'toroidal', 'none'), LESS, shown)
 
 
 @group
@@ -48,28 +48,22 @@ def nets():
     for sampler in ('halton', 'sobol', 'sz'):
         words = f'--sampler {sampler} {FOURS} --nreps 100'
         s = study(WALL, words)
-        yield row(f'wall-{sampler}-none', f'the same wall, {sampler}, no shear: slope', '–', s.slope('none'),
-                  (-math.inf, -1), command(WALL, words))
-        yield row(f'wall-{sampler}-sheared', '… sheared', 'steeper', s.slope('equal-area'),
-                  (-math.inf, s.slope('none')[0]), command(WALL, words))
+        shown = command(WALL, words)
+        yield row(f'wall-{sampler}-none', f'the same wall, {sampler}, no shear: slope', '–', s.slope('none'), OPEN,
+                  shown)
+        yield row(f'wall-{sampler}-sheared', '… sheared', '–', s.slope('equal-area'), OPEN, shown)
+        yield row(f'wall-{sampler}-steeper', '… the latter less the former', '< 0', s.steeper(), STEEPER, shown)
         yield row(f'wall-{sampler}-gain', '… variance without over with shear, N = 1024', '> 1', s.gain(1024),
-                  (1.1, math.inf), command(WALL, words))
+                  MORE, shown)
 
 
 @group
-def edges():
-    for aperture in ('square', 'disk'):
-        words = f'--sampler mj --aperture {aperture} {FOURS} --nreps 100'
-        s = study(EDGE, words)
-        yield row(f'edge-{aperture}-none', f'an edge out of focus, {aperture} lens, mj, no shear: slope', '-1',
-                  s.slope('none'), (-1.05, -0.95), command(EDGE, words))
-        yield row(f'edge-{aperture}-sheared', '… sheared', '≤ -1.5', s.slope('equal-area'), (-2.1, -1.45),
-                  command(EDGE, words))
-        yield row(f'edge-{aperture}-gain', '… gain at N = 1024', '10 and more', s.gain(1024), (10, math.inf),
-                  command(EDGE, words))
+def jittered4d():
     words = '--sampler jittered4d --shear none --nsamps 16,256,4096 --nreps 200'
-    yield row('jittered4d', 'the edge with 4D jitter, no shear: slope', '-1.25',
-              study(EDGE, words).slope('none'), (-1.3, -1.2), command(EDGE, words))
+    both = f'{EDGE};{WALL}'
+    for name, pixel, what in [('', EDGE, 'edge'), ('-wall', WALL, 'wall')]:
+        yield row(f'jittered4d{name}', f'4D jitter, an {what} out of focus, no shear: slope'.replace('an w', 'a w'),
+                  '-1.25', study((pixel, both), words).slope('none'), rate(-1.25), command(pixel, words))
 
 
 @group
@@ -79,63 +73,99 @@ def focus():
     pixel = '295,112'
     sharp, soft = study(pixel, focused), study(pixel, words)
     yield row('focus-slope', 'the wall\'s texture in focus has a 2D integrand: slope, mj', '≤ -1.5',
-              sharp.slope('none'), (-2.6, -1.45), command(pixel, focused))
+              sharp.slope('none'), STEEP, command(pixel, focused))
     yield row('blur-slope', '… the same pixel out of focus has a 4D one: slope', '-1', soft.slope('none'),
-              (-1.05, -0.95), command(pixel, words))
+              rate(-1.0), command(pixel, words))
+    yield row('blur-slope-late', '… from 1024 to 4096', '-1', soft.slope('none', 1024), rate(-1.0),
+              command(pixel, words))
     yield row('blur-costs', '… and is noisier, N = 1024, by a factor of', '> 1', gain_between(soft, sharp, 1024),
-              (1, math.inf), command(pixel, words))
+              MORE, command(pixel, words))
+
+
+PLACES = [('left', '60,256', 'left wall'), ('floor', '256,505', 'floor before the focus'),
+          ('right', '505,256', 'right wall before the focus'), ('edge-square', EDGE, 'an edge of the tall box')]
 
 
 @group
 def elsewhere():
-    """Walls and floor, on both sides of the focus: no claim should hang on one pixel."""
-    for name, pixel, what in [('left', '60,256', 'left wall'), ('floor', '256,505', 'floor before the focus'),
-                              ('right', '505,256', 'right wall before the focus')]:
-        words = f'--sampler mj {FOURS} --nreps 100'
-        s = study(pixel, words)
-        yield row(f'{name}-none', f'{what}, mj, no shear: slope', '-1', s.slope('none'), (-1.1, -0.9),
-                  command(pixel, words))
-        yield row(f'{name}-sheared', '… sheared', '≤ -1.5', s.slope('equal-area'), (-2.1, -1.45),
-                  command(pixel, words))
-        yield row(f'{name}-gain', '… gain at N = 1024', '> 1', s.gain(1024), (1, math.inf),
-                  command(pixel, words))
-    words = f'--width 64 --height 64 --sampler mj {FOURS} --nreps 100'
+    """Walls, floor, an edge, on both sides of the focus: no claim should hang on one pixel."""
+    words = f'--sampler mj {FOURS} --nreps 100'
+    several = ';'.join(pixel for _, pixel, _ in PLACES)
+    for name, pixel, what in PLACES:
+        yield from place(name, what, study((pixel, several), words), command(pixel, words))
+    plain = 'scenes/wheel.gltf --quiet --width 400 --height 400 --bounces 0 --aperture square'
+    yield from place('plain', 'no texture: the border of a shadow out of focus', study('42,258', words, plain),
+                     command('42,258', words, plain), gain=('> 1', MORE))
+    words += ' --width 64 --height 64'
     s = study('58,24', words)
-    yield row('constant-gain', 'a pixel whose variance falls tenfold, N = 1024 …', '10', s.gain(1024), (8, math.inf),
+    yield row('constant-gain', 'a pixel whose variance falls tenfold, N = 1024 …', '10', s.gain(1024), MUCH_MORE,
               command('58,24', words))
     yield row('constant-rate', '… and whose rate does not improve: slope, sheared', '-1',
-              s.slope('equal-area'), (-1.1, -0.9), command('58,24', words))
+              s.slope('equal-area'), rate(-1.0), command('58,24', words))
+
+
+def place(name, what, s, shown, gain=('10 and more', MUCH_MORE)):
+    yield row(f'{name}-none', f'{what}, mj, no shear: slope', '-1', s.slope('none'), rate(-1.0), shown)
+    yield row(f'{name}-sheared', '… sheared', '≤ -1.5', s.slope('equal-area'), STEEP, shown)
+    yield row(f'{name}-gain', '… gain at N = 1024', gain[0], s.gain(1024), gain[1], shown)
+
+
+LENSES = [('disk', '--aperture disk', 'a disk'), ('hexagon', '--blades 6', 'a hexagon'),
+          ('anamorphic', '--aperture disk --anamorphic 2', 'half a disk\'s width'),
+          ('gaussian', '--aperture disk --filter gaussian', 'a disk, gaussian filter')]
+
+
+@group
+def lenses():
+    """An edge and the wall through other lenses than the square one of the literature."""
+    for name, flags, what in LENSES:
+        words = f'--sampler mj {flags} {FOURS} --nreps 100'
+        for where, pixel in [('edge', EDGE), ('wall', WALL)]:
+            s = study((pixel, f'{EDGE};{WALL}'), words)
+            shown = command(pixel, words)
+            yield row(f'{where}-{name}-none', f'the {where} through {what}, mj, no shear: slope', '-1',
+                      s.slope('none'), rate(-1.0), shown)
+            yield row(f'{where}-{name}-sheared', '… sheared', '≤ -1.5', s.slope('equal-area'), STEEP, shown)
+            yield row(f'{where}-{name}-gain', '… gain at N = 1024', '> 1', s.gain(1024), MORE, shown)
 
 
 @group
 def wedge():
+    mj = None
     for sampler in ('mj', 'oa', 'sz'):
         words = f'--sampler {sampler} --nsamps 256,1024 --nreps 150'
         s = study(WEDGE, words)
         if sampler == 'mj':
             mj = s
             yield row('wedge-gain', 'two depths in one pixel, a double wedge: gain, mj, N = 1024', 'little',
-                      s.gain(1024), (1, 2.5), command(WEDGE, words))
+                      s.gain(1024), LITTLE, command(WEDGE, words))
             continue
         n = next(n for n in s.batches[0][sampler, 'none'] if n >= 1024)
-        figure = ratio([math.log(a) - math.log(b[sampler, 'equal-area'][n]) for a, b in
-                        zip((x['mj', 'equal-area'][1024] for x in mj.batches), s.batches)])
+        figure = ratio_of([b['mj', 'equal-area'][1024] for b in mj.batches],
+                          [b[sampler, 'equal-area'][n] for b in s.batches])
         yield row(f'wedge-{sampler}', f'… structures wider than hairlines help: variance of mj over that of {sampler}, '
-                  'both sheared', '> 1', figure, (1, math.inf), command(WEDGE, words))
+                  'both sheared', '> 1', figure, MORE, command(WEDGE, words))
+    words = '--sampler mj --nsamps 256,1024 --nreps 150'
+    for name, pixel, what in [('side', '267,250', 'the side of the tall box'), ('top', '320,339', 'the top of the low box')]:
+        yield row(f'wedge-{name}', f'two depths elsewhere, at {what}: gain, mj, N = 1024', 'little',
+                  study((pixel, '267,250;320,339'), words).gain(1024), LITTLE, command(pixel, words))
 
 
 @group
 def oracle():
-    """Variance with a shear that is off, in units of that with the wall's own, -13 pixels."""
+    """Variance with a shear that is off, in units of that with the surface's own."""
     words = '--sampler mj --shear equal-area --nsamps 64,1024 --nreps 100 --shear-px='
-    right = study(WALL, words + '-13')
-    for name, shear, expected, what in [
-            ('pixel', -12, (1, 2), 'a pixel off'), ('four', -17, (1.5, 5), 'four pixels off'),
-            ('twice', -27, (3, 30), 'twice the shear'), ('none', 0, (5, 50), 'no shear'),
-            ('opposite', 13, (5, 100), 'the opposite shear')]:
-        yield row(f'oracle-{name}', f'all depends on the oracle: {what}, N = 1024; variance over that at -13 px',
-                  '> 1', gain_between(study(WALL, words + str(shear)), right, 1024, 'equal-area'),
-                  expected, command(WALL, words + str(shear)))
+    for where, pixel, own, errors in [
+            ('', WALL, -13, [('pixel', -12, 'a pixel off'), ('four', -17, 'four pixels off'),
+                             ('twice', -27, 'twice the shear'), ('none', 0, 'no shear'),
+                             ('opposite', 13, 'the opposite shear')]),
+            ('-floor', '256,505', 3.1, [('pixel', 4.1, 'a pixel off')])]:
+        right = study(pixel, words + str(own))
+        for name, shear, what in errors:
+            yield row(f'oracle{where}-{name}', f'all depends on the oracle: {what}, {"floor" if where else "wall"}, '
+                      f'N = 1024; variance over that at {own} px', '> 1',
+                      gain_between(study(pixel, words + str(shear)), right, 1024, 'equal-area'),
+                      MORE, command(pixel, words + str(shear)))
 
 
 @group
@@ -144,58 +174,7 @@ def calm():
     words = '--width 64 --height 64 --sampler mj --shear none,toroidal,equal-area --nsamps 256,1024 --nreps 100'
     s = study(pixel, words)
     yield row('calm-toroidal', 'a calm pixel: variance with the toroidal shear over that without, N = 1024', '–',
-              s.gain(1024, 'toroidal', 'none'), (1, math.inf), command(pixel, words))
-
-
-@group
-def image():
-    words = f'{BOX} --width 48 --height 48 --sampler mj --nsamps 64,256,1024 --nreps 12'
-    medians, better, worse = [], [], []
-    for seed in measure.seeds(4):
-        with tempfile.TemporaryDirectory() as folder:
-            clshear(f'converge {words} --seed {seed} --map {folder}/map.csv')
-            with open(f'{folder}/map.csv', encoding='utf-8') as stream:
-                lines = [line.split(',') for line in stream.read().split()[1:]]
-        gains = [float(line[5]) for line in lines if line[3] == 'equal-area']
-        gains = [g for g in gains if not math.isnan(g)]
-        medians.append(statistics.median(gains))
-        better.append(sum(g > 2 for g in gains) / len(gains))
-        worse.append(sum(g < 0.5 for g in gains) / len(gains))
-    shown = f'clshear converge {words} --map map.csv'
-    yield row('image-median', 'the whole image: median of the pixels\' gains, N = 1024', '> 1', interval(medians),
-              (2, math.inf), shown)
-    yield row('image-better', '… part of the pixels with a gain above 2', 'most', interval(better), (0.5, 1), shown)
-    yield row('image-worse', '… part of the pixels with a gain below 1/2', 'few', interval(worse), (0, 0.1), shown)
-
-
-@group
-def pixels_predicted():
-    for pixel, name, what in [(FOCUS, 'focus', 'in focus'), (WALL, 'wall', 'out of focus'),
-                              (WEDGE, 'wedge', 'double wedge')]:
-        for shear in ('none', 'equal-area'):
-            words = f'{BOX} --pixel {pixel} --shear {shear} --sampler mj --sets 300 --measure 600'
-            yield row(f'predicted-{name}-{shear}', f'measured over predicted variance: {what}, shear {shear}, N = 1024',
-                      '1', prediction(words)[0], (0.95, 1.05), f'clshear predict {words}')
-
-
-@group
-def image_predicted():
-    words = (f'{BOX} --width 16 --height 16 --sampler mj --n 64 --sets 100 --resolution 63 --block 4 '
-             f'--measure 200')
-    with tempfile.TemporaryDirectory() as folder:
-        clshear(f'predict {words} --seed {measure.seeds()[0]} --map {folder}/map.csv')
-        with open(f'{folder}/map.csv', encoding='utf-8') as stream:
-            lines = [[float(v) for v in line.split(',')] for line in stream.read().split()[1:]]
-    lines = [line for line in lines if line[3] > 0.0]  # without variance: in shadow
-    held = sum(line[4] <= line[2] <= line[5] for line in lines) / len(lines)
-    half = 1.96 * math.sqrt(held * (1.0 - held) / len(lines))
-    yield row('image-predicted', 'the whole image: part of the pixels whose 95 % interval of the measured '
-              'variance holds the predicted one, N = 64', '→ 0.95', (held, held - half, held + half), (0.85, 1),
-              f'clshear predict {words} --map map.csv')
-    ratios = interval([statistics.median(line[3] / line[2] for line in lines[k::4] if line[2] > 0.0)
-                       for k in range(4)])
-    yield row('image-predicted-ratio', '… median of measured over predicted variance', '1', ratios, (0.95, 1.05),
-              f'clshear predict {words} --map map.csv')
+              s.gain(1024, 'toroidal', 'none'), OPEN, command(pixel, words))
 
 
 def pictures(folder, work, mosaic):
@@ -208,8 +187,3 @@ def pictures(folder, work, mosaic):
     for name, pixel in [('wall', WALL), ('wedge', WEDGE)]:
         clshear(f'converge {BOX} --pixels {pixel} --sampler mj --nsamps 16,64,256,1024,4096 --nreps 400 '
                 f'--plot {folder}/{name}.png')
-    clshear(f'predict {BOX} --width 24 --height 24 --sampler mj --n 64 --sets 100 --resolution 63 --block 4 '
-            f'--measure 200 --plot {folder}/scatter.png')
-    small = work / 'map.png'
-    clshear(f'converge {BOX} --width 64 --height 64 --sampler mj --nsamps 64,256,1024 --nreps 32 --map {small}')
-    mosaic([str(small)], '1x1', folder / 'map.png', ['--resize:filter=box', '768x256'])

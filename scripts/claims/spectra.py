@@ -2,9 +2,9 @@
 import math
 import statistics
 
+from expectation import DARK, MUCH_LESS, NOT_DARK, ONE
 from measure import clshear, interval, power, spectra
 from rows import group, row
-
 
 
 def sinc2(x):
@@ -22,29 +22,41 @@ def planar():
     words = 'spectrum --n 1024 --sets 40 --projection xy'
     random = spectra('--sampler random --n 1024 --sets 40')
     yield row('random-white', 'random points are white', '1', power(random, 'mean', 8, 64),
-              (0.99, 1.01), f'clshear {words} --sampler random')
+              ONE, f'clshear {words} --sampler random')
+    yield row('spectrum-is-a-mean', 'an expected spectrum is a mean over realisations: the variance that '
+              'is left over a ring at 40 sets, in units of a single set\'s over 40, radii 8 to 64', '1',
+              scatter(random), ONE, f'clshear {words} --sampler random')
     rooks = spectra('--sampler nrooks --n 1024 --sets 40 --direction 1,2 --resolution 512')
     command = f'clshear {words} --sampler nrooks --direction 1,2 --resolution 512'
     yield row('nrooks-axis', 'N-rooks: dark lines along the axes …', '→ 0',
-              power(rooks, 'along 1:0', 8, 64), (0, 0.02), command)
+              power(rooks, 'along 1:0', 8, 64), DARK, command)
     yield row('nrooks-profile', '… where the power is 1D jitter\'s, 1 - sinc²(f / N), over radii 32 to 255',
               '1 × that', over_closed_form(rooks, 'along 1:0', range(32, 256),
-                                           lambda f: 1 - sinc2(f / 1024)), 1, command)
+                                           lambda f: 1 - sinc2(f / 1024)), ONE, command)
     yield row('nrooks-elsewhere', '… and white elsewhere', '1', power(rooks, 'along 1:2', 8, 64),
-              (0.99, 1.01), command)
+              ONE, command)
     jittered = spectra('--sampler jittered --n 1024 --sets 40')
     yield row('jittered-centre', 'jittered: a dark centre; power on the diagonal over 1 - sinc²(x / 32) sinc²(y / 32), '
               'radii 2 to 24', '1 × that',
-              over_closed_form(jittered, 'along 1:1', range(2, 25), on_diagonal), 1,
+              over_closed_form(jittered, 'along 1:1', range(2, 25), on_diagonal), ONE,
               f'clshear {words} --sampler jittered')
-    mj = spectra('--sampler mj --n 1024 --sets 40')
-    command = f'clshear {words} --sampler mj'
-    yield row('mj-cross', 'multi-jittered, XY: the cross, radii 8 to 64 along x', '→ 0',
-              power(mj, 'along 1:0', 8, 64), (0, 0.02), command)
-    yield row('mj-centre', '… and the dark centre, radii 1 to 8 on the diagonal', '≪ 1',
-              power(mj, 'along 1:1', 1, 8), (0, 0.2), command)
-    yield row('mj-outside', '… and white outside both, radii 48 to 64 on the diagonal', '1',
-              power(mj, 'along 1:1', 48, 64), (0.95, 1.05), command)
+    for plane in ('xy', 'uv'):
+        mj = spectra(f'--sampler mj --n 1024 --sets 40 --projection {plane}')
+        command = f'clshear spectrum --n 1024 --sets 40 --projection {plane} --sampler mj'
+        first = '' if plane == 'xy' else 'uv-'
+        yield row(f'{first}mj-cross', f'multi-jittered, {plane.upper()}: the cross, radii 8 to 64 along {plane[0]}',
+                  '→ 0', power(mj, 'along 1:0', 8, 64), DARK, command)
+        yield row(f'{first}mj-centre', '… and the dark centre, radii 1 to 8 on the diagonal', '≪ 1',
+                  power(mj, 'along 1:1', 1, 8), MUCH_LESS, command)
+        yield row(f'{first}mj-outside', '… and white outside both, radii 48 to 64 on the diagonal', '1',
+                  power(mj, 'along 1:1', 48, 64), ONE, command)
+
+
+def scatter(tables):
+    """Variance over a ring, in units of the square of its mean, times the number of sets: 1 where a single
+    set's power has an exponential distribution. The column is in decibels, and as for ten sets."""
+    return interval([10.0 * statistics.fmean(10.0 ** (float(row['anisotropy_db']) / 10.0) for row in rows
+                                             if 8 <= int(row['radius']) <= 64) for rows in tables])
 
 
 def on_diagonal(radius):
@@ -56,7 +68,7 @@ def on_diagonal(radius):
 @group
 def blue_noise():
     for sampler, count, low, high, expected, words in [
-            ('poisson', 1024, 1, 8, (0.02, 0.2), 'some power'), ('ccvt', 144, 1, 3, (0, 0.02), '→ 0')]:
+            ('poisson', 1024, 1, 8, NOT_DARK, 'some power'), ('ccvt', 144, 1, 3, DARK, '→ 0')]:
         tables = spectra(f'--sampler {sampler} --n {count} --sets 64 --fresh-sets --resolution 64')
         yield row(f'{sampler}-centre', f'{sampler}: power left in the centre, radii {low} to {high}',
                   words, power(tables, 'mean', low, high), expected,
@@ -69,18 +81,20 @@ def pairs():
     plain = spectra(f'{base} --projection xu')
     command = f'clshear spectrum {base} --projection xu'
     yield row('xu-axes', 'multi-jittered pairs, XU: hairlines along the axes …', '→ 0',
-              power(plain, 'along 1:0', 8, 64), (0, 0.02), command)
+              power(plain, 'along 1:0', 8, 64), DARK, command)
+    yield row('xu-centre', '… and no dark centre, radii 1 to 8 on the diagonal', '1',
+              power(plain, 'along 1:1', 1, 8), ONE, command)
     yield row('xu-slant', '… which miss the line of an integrand at a slant, ω_u = 3 ω_x', '1',
-              power(plain, 'along 1:3', 8, 64), (0.97, 1.03), command)
+              power(plain, 'along 1:3', 8, 64), ONE, command)
     for plane in ('xu', 'yv'):
         tables = spectra(f'{base} --projection {plane} --shear-px 3')
         yield row(f'{plane}-sheared', f'sheared by 3 pixels, those of {plane.upper()} lie on it', '→ 0',
-                  power(tables, 'along 1:3', 8, 64), (0, 0.03),
+                  power(tables, 'along 1:3', 8, 64), DARK,
                   f'clshear spectrum {base} --projection {plane} --shear-px 3')
     for plane in ('xv', 'yu'):
         tables = spectra(f'{base} --projection {plane} --shear-px 3')
         yield row(f'{plane}-white', f'no others are sheared: {plane.upper()} stays white on that line',
-                  '1', power(tables, 'along 1:3', 8, 64), (0.97, 1.03),
+                  '1', power(tables, 'along 1:3', 8, 64), ONE,
                   f'clshear spectrum {base} --projection {plane} --shear-px 3')
 
 

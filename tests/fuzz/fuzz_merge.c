@@ -1,34 +1,9 @@
-/* A target for libFuzzer: films of 2 x 1 pixels whose metadata and channels are the bytes, merged.
- */
-#include <stdint.h>
-#include <stdio.h>
+/* Films of 2 x 1 pixels whose metadata and channels are the bytes, merged. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "film/merge.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-/* film.c's way to files, which is not taken here. */
-clshear_status cs_image_write(const char *path, const cs_picture *picture, cs_error *error)
-{
-    (void)path, (void)picture;
-    return cs_fail(error, CLSHEAR_BAD_FILE, "no images here");
-}
-clshear_status cs_image_check(const char *path, int width, int height, cs_error *error)
-{
-    (void)path, (void)width, (void)height;
-    return cs_fail(error, CLSHEAR_BAD_FILE, "no images here");
-}
-clshear_status cs_image_read(const char *path, cs_loaded_picture *loaded, cs_error *error)
-{
-    (void)path, (void)loaded;
-    return cs_fail(error, CLSHEAR_BAD_FILE, "no images here");
-}
-void cs_image_free(cs_loaded_picture *loaded)
-{
-    (void)loaded;
-}
+#include "targets.h"
 
 typedef struct input {
     const uint8_t *data;
@@ -95,7 +70,7 @@ static clshear_film *film_of(input *from)
     return film;
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+void cs_fuzz_merge(const uint8_t *data, size_t size)
 {
     input from = {data, size};
     clshear_film *films[3] = {NULL, NULL, NULL}, *merged = NULL;
@@ -112,5 +87,4 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     cs_film_free(merged);
     for (size_t i = 0; i < count; i++)
         cs_film_free(films[i]);
-    return 0;
 }

@@ -1,35 +1,54 @@
 #!/bin/sh
-# Fuzzes the readers of scene files with clang's libFuzzer, SECONDS each (120), in a scratch folder.
-# Images are left to their library: its place has a stand-in.
-# usage: tests/fuzz/run.sh BUILD [SECONDS [FORMAT...]]
+# Fuzzes targets (targets.h; without names, all of them) with clang's libFuzzer under sanitizers for
+# SECONDS of processor time each (120). Builds in build-fuzz/ of the project, and keeps there what
+# was found: corpus_NAME, and files with the inputs that failed. CS_FUZZ_SEEDS may name a folder with
+# more first inputs, NAME/FILE.
+# usage: tests/fuzz/run.sh [SECONDS [TARGET...]]
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
-build=$(cd "$1" && pwd)
-seconds=${2:-120}
-shift; [ $# -gt 0 ] && shift
-scratch=$(mktemp -d)
-cd "$scratch"
-flags="-g -O1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -D_XOPEN_SOURCE=700
-    -DCLSHEAR_BUILDING -DCLSHEAR_HELPER_FROM_LIBRARY=\"x\" -DCLSHEAR_HELPER_INSTALLED=\"x\"
-    -I$root/include -I$root/cl -I$root/host -I$build/generated"
-for file in "$root"/host/import/*.c "$root"/host/scene/light.c "$root"/host/scene/material.c \
-    "$root"/host/scene/scene.c "$root"/host/scene/standard.c "$root"/host/scene/texture.c \
-    "$root"/host/image/texel_kinds.c "$root"/host/base/array.c \
-    "$root"/host/base/status.c "$root"/host/base/output_file.c "$root"/tests/fuzz/no_images.c; do
-    # shellcheck disable=SC2086
-    clang-14 $flags -c "$file" -o "$(basename "$file").o"
+seconds=${1:-120}
+[ $# -eq 0 ] || shift
+[ $# -gt 0 ] || set -- obj mtl ply stl gltf glb command_line settings points checkpoint merge film
+seeds=${CS_FUZZ_SEEDS:+$(cd "$CS_FUZZ_SEEDS" && pwd)}
+flags="-g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined"
+cmake -S "$root" -B "$root/build-fuzz" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCLSHEAR_FUZZ=ON \
+    -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 \
+    -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" >/dev/null
+cd "$root/build-fuzz"
+ninja fuzz >build.log || { tail -n 40 build.log; exit 1; }
+export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 # drivers keep what they have until the end
+export TMPDIR="$PWD/scratch"
+mkdir -p "$TMPDIR"
+
+# Sets `spent` to the processor time, in whole seconds, of the ended children of this shell. (A
+# subshell would have none.)
+count_seconds() {
+    times >times
+    spent=$(tail -n 1 times | tr 'ms' '  ' | awk '{ print int($1 * 60 + $2 + $3 * 60 + $4) }')
+}
+
+for name in "$@"; do
+    mkdir -p "corpus_$name"
+    cp "$root/tests/fuzz/corpus/$name"/* "corpus_$name"/
+    [ -z "$seeds" ] || [ ! -d "$seeds/$name" ] || cp "$seeds/$name"/* "corpus_$name"/
+    ln -sf tests/fuzz/fuzz "fuzz_$name"
+    words="$root/tests/fuzz/dictionaries/$name"
+    [ -f "$words" ] || words=/dev/null
+    # libFuzzer counts the clock's time, which is another on a busy machine.
+    count_seconds
+    begun=$spent
+    used=0
+    inputs=0
+    while [ "$used" -lt "$seconds" ]; do
+        "./fuzz_$name" -max_total_time=$((seconds - used)) -max_len=4096 -timeout=20 \
+            -rss_limit_mb=4096 -print_final_stats=1 -close_fd_mask=1 -dict="$words" \
+            -artifact_prefix="$name-" "corpus_$name" >"$name.log" 2>&1 || {
+            tail -n 40 "$name.log"
+            exit 1
+        }
+        inputs=$((inputs + $(sed -n 's/^stat::number_of_executed_units: *//p' "$name.log")))
+        count_seconds
+        used=$((spent - begun))
+    done
+    echo "$name: $inputs inputs in $used s of processor time, $(find "corpus_$name" -type f | wc -l) in the corpus"
 done
-# shellcheck disable=SC2086
-clang++-14 $flags -std=c++17 -c "$root/host/base/number.cpp" -o number.o
-for format in "${@:-obj}" $( [ $# -gt 0 ] || echo mtl ply stl gltf glb ); do
-    # shellcheck disable=SC2086
-    clang-14 $flags -DCS_FUZZ_SUFFIX="\"$format\"" -c "$root/tests/fuzz/fuzz_import.c" -o target.o
-    clang++-14 -fsanitize=fuzzer,address,undefined ./*.o -ljansson -lpthread -ldl -lm -o "fuzz_$format"
-    mkdir -p "corpus_$format"
-    cp "$root"/tests/fuzz/corpus/*."$format" "corpus_$format"/
-    echo "$format"
-    "./fuzz_$format" -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=4096 -print_final_stats=1 "corpus_$format" \
-        >"$format.log" 2>&1 || { tail -n 40 "$format.log"; echo "artifacts are in $scratch"; exit 1; }
-    grep -E "stat::(number_of_executed|average_exec)" "$format.log"
-done
-rm -rf "$scratch"

@@ -11,23 +11,40 @@
 
 #include "fp_contract_off.h"
 
-/* The place x, in pixels from the pixel's centre, with P(X < x) = mass, for X distributed as the
- * pixel filter and mass in [0, 1]. */
-CS_INLINED cs_vfloat cs_filter_quantile(const cs_optics *optics, cs_optics_table table,
-                                        cs_vfloat mass)
+/* A place on the film, distributed as the pixel filter. */
+typedef struct cs_filter_place {
+    cs_vfloat x;       /* pixels from the pixel's centre */
+    cs_vfloat density; /* of the filter there, per pixel */
+} cs_filter_place;
+
+/* The place with P(X < x) = mass, for X distributed as the pixel filter, which is symmetrical, and
+ * mass in [0, 1]. */
+CS_INLINED cs_filter_place cs_filter_place_of(const cs_optics *optics, cs_optics_table table,
+                                              cs_vfloat mass)
 {
     cs_f32 step = optics->filter_width / (cs_f32)optics->filter_steps;
     cs_f32 below = 0.0f;
-    cs_vfloat rest = mass, density = (cs_vfloat)(table[0]),
-              start = (cs_vfloat)(-0.5f * optics->filter_width);
-    for (cs_u32 k = 1u; k < optics->filter_steps; k++) {
+    cs_vfloat tail = cs_min(mass, 1.0f - mass);
+    cs_vfloat rest = tail, start = (cs_vfloat)(-0.5f * optics->filter_width);
+    cs_filter_place place;
+    place.density = (cs_vfloat)(table[0]);
+    for (cs_u32 k = 1u; k < optics->filter_steps / 2u; k++) {
         below += table[k - 1u] * step;
-        cs_vint right = mass >= below;
-        rest = right ? mass - below : rest;
-        density = right ? (cs_vfloat)(table[k]) : density;
+        cs_vint right = tail >= below;
+        rest = right ? tail - below : rest;
+        place.density = right ? (cs_vfloat)(table[k]) : place.density;
         start = right ? (cs_vfloat)((cs_f32)k * step - 0.5f * optics->filter_width) : start;
     }
-    return start + cs_min(rest / density, (cs_vfloat)(step));
+    cs_vfloat x = start + cs_min(rest / place.density, (cs_vfloat)(step));
+    place.x = mass > 0.5f ? -x : x;
+    return place;
+}
+
+/* The place x alone. */
+CS_INLINED cs_vfloat cs_filter_quantile(const cs_optics *optics, cs_optics_table table,
+                                        cs_vfloat mass)
+{
+    return cs_filter_place_of(optics, table, mass).x;
 }
 
 /* One axis of film and lens. */

@@ -7,7 +7,8 @@
  *
  * Layout of a lens table, which clshear_lens_table makes:
  * - CS_FILTER_STEPS floats: the filter's density, per pixel, on each of its filter_steps steps.
- * - For a polygon, segments[0] + 1 rows of CS_MARGINAL_COLUMNS floats: the marginal of u.
+ * - For a polygon, segments[0] + 1 rows of CS_MARGINAL_COLUMNS floats: the marginal of u and the
+ *   chords along v. Then segments[1] + 1 rows: the same with u and v exchanged.
  * - For an image, segments[0] + 1 such rows for the marginal of u, then for each of the segments[0]
  *   columns of texels segments[1] + 1 rows for the distribution of v in that column.
  * A row tells of the segment that begins at it; the last row of a marginal is its right end. */
@@ -258,7 +259,7 @@ typedef struct cs_chord {
     cs_vfloat length;     /* 0 or more; 1 for an image, whose V is v itself */
 } cs_chord;
 
-/* The chord at u. `across` must be cs_marginal_across(optics, table). */
+/* The chord along v at u. `across` must be cs_marginal_across(optics, table). */
 static inline cs_chord cs_chord_at(const cs_optics *optics, cs_optics_table table,
                                    const cs_marginal *across, cs_vfloat u)
 {
@@ -284,6 +285,49 @@ static inline cs_chord cs_chord_at(const cs_optics *optics, cs_optics_table tabl
             optics->segments[0] + 1u + cs_marginal_texel(across, u) * (optics->segments[1] + 1u);
     }
     return chord;
+}
+
+/* A chord of the aperture along u. */
+typedef struct cs_span {
+    cs_vfloat centre; /* lens units */
+    cs_vfloat length; /* lens units, 0 or more */
+} cs_span;
+
+/* The chord along u at v, of a disk or a polygon. */
+static inline cs_span cs_span_at(const cs_optics *optics, cs_optics_table table, cs_vfloat v)
+{
+    cs_span span;
+    span.centre = (cs_vfloat)(0.0f);
+    if (optics->marginal == CS_MARGINAL_DISK) {
+        cs_vfloat square = (CS_DISK_RADIUS - v) * (CS_DISK_RADIUS + v);
+        span.length = 2.0f * cs_sqrt(cs_max(square, (cs_vfloat)(0.0f)));
+        return span;
+    }
+    cs_marginal down = cs_marginal_of(CS_MARGINAL_POLYGON, 0.0f, 0.0f, table);
+    down.rows += (optics->segments[0] + 1u) * (cs_u32)CS_MARGINAL_COLUMNS;
+    down.segments = optics->segments[1];
+    cs_marginal_row row = cs_marginal_pick(&down, CS_MARGINAL_START, v);
+    cs_vfloat step = v - row.start;
+    span.length = cs_max(row.density + step * row.slope, (cs_vfloat)(0.0f));
+    span.centre = row.low + step * row.low_slope + 0.5f * span.length;
+    return span;
+}
+
+/* The point of the aperture that a pair (a, b) in [0, 1) stands for. */
+static inline void cs_lens_point(cs_vfloat a, cs_vfloat b, const cs_optics *optics,
+                                 cs_optics_table table, cs_vfloat *u, cs_vfloat *v)
+{
+    *u = a - 0.5f;
+    *v = b - 0.5f;
+    if (optics->marginal == CS_MARGINAL_UNIFORM) return;
+    if (optics->marginal == CS_MARGINAL_DISK) {
+        cs_disk_from_square(u, v);
+        return;
+    }
+    cs_marginal across = cs_marginal_across(optics, table);
+    *u = cs_marginal_quantile(&across, a);
+    cs_chord chord = cs_chord_at(optics, table, &across, *u);
+    *v = chord.centre + chord.length * cs_marginal_quantile(&chord.marginal, b);
 }
 
 #include "fp_contract_restore.h"

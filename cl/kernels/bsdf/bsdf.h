@@ -31,73 +31,81 @@ static inline cs_vint cs_lets_through(const cs_surface *surface)
 #endif
 }
 
+/* Surfaces as seen from the directions `out`, for the functions below. Both must outlive it. */
+static inline cs_bsdf_view cs_bsdf_view_of(const cs_surface *surface, const cs_vfloat *out)
+{
+    cs_bsdf_view view;
+    view.surface = surface;
+    view.out = out;
+#if CS_HAS(MATERIALS)
+    const cs_vfloat *p = surface->parameters;
+    cs_vint solid = cs_bsdf_lanes(surface, CS_BSDF_GLASS);
+    cs_vfloat glass = solid ? cs_glass_part(surface) : (cs_vfloat)(0.0f);
+    cs_vint needed = cs_bsdf_lanes(surface, CS_BSDF_STANDARD) | (solid & (glass < 1.0f));
+    /* What of a solid is not glass is opaque. */
+    if (cs_any(needed))
+        view.standard = cs_standard_of(
+            surface, out, p[CS_PARAMETER_METALLIC] / cs_max(1.0f - glass, (cs_vfloat)(1e-6f)),
+            solid ? (cs_vfloat)(0.0f) : p[CS_PARAMETER_TRANSMISSION]);
+#endif
+    return view;
+}
+
 /* Takes over the lanes in `mine`. */
 static inline void cs_bsdf_take_value(cs_bsdf_value *value, const cs_bsdf_value *from, cs_vint mine)
 {
     value->scale = mine ? from->scale : value->scale;
+    value->density = mine ? from->density : value->density;
     for (int c = 0; c < 3; c++)
         value->colour[c] = mine ? from->colour[c] : value->colour[c];
 }
 
-/* The value for two directions on the side of surface->normal; the cosine is not part of it. */
-static inline cs_bsdf_value cs_bsdf_eval(const cs_surface *surface, const cs_vfloat *out,
-                                         const cs_vfloat *in)
+static inline cs_bsdf_value cs_bsdf_nothing(void)
 {
     cs_bsdf_value value;
     value.scale = (cs_vfloat)(0.0f);
+    value.density = (cs_vfloat)(0.0f);
     for (int c = 0; c < 3; c++)
         value.colour[c] = (cs_vfloat)(0.0f);
-#define CS_BSDF_EVAL(identifier, name, suffix)                           \
-    {                                                                    \
-        cs_vint mine = cs_bsdf_lanes(surface, CS_BSDF_##identifier);     \
-        if (CS_BSDF_KINDS == 1 || cs_any(mine)) {                        \
-            cs_bsdf_value its = cs_bsdf_eval_##suffix(surface, out, in); \
-            cs_bsdf_take_value(&value, &its, mine);                      \
-        }                                                                \
+    return value;
+}
+
+/* The value for another direction, and the density with which cs_bsdf_sample draws it; the cosine
+ * is not part of it. */
+static inline cs_bsdf_value cs_bsdf_eval(const cs_bsdf_view *view, const cs_vfloat *in)
+{
+    cs_bsdf_value value = cs_bsdf_nothing();
+#define CS_BSDF_EVAL(identifier, name, suffix)                             \
+    {                                                                      \
+        cs_vint mine = cs_bsdf_lanes(view->surface, CS_BSDF_##identifier); \
+        if (CS_BSDF_KINDS == 1 || cs_any(mine)) {                          \
+            cs_bsdf_value its = cs_bsdf_eval_##suffix(view, in);           \
+            cs_bsdf_take_value(&value, &its, mine);                        \
+        }                                                                  \
     }
     CS_BSDF_LIST(CS_BSDF_EVAL)
 #undef CS_BSDF_EVAL
     return value;
 }
 
-/* The density, per steradian, with which cs_bsdf_sample draws `in`. */
-static inline cs_vfloat cs_bsdf_density(const cs_surface *surface, const cs_vfloat *out,
-                                        const cs_vfloat *in)
-{
-    cs_vfloat density = (cs_vfloat)(0.0f);
-#define CS_BSDF_DENSITY(identifier, name, suffix)                                  \
-    {                                                                              \
-        cs_vint mine = cs_bsdf_lanes(surface, CS_BSDF_##identifier);               \
-        if (CS_BSDF_KINDS == 1 || cs_any(mine))                                    \
-            density = mine ? cs_bsdf_density_##suffix(surface, out, in) : density; \
-    }
-    CS_BSDF_LIST(CS_BSDF_DENSITY)
-#undef CS_BSDF_DENSITY
-    return density;
-}
-
 /* Draws a direction `in` by a point of the unit square and a number, to choose a lobe by, in each
  * lane. */
-static inline cs_bsdf_direction cs_bsdf_sample(const cs_surface *surface, const cs_vfloat *out,
-                                               cs_pair pair, cs_vfloat choice)
+static inline cs_bsdf_direction cs_bsdf_sample(const cs_bsdf_view *view, cs_pair pair,
+                                               cs_vfloat choice)
 {
     cs_bsdf_direction drawn;
-    drawn.density = (cs_vfloat)(0.0f);
-    drawn.value.scale = (cs_vfloat)(0.0f);
-    for (int axis = 0; axis < 3; axis++) {
-        drawn.in[axis] = surface->normal[axis];
-        drawn.value.colour[axis] = (cs_vfloat)(0.0f);
-    }
-#define CS_BSDF_SAMPLE(identifier, name, suffix)                                         \
-    {                                                                                    \
-        cs_vint mine = cs_bsdf_lanes(surface, CS_BSDF_##identifier);                     \
-        if (CS_BSDF_KINDS == 1 || cs_any(mine)) {                                        \
-            cs_bsdf_direction its = cs_bsdf_sample_##suffix(surface, out, pair, choice); \
-            cs_bsdf_take_value(&drawn.value, &its.value, mine);                          \
-            drawn.density = mine ? its.density : drawn.density;                          \
-            for (int axis = 0; axis < 3; axis++)                                         \
-                drawn.in[axis] = mine ? its.in[axis] : drawn.in[axis];                   \
-        }                                                                                \
+    drawn.value = cs_bsdf_nothing();
+    for (int axis = 0; axis < 3; axis++)
+        drawn.in[axis] = view->surface->normal[axis];
+#define CS_BSDF_SAMPLE(identifier, name, suffix)                                 \
+    {                                                                            \
+        cs_vint mine = cs_bsdf_lanes(view->surface, CS_BSDF_##identifier);       \
+        if (CS_BSDF_KINDS == 1 || cs_any(mine)) {                                \
+            cs_bsdf_direction its = cs_bsdf_sample_##suffix(view, pair, choice); \
+            cs_bsdf_take_value(&drawn.value, &its.value, mine);                  \
+            for (int axis = 0; axis < 3; axis++)                                 \
+                drawn.in[axis] = mine ? its.in[axis] : drawn.in[axis];           \
+        }                                                                        \
     }
     CS_BSDF_LIST(CS_BSDF_SAMPLE)
 #undef CS_BSDF_SAMPLE

@@ -26,6 +26,12 @@ typedef struct cs_glass {
     cs_vfloat part; /* of the surface that is glass */
 } cs_glass;
 
+static inline cs_vfloat cs_glass_part(const cs_surface *surface)
+{
+    return surface->parameters[CS_PARAMETER_TRANSMISSION] *
+           (1.0f - surface->parameters[CS_PARAMETER_METALLIC]);
+}
+
 static inline cs_glass cs_glass_of(const cs_surface *surface, const cs_vfloat *out)
 {
     cs_glass g;
@@ -35,17 +41,8 @@ static inline cs_glass cs_glass_of(const cs_surface *surface, const cs_vfloat *o
     g.width = cs_facet_width(p[CS_PARAMETER_ROUGHNESS]);
     g.index_here = surface->inside ? p[CS_PARAMETER_INDEX] : (cs_vfloat)(1.0f);
     g.index_beyond = surface->inside ? (cs_vfloat)(1.0f) : p[CS_PARAMETER_INDEX];
-    g.part = p[CS_PARAMETER_TRANSMISSION] * (1.0f - p[CS_PARAMETER_METALLIC]);
+    g.part = cs_glass_part(surface);
     return g;
-}
-
-/* What is not glass: a standard surface without transparency. */
-static inline cs_surface cs_beside_glass(const cs_surface *surface, const cs_glass *g)
-{
-    cs_surface rest = *surface;
-    rest.parameters[CS_PARAMETER_TRANSMISSION] = (cs_vfloat)(0.0f);
-    rest.parameters[CS_PARAMETER_METALLIC] /= cs_max(1.0f - g->part, (cs_vfloat)(1e-6f));
-    return rest;
 }
 
 /* Part of unpolarised light that a facet reflects (Walter et al. 2007, equation 22); 1 where
@@ -116,36 +113,26 @@ static inline cs_vfloat cs_glass_value(const cs_glass *g, const cs_surface *surf
     return density / cos_in * (cosine > 0.0f ? (cs_vfloat)(1.0f) : ratio * ratio);
 }
 
-static inline cs_bsdf_value cs_bsdf_eval_glass(const cs_surface *surface, const cs_vfloat *out,
-                                               const cs_vfloat *in)
+static inline cs_bsdf_value cs_bsdf_eval_glass(const cs_bsdf_view *view, const cs_vfloat *in)
 {
-    cs_glass g = cs_glass_of(surface, out);
+    const cs_surface *surface = view->surface;
+    cs_glass g = cs_glass_of(surface, view->out);
     cs_bsdf_value value;
     cs_vfloat unit[3];
     cs_normalised(in, unit);
-    cs_vfloat glass = cs_glass_value(&g, surface, unit, cs_glass_density(&g, surface, unit));
+    cs_vfloat density = cs_glass_density(&g, surface, unit);
+    cs_vfloat glass = cs_glass_value(&g, surface, unit, density);
     cs_vint behind = cs_inner(unit, surface->normal) < 0.0f;
     value.scale = (cs_vfloat)(1.0f);
+    value.density = g.part * density;
     for (int c = 0; c < 3; c++)
         value.colour[c] = g.part * glass * (behind ? surface->albedo[c] : (cs_vfloat)(1.0f));
     if (!cs_any(g.part < 1.0f)) return value;
-    cs_surface beside = cs_beside_glass(surface, &g);
-    cs_bsdf_value rest = cs_bsdf_eval_standard(&beside, out, unit);
+    cs_bsdf_value rest = cs_standard_value(&view->standard, surface, unit);
+    value.density += (1.0f - g.part) * rest.density;
     for (int c = 0; c < 3; c++)
         value.colour[c] += (1.0f - g.part) * rest.colour[c];
     return value;
-}
-
-static inline cs_vfloat cs_bsdf_density_glass(const cs_surface *surface, const cs_vfloat *out,
-                                              const cs_vfloat *in)
-{
-    cs_glass g = cs_glass_of(surface, out);
-    cs_vfloat unit[3];
-    cs_normalised(in, unit);
-    cs_vfloat density = g.part * cs_glass_density(&g, surface, unit);
-    if (!cs_any(g.part < 1.0f)) return density;
-    cs_surface beside = cs_beside_glass(surface, &g);
-    return density + (1.0f - g.part) * cs_bsdf_density_standard(&beside, out, unit);
 }
 
 /* A direction that a visible facet mirrors or refracts; `choice` says which. On the wrong side of
@@ -175,27 +162,26 @@ static inline void cs_glass_draw(const cs_glass *g, const cs_surface *surface, c
 #endif
 }
 
-static inline cs_bsdf_direction cs_bsdf_sample_glass(const cs_surface *surface,
-                                                     const cs_vfloat *out, cs_pair pair,
+static inline cs_bsdf_direction cs_bsdf_sample_glass(const cs_bsdf_view *view, cs_pair pair,
                                                      cs_vfloat choice)
 {
-    cs_glass g = cs_glass_of(surface, out);
+    const cs_surface *surface = view->surface;
+    cs_glass g = cs_glass_of(surface, view->out);
     cs_bsdf_direction drawn;
     cs_vint lost;
     cs_vfloat among = choice / cs_max(g.part, (cs_vfloat)(1e-20f));
     cs_glass_draw(&g, surface, pair, among, drawn.in, &lost);
     if (cs_any(g.part < 1.0f)) {
-        cs_surface beside = cs_beside_glass(surface, &g);
+        cs_vfloat rest[3];
         cs_vint by_rest = choice >= g.part;
         among = (choice - g.part) / cs_max(1.0f - g.part, (cs_vfloat)(1e-20f));
-        cs_bsdf_direction rest = cs_bsdf_sample_standard(&beside, out, pair, among);
+        cs_vint lost_by_rest = cs_standard_draw(&view->standard, surface, pair, among, rest);
         for (int i = 0; i < 3; i++)
-            drawn.in[i] = by_rest ? rest.in[i] : drawn.in[i];
-        lost = by_rest ? (cs_vint)(rest.density <= 0.0f) : lost;
+            drawn.in[i] = by_rest ? rest[i] : drawn.in[i];
+        lost = by_rest ? lost_by_rest : lost;
     }
-    cs_vfloat density = cs_bsdf_density_glass(surface, out, drawn.in);
-    drawn.density = lost ? (cs_vfloat)(0.0f) : density;
-    drawn.value = cs_bsdf_eval_glass(surface, out, drawn.in);
+    drawn.value = cs_bsdf_eval_glass(view, drawn.in);
+    drawn.value.density = lost ? (cs_vfloat)(0.0f) : drawn.value.density;
     return drawn;
 }
 

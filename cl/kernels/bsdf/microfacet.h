@@ -74,12 +74,17 @@ static inline cs_vfloat cs_facet_visibility(cs_vfloat cos_out, cs_vfloat cos_in,
 #endif
 }
 
+/* By which the density of facets becomes that of directions that visible facets mirror `out` to. */
+static inline cs_vfloat cs_facet_part(cs_vfloat cos_out, cs_vfloat width)
+{
+    return 0.5f / (cos_out + cs_facet_slant(cos_out, width));
+}
+
 /* Density of `in` when it mirrors `out` at a visible facet. */
 static inline cs_vfloat cs_facet_density(const cs_vfloat *normal, const cs_vfloat *half_way,
                                          cs_vfloat cos_out, cs_vfloat width)
 {
-    return cs_facet_distribution(normal, half_way, width) * 0.5f /
-           (cos_out + cs_facet_slant(cos_out, width));
+    return cs_facet_distribution(normal, half_way, width) * cs_facet_part(cos_out, width);
 }
 
 /* A facet's normal that `out` sees, in the frame of which the surface's normal is the last axis. */
@@ -90,9 +95,10 @@ static inline void cs_visible_facet(const cs_vfloat *out, cs_vfloat width, cs_pa
     cs_normalised(stretched, seen);
     cs_vfloat up = (1.0f - pair.y) * (1.0f + seen[2]) - seen[2];
     cs_vfloat outward = cs_sqrt(cs_clamp(1.0f - up * up, (cs_vfloat)(0.0f), (cs_vfloat)(1.0f)));
-    cs_vfloat angle = 2.0f * CS_PI * pair.x;
-    cap[0] = (outward * cs_cos(angle) + seen[0]) * width;
-    cap[1] = (outward * cs_sin(angle) + seen[1]) * width;
+    cs_vfloat sine, cosine;
+    cs_sine_cosine(2.0f * CS_PI * pair.x, &sine, &cosine);
+    cap[0] = (outward * cosine + seen[0]) * width;
+    cap[1] = (outward * sine + seen[1]) * width;
     cap[2] = cs_max(up + seen[2], (cs_vfloat)(1e-7f));
     cs_normalised(cap, facet);
 }
@@ -120,58 +126,84 @@ static inline cs_vfloat cs_schlick(cs_vfloat cosine)
 }
 
 /* ------------------------------------------------------------------------------------------------
- * The table of albedos: for each roughness, planes of CS_ALBEDO_COSINES values from cosine 0 to 1,
- * then their averages, 2 int E(c) c dc.
+ * The table of albedos. Each roughness has a pair of albedos, of CS_ALBEDO_ALL and
+ * CS_ALBEDO_SCHLICK, for CS_ALBEDO_COSINES cosines from 0 to 1, then the pair of their averages,
+ * 2 int E(c) c dc; then as many albedos of sheen.
  * --------------------------------------------------------------------------------------------- */
 
 enum {
     CS_ALBEDO_COSINES = 64,
     CS_ALBEDO_ROUGHNESSES = 32,
-    CS_ALBEDO_ALL = 0,     /* of facets that are perfect mirrors, met once */
-    CS_ALBEDO_SCHLICK = 1, /* with cs_schlick as reflectance */
-    CS_ALBEDO_SHEEN = 2,   /* of white sheen */
-    CS_ALBEDO_PLANES = 3,
-    CS_ALBEDO_ROW = CS_ALBEDO_PLANES * (CS_ALBEDO_COSINES + 1), /* of a roughness */
+    CS_ALBEDO_FIBRES = 2 * (CS_ALBEDO_COSINES + 1), /* where those of sheen begin */
+    CS_ALBEDO_ROW = 3 * (CS_ALBEDO_COSINES + 1),    /* of a roughness */
     CS_ALBEDO_FLOATS = CS_ALBEDO_ROW * CS_ALBEDO_ROUGHNESSES
 };
 
-typedef struct cs_albedo {
-    cs_vfloat plane[CS_ALBEDO_PLANES];
-} cs_albedo;
+/* Places in the table. */
+typedef struct cs_albedo_place {
+    cs_vint row;      /* first number of the roughness below */
+    cs_vfloat across; /* part of the way to the next one */
+    cs_vint cell;     /* the cosine below */
+    cs_vfloat along;  /* part of the way to the next one */
+} cs_albedo_place;
 
-/* Linear between the roughnesses and, where `cosine` is not negative, between cosines; else the
- * averages. */
+/* cosine, roughness: 0 to 1. */
+static inline cs_albedo_place cs_albedo_place_of(cs_vfloat cosine, cs_vfloat roughness)
+{
+    cs_albedo_place at;
+    cs_vfloat across = cs_clamp(roughness, (cs_vfloat)(0.0f), (cs_vfloat)(1.0f)) *
+                       (cs_f32)(CS_ALBEDO_ROUGHNESSES - 1);
+    cs_vfloat row = cs_min(cs_floor(across), (cs_vfloat)((cs_f32)(CS_ALBEDO_ROUGHNESSES - 2)));
+    cs_vfloat along =
+        cs_clamp(cosine, (cs_vfloat)(0.0f), (cs_vfloat)(1.0f)) * (cs_f32)(CS_ALBEDO_COSINES - 1);
+    cs_vfloat cell = cs_min(cs_floor(along), (cs_vfloat)((cs_f32)(CS_ALBEDO_COSINES - 2)));
+    at.across = across - row;
+    at.along = along - cell;
+    at.row = cs_whole(row) * CS_ALBEDO_ROW;
+    at.cell = cs_whole(cell);
+    return at;
+}
+
+/* Of facets, linear between the roughnesses and between the cosines. */
 static inline cs_albedo cs_albedo_at(CS_GLOBAL const cs_f32 *table, cs_vfloat cosine,
                                      cs_vfloat roughness)
 {
-    cs_float_each c, r, found[CS_ALBEDO_PLANES];
+    cs_albedo_place at = cs_albedo_place_of(cosine, roughness);
+    cs_vint first = at.row + 2 * at.cell;
+    cs_vfloat found[4];
     cs_albedo albedo;
-    c.all = cosine;
-    r.all = cs_clamp(roughness, (cs_vfloat)(0.0f), (cs_vfloat)(1.0f));
-    for (int lane = 0; lane < CS_PACKET; lane++) {
-        cs_f32 across = CS_LANE(r) * (cs_f32)(CS_ALBEDO_ROUGHNESSES - 1);
-        cs_u32 row = (cs_u32)across;
-        row = row > (cs_u32)(CS_ALBEDO_ROUGHNESSES - 2) ? (cs_u32)(CS_ALBEDO_ROUGHNESSES - 2) : row;
-        across -= (cs_f32)row;
-        cs_f32 place = CS_LANE(c) * (cs_f32)(CS_ALBEDO_COSINES - 1);
-        cs_u32 cell = place > 0.0f ? (cs_u32)place : 0u;
-        cell = cell > (cs_u32)(CS_ALBEDO_COSINES - 2) ? (cs_u32)(CS_ALBEDO_COSINES - 2) : cell;
-        cs_f32 along = place - (cs_f32)cell;
-        if (CS_LANE(c) < 0.0f) {
-            cell = (cs_u32)(CS_ALBEDO_COSINES - 1);
-            along = 1.0f;
-        }
-        CS_GLOBAL const cs_f32 *low = table + row * (cs_u32)CS_ALBEDO_ROW + cell;
-        for (cs_u32 p = 0u; p < (cs_u32)CS_ALBEDO_PLANES; p++) {
-            CS_GLOBAL const cs_f32 *a = low + p * (cs_u32)(CS_ALBEDO_COSINES + 1);
-            CS_GLOBAL const cs_f32 *b = a + CS_ALBEDO_ROW;
-            cs_f32 lower = a[0] + along * (a[1] - a[0]), upper = b[0] + along * (b[1] - b[0]);
-            CS_LANE(found[p]) = lower + across * (upper - lower);
-        }
-    }
+    cs_blend_four(table, first, first + CS_ALBEDO_ROW, at.across, found);
     for (int p = 0; p < CS_ALBEDO_PLANES; p++)
-        albedo.plane[p] = found[p].all;
+        albedo.plane[p] = found[p] + at.along * (found[CS_ALBEDO_PLANES + p] - found[p]);
     return albedo;
+}
+
+/* Averages over cosines. */
+static inline cs_albedo cs_average_albedo(CS_GLOBAL const cs_f32 *table, cs_vfloat roughness)
+{
+    cs_albedo_place at = cs_albedo_place_of((cs_vfloat)(0.0f), roughness);
+    cs_vint first = at.row + CS_ALBEDO_PLANES * CS_ALBEDO_COSINES;
+    cs_albedo albedo;
+    for (int p = 0; p < CS_ALBEDO_PLANES; p++) {
+        cs_vfloat found = cs_gather(table, first + p);
+        albedo.plane[p] =
+            found + at.across * (cs_gather(table, first + (CS_ALBEDO_ROW + p)) - found);
+    }
+    return albedo;
+}
+
+/* Of white sheen. */
+static inline cs_vfloat cs_fibre_albedo(CS_GLOBAL const cs_f32 *table, cs_vfloat cosine,
+                                        cs_vfloat roughness)
+{
+    cs_albedo_place at = cs_albedo_place_of(cosine, roughness);
+    cs_vint first = at.row + at.cell + CS_ALBEDO_FIBRES;
+    cs_vfloat ends[2];
+    for (int i = 0; i < 2; i++) {
+        cs_vfloat found = cs_gather(table, first + i);
+        ends[i] = found + at.across * (cs_gather(table, first + (CS_ALBEDO_ROW + i)) - found);
+    }
+    return ends[0] + at.along * (ends[1] - ends[0]);
 }
 
 /* Part of the light that no single facet lets go which the others do, where a facet reflects `f0`

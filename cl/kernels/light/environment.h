@@ -27,10 +27,9 @@ static inline cs_light_sample cs_sample_light_sun(const cs_scene_buffers *scene,
 /* Directions by an image. */
 static inline void cs_draw_lat_long(const cs_lat_long *image, cs_pair pair, cs_light_sample *sample)
 {
-    cs_vfloat x, y, radiance[3];
-    sample->density = cs_lat_long_draw(image, pair.x, pair.y, sample->towards);
-    cs_lat_long_place(image, sample->towards, &x, &y);
-    cs_lat_long_radiance(image, x, y, radiance);
+    cs_vfloat radiance[3];
+    sample->density = cs_lat_long_draw(image, &pair.x, &pair.y, sample->towards);
+    cs_lat_long_radiance(image, pair.x, pair.y, radiance);
     for (int c = 0; c < 3; c++)
         sample->colour[c] *= radiance[c];
 }

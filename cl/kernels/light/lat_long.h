@@ -39,32 +39,25 @@ static inline cs_lat_long cs_lat_long_of(CS_GLOBAL const cs_light *light,
     return image;
 }
 
-/* First of `count` cumulative probabilities that exceeds `target`; what is left of `target`, in
- * [0, 1]; and that entry's own probability. */
-static inline cs_u32 cs_pick_cell(CS_GLOBAL const cs_f32 *cumulative, cs_u32 count, cs_f32 target,
-                                  cs_f32 *rest, cs_f32 *probability)
+/* First of `count` cumulative probabilities, from index `first` on in each lane, that exceeds
+ * `target`; what is left of `target`, in [0, 1]; and that entry's own probability. The last one is
+ * 1, more than any target. The steps are those of all lanes: no branch depends on what is found. */
+static inline cs_vint cs_pick_cells(CS_GLOBAL const cs_f32 *cumulative, cs_vint first, cs_u32 count,
+                                    cs_vfloat target, cs_vfloat *rest, cs_vfloat *probability)
 {
-    cs_u32 low = 0u, high = count - 1u;
-    while (low < high) {
-        cs_u32 middle = (low + high) / 2u;
-        if (cumulative[middle] > target)
-            high = middle;
-        else
-            low = middle + 1u;
+    cs_vint low = first;
+    for (cs_u32 left = count; left > 1u; left -= left / 2u) {
+        cs_vint middle = low + (cs_i32)(left / 2u);
+        low = cs_gather(cumulative, middle - 1) > target ? low : middle;
     }
-    cs_f32 below = low > 0u ? cumulative[low - 1u] : 0.0f;
-    *probability = cumulative[low] - below;
-    cs_f32 part = *probability > 0.0f ? (target - below) / *probability : 0.0f;
-    *rest = part < 0.0f ? 0.0f : part > 1.0f ? 1.0f : part;
-    return low;
+    cs_vint is_first = low == first;
+    cs_vfloat below = cs_gather(cumulative, is_first ? low : low - 1);
+    below = is_first ? (cs_vfloat)(0.0f) : below;
+    *probability = cs_gather(cumulative, low) - below;
+    cs_vfloat part = (target - below) / cs_max(*probability, (cs_vfloat)(1e-37f));
+    *rest = cs_clamp(part, (cs_vfloat)(0.0f), (cs_vfloat)(1.0f));
+    return low - first;
 }
-
-/* Cells of the image, one a lane. */
-typedef struct cs_lat_long_cells {
-    cs_float_each row;
-    cs_float_each column;
-    cs_float_each chance; /* of drawing the cell */
-} cs_lat_long_cells;
 
 /* Density, per steradian, of the directions in cells. top, bottom: cosines of the angles from +Y at
  * the edges of their rows. */
@@ -74,37 +67,29 @@ static inline cs_vfloat cs_cell_density(const cs_lat_long *image, cs_vfloat chan
     return chance * (cs_f32)image->cells_x / (2.0f * CS_PI * (top - bottom));
 }
 
-/* Draws directions, unit vectors, by points of the unit square; returns their densities. */
-static inline cs_vfloat cs_lat_long_draw(const cs_lat_long *image, cs_vfloat x, cs_vfloat y,
+/* Draws directions, unit vectors, by points of the unit square; returns their densities. x, y: the
+ * point, then the place in the image, as cs_lat_long_place says it. */
+static inline cs_vfloat cs_lat_long_draw(const cs_lat_long *image, cs_vfloat *x, cs_vfloat *y,
                                          cs_vfloat *direction)
 {
-    cs_lat_long_cells cells;
-    cs_float_each across, down;
-    across.all = x;
-    down.all = y;
-    for (int lane = 0; lane < CS_PACKET; lane++) {
-        cs_f32 along, below, row_chance, column_chance;
-        cs_u32 row = cs_pick_cell(image->rows, image->cells_y, CS_LANE(down), &below, &row_chance);
-        cs_u32 column = cs_pick_cell(image->columns + (size_t)row * image->cells_x, image->cells_x,
-                                     CS_LANE(across), &along, &column_chance);
-        CS_LANE(across) = along;
-        CS_LANE(down) = below;
-        CS_LANE(cells.row) = (cs_f32)row;
-        CS_LANE(cells.column) = (cs_f32)column;
-        CS_LANE(cells.chance) = row_chance * column_chance;
-    }
+    cs_vfloat across, down, row_chance, column_chance, top, bottom, sine, cosine, unused;
+    cs_vint row = cs_pick_cells(image->rows, (cs_vint)(0), image->cells_y, *y, &down, &row_chance);
+    cs_vint column = cs_pick_cells(image->columns, row * (cs_i32)image->cells_x, image->cells_x, *x,
+                                   &across, &column_chance);
     cs_f32 height = CS_PI / (cs_f32)image->cells_y;
-    cs_vfloat top = cs_cos(cells.row.all * height),
-              bottom = cs_cos((cells.row.all + 1.0f) * height);
-    cs_vfloat up = top + down.all * (bottom - top);
+    cs_vfloat above = cs_from_whole(row);
+    cs_sine_cosine(above * height, &unused, &top);
+    cs_sine_cosine((above + 1.0f) * height, &unused, &bottom);
+    cs_vfloat up = top + down * (bottom - top);
     cs_vfloat outward = cs_sqrt(cs_max(1.0f - up * up, (cs_vfloat)(0.0f)));
-    cs_vfloat place = (cells.column.all + across.all) / (cs_f32)image->cells_x;
-    cs_vfloat longitude = (place - 0.5f) * (2.0f * CS_PI); /* from -Z towards +X */
-    cs_vfloat right = outward * cs_sin(longitude), ahead = outward * cs_cos(longitude);
+    *x = (cs_from_whole(column) + across) / (cs_f32)image->cells_x;
+    *y = cs_angle_to(outward, up) * CS_INVERSE_PI;
+    cs_sine_cosine((*x - 0.5f) * (2.0f * CS_PI), &sine, &cosine); /* from -Z towards +X */
+    cs_vfloat right = outward * sine, ahead = outward * cosine;
     direction[0] = image->cosine * right - image->sine * ahead;
     direction[1] = up;
     direction[2] = -image->cosine * ahead - image->sine * right;
-    return cs_cell_density(image, cells.chance.all, top, bottom);
+    return cs_cell_density(image, row_chance * column_chance, top, bottom);
 }
 
 /* Where directions, of any length, are in the image: parts of its width and height. */
@@ -113,62 +98,59 @@ static inline void cs_lat_long_place(const cs_lat_long *image, const cs_vfloat *
 {
     cs_vfloat right = image->cosine * direction[0] - image->sine * direction[2];
     cs_vfloat ahead = -image->cosine * direction[2] - image->sine * direction[0];
-    *x = 0.5f + cs_atan2(right, ahead) * (0.5f * CS_INVERSE_PI);
-    *y = cs_atan2(cs_sqrt(right * right + ahead * ahead), direction[1]) * CS_INVERSE_PI;
+    *x = 0.5f + cs_angle_to(right, ahead) * (0.5f * CS_INVERSE_PI);
+    *y = cs_angle_to(cs_sqrt(right * right + ahead * ahead), direction[1]) * CS_INVERSE_PI;
 }
 
-/* The number of a texel or cell, of `count`, from its place; the last for what is none. */
-static inline cs_u32 cs_cell_at(cs_f32 place, cs_u32 count)
+/* The number of a texel or cell, of `count`, from its place; an end for what is none. */
+static inline cs_vint cs_cell_at(cs_vfloat place, cs_u32 count)
 {
-    cs_u32 cell = (cs_u32)place;
-    return cell < count ? cell : count - 1u;
+    return cs_whole(cs_clamp(place, (cs_vfloat)(0.0f), (cs_vfloat)((cs_f32)(count - 1u))));
+}
+
+/* What entry `index` adds to cumulative probabilities that begin at index `first`. */
+static inline cs_vfloat cs_own_chance(CS_GLOBAL const cs_f32 *cumulative, cs_vint first,
+                                      cs_vint index)
+{
+    cs_vfloat below = cs_gather(cumulative, index > first ? index - 1 : index);
+    return cs_gather(cumulative, index) - (index > first ? below : (cs_vfloat)(0.0f));
 }
 
 /* The density with which cs_lat_long_draw draws the directions at places in the image. */
 static inline cs_vfloat cs_lat_long_density(const cs_lat_long *image, cs_vfloat x, cs_vfloat y)
 {
-    cs_float_each column, row, chance;
-    column.all = x * (cs_f32)image->cells_x;
-    row.all = y * (cs_f32)image->cells_y;
-    for (int lane = 0; lane < CS_PACKET; lane++) {
-        cs_u32 down = cs_cell_at(CS_LANE(row), image->cells_y);
-        cs_u32 along = cs_cell_at(CS_LANE(column), image->cells_x);
-        CS_GLOBAL const cs_f32 *columns = image->columns + (size_t)down * image->cells_x;
-        cs_f32 row_chance = image->rows[down] - (down > 0u ? image->rows[down - 1u] : 0.0f);
-        cs_f32 column_chance = columns[along] - (along > 0u ? columns[along - 1u] : 0.0f);
-        CS_LANE(row) = (cs_f32)down;
-        CS_LANE(chance) = row_chance * column_chance;
-    }
+    cs_vfloat top, bottom, unused;
+    cs_vint row = cs_cell_at(y * (cs_f32)image->cells_y, image->cells_y);
+    cs_vint first = row * (cs_i32)image->cells_x;
+    cs_vint column = cs_cell_at(x * (cs_f32)image->cells_x, image->cells_x);
+    cs_vfloat chance = cs_own_chance(image->rows, (cs_vint)(0), row) *
+                       cs_own_chance(image->columns, first, first + column);
     cs_f32 height = CS_PI / (cs_f32)image->cells_y;
-    return cs_cell_density(image, chance.all, cs_cos(row.all * height),
-                           cs_cos((row.all + 1.0f) * height));
+    cs_vfloat above = cs_from_whole(row);
+    cs_sine_cosine(above * height, &unused, &top);
+    cs_sine_cosine((above + 1.0f) * height, &unused, &bottom);
+    return cs_cell_density(image, chance, top, bottom);
 }
 
 /* Radiance at places in the image: bilinear, around the horizon and up to the poles. */
 static inline void cs_lat_long_radiance(const cs_lat_long *image, cs_vfloat x, cs_vfloat y,
                                         cs_vfloat *radiance)
 {
-    cs_float_each place_x, place_y, found[3];
-    place_x.all = x * (cs_f32)image->width - 0.5f;
-    place_x.all = place_x.all < 0.0f ? place_x.all + (cs_f32)image->width : place_x.all;
-    place_y.all = cs_max(y * (cs_f32)image->height - 0.5f, (cs_vfloat)(0.0f));
-    for (int lane = 0; lane < CS_PACKET; lane++) {
-        cs_u32 left = cs_cell_at(CS_LANE(place_x), image->width);
-        cs_u32 above = cs_cell_at(CS_LANE(place_y), image->height);
-        cs_f32 across = CS_LANE(place_x) - (cs_f32)left, down = CS_LANE(place_y) - (cs_f32)above;
-        cs_u32 right = left + 1u < image->width ? left + 1u : 0u;
-        cs_u32 below = above + 1u < image->height ? above + 1u : above;
-        CS_GLOBAL const cs_f32 *upper = image->texels + (size_t)3 * above * image->width;
-        CS_GLOBAL const cs_f32 *lower = image->texels + (size_t)3 * below * image->width;
-        for (cs_u32 c = 0u; c < 3u; c++) {
-            cs_f32 a = upper[3u * left + c], b = lower[3u * left + c];
-            cs_f32 high = a + across * (upper[3u * right + c] - a);
-            cs_f32 low = b + across * (lower[3u * right + c] - b);
-            CS_LANE(found[c]) = high + down * (low - high);
-        }
-    }
+    cs_i32 width = (cs_i32)image->width, height = (cs_i32)image->height;
+    cs_vfloat place_x = x * (cs_f32)width - 0.5f;
+    place_x = place_x < 0.0f ? place_x + (cs_f32)width : place_x;
+    cs_vfloat place_y = cs_max(y * (cs_f32)height - 0.5f, (cs_vfloat)(0.0f));
+    cs_vint left = cs_cell_at(place_x, image->width), above = cs_cell_at(place_y, image->height);
+    cs_vfloat across = place_x - cs_from_whole(left);
+    cs_vfloat down = place_y - cs_from_whole(above);
+    cs_vint right = left + 1 < width ? left + 1 : (cs_vint)(0);
+    cs_vint upper = above * width, lower = above + 1 < height ? upper + width : upper;
+    /* Four numbers of the three: what follows the last texel are the tables. */
+    cs_vfloat near[4], far[4];
+    cs_blend_four(image->texels, 3 * (upper + left), 3 * (lower + left), down, near);
+    cs_blend_four(image->texels, 3 * (upper + right), 3 * (lower + right), down, far);
     for (int c = 0; c < 3; c++)
-        radiance[c] = found[c].all;
+        radiance[c] = near[c] + across * (far[c] - near[c]);
 }
 
 #endif

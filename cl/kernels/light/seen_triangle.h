@@ -41,7 +41,7 @@ static inline cs_seen_triangle cs_see_triangle(const cs_vfloat *corner, const cs
     }
     seen.triple = cs_abs(volume) * seen.inverse[0] * seen.inverse[1] * seen.inverse[2];
     seen.solid_angle =
-        2.0f * cs_atan2(seen.triple, 1.0f + seen.cosine[0] + seen.cosine[1] + seen.cosine[2]);
+        2.0f * cs_angle_to(seen.triple, 1.0f + seen.cosine[0] + seen.cosine[1] + seen.cosine[2]);
     return seen;
 }
 
@@ -51,9 +51,10 @@ static inline void cs_draw_in_triangle(const cs_seen_triangle *seen, cs_pair pai
 {
     const cs_vfloat *cosine = seen->cosine;
     cs_vfloat half_angle = 0.5f * seen->solid_angle * pair.x;
-    cs_vfloat sine = cs_sin(half_angle);
+    cs_vfloat sine, along_first;
+    cs_sine_cosine(half_angle, &sine, &along_first);
     /* The half vector between corner 0 and the moved one, as parts of corners 0 and 2. */
-    cs_vfloat first = seen->triple * cs_cos(half_angle) - (cosine[2] + cosine[1]) * sine;
+    cs_vfloat first = seen->triple * along_first - (cosine[2] + cosine[1]) * sine;
     cs_vfloat third = (1.0f + cosine[0]) * sine;
     cs_vfloat part = third / cs_max(first + third, (cs_vfloat)(1e-37f));
     cs_vfloat apart = 1.0f - cosine[2];

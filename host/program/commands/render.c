@@ -183,13 +183,15 @@ static int given_a_lens(const clshear_settings *settings)
            radius > 0.0;
 }
 
-static int check_checkpoint(const clshear_settings *settings)
+/* Whether the file that a setting names can be written. */
+static int check_setting_place(const clshear_settings *settings, clshear_setting setting,
+                               const char *flag)
 {
     char path[4096];
     const char *const list[] = {path};
-    if (!clshear_settings_is_set(settings, CLSHEAR_CHECKPOINT)) return EXIT_DONE;
-    clshear_settings_get_text(settings, CLSHEAR_CHECKPOINT, path, sizeof path);
-    return check_places("checkpoint", list, 1);
+    if (!clshear_settings_is_set(settings, setting)) return EXIT_DONE;
+    clshear_settings_get_text(settings, setting, path, sizeof path);
+    return check_places(flag, list, 1);
 }
 
 /* Opens the scene, renders and writes. */
@@ -236,6 +238,8 @@ static int render_frames(render_job *job)
         return complain(EXIT_USAGE, "--extend goes on with one picture, --frames makes many");
     if (clshear_settings_is_set(job->options.settings, CLSHEAR_CHECKPOINT))
         return complain(EXIT_USAGE, "--checkpoint is of one picture, --frames makes many");
+    if (clshear_settings_is_set(job->options.settings, CLSHEAR_RECORD))
+        return complain(EXIT_USAGE, "--record is of one picture, --frames makes many");
     int code = EXIT_DONE;
     for (int frame = first; frame <= last && code == EXIT_DONE; frame++)
         code = render_frame(job, frame);
@@ -263,7 +267,10 @@ static int run(void *user)
     if (code == EXIT_DONE)
         code = check_places("gain", job->files.gain.items, job->files.gain.count);
     if (code == EXIT_DONE) tell_lost_channels(job);
-    if (code == EXIT_DONE) code = check_checkpoint(options->settings);
+    if (code == EXIT_DONE)
+        code = check_setting_place(options->settings, CLSHEAR_CHECKPOINT, "checkpoint");
+    if (code == EXIT_DONE) code = check_setting_place(options->settings, CLSHEAR_RECORD, "record");
+    if (code == EXIT_DONE) code = check_setting_place(options->settings, CLSHEAR_PREVIEW, "preview");
     if (code == EXIT_DONE) code = render_frames(job);
     free(name);
     return code;

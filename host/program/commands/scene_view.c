@@ -10,6 +10,13 @@ static void warn(void *user, const char *line)
     if (!options->quiet) fprintf(stderr, "clshear: %s\n", line);
 }
 
+/* Work that may be lost is told even to those who want to hear nothing. */
+static void alarm_user(void *user, const char *line)
+{
+    (void)user;
+    complain(EXIT_FAILED, "%s", line);
+}
+
 /* What the settings say before the camera is completed. */
 typedef struct given_settings {
     int has_eye;
@@ -92,6 +99,7 @@ int scene_view_open(program_options *options, scene_view *view)
     if (clshear_context_create(options->settings, &view->context) != CLSHEAR_OK)
         return complain_of_library();
     clshear_context_set_warning(view->context, warn, options);
+    clshear_context_set_alarm(view->context, alarm_user, NULL);
     if (clshear_scene_load(view->context, options->scene, options->settings, &view->scene) !=
             CLSHEAR_OK ||
         clshear_light_complete(view->scene, options->settings) != CLSHEAR_OK)

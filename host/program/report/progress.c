@@ -74,13 +74,29 @@ progress_line progress_start(int quiet)
 static void write_over(const char *line)
 {
     enum {
-        LONGEST = 44
+        LONGEST = 79
     };
     struct winsize size;
     int columns = LONGEST;
     if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 && size.ws_col <= LONGEST)
         columns = size.ws_col - 1;
     fprintf(stderr, "\r%-*.*s", columns, columns, line);
+}
+
+static void print_line(const clshear_progress *progress, int percent, char *line, size_t size)
+{
+    const long left_s = (long)(progress->remaining_s + 0.5);
+    size_t used = (size_t)snprintf(line, size, "%3d %%  %.2f Msamples/s", percent,
+                                   1e-6 * progress->samples_per_s);
+    /* A pilot does not know what is left, nor does a promise before it is first looked at. */
+    if (progress->fraction > 0.0 && (progress->remaining_s > 0.0 || progress->fraction >= 1.0))
+        used += (size_t)snprintf(line + used, size - used, "  %ld:%02ld:%02ld left", left_s / 3600,
+                                 left_s / 60 % 60, left_s % 60);
+    if (progress->noise > 0.0)
+        used +=
+            (size_t)snprintf(line + used, size - used, "  noise %.3g %%", 100.0 * progress->noise);
+    if (progress->noise_pixel > 0.0)
+        snprintf(line + used, size - used, ", of pixels %.3g %%", 100.0 * progress->noise_pixel);
 }
 
 int progress_report(void *user, const clshear_progress *progress)
@@ -94,16 +110,11 @@ int progress_report(void *user, const clshear_progress *progress)
     if (progress->samples_per_s <= 0.0) return interrupting_signal(); /* still finding depths */
     int percent = (int)(100.0 * progress->fraction); /* floored: 100 % is done, not nearly done */
     int step = state->on_terminal ? 1 : 10;
-    long left_s = (long)(progress->remaining_s + 0.5);
     if (state->quiet || (percent / step == state->last_percent / step && state->last_percent >= 0))
         return interrupting_signal();
     state->last_percent = percent;
     char line[128];
-    int used = snprintf(line, sizeof line, "%3d %%  %.2f Msamples/s", percent / step * step,
-                        1e-6 * progress->samples_per_s);
-    if (progress->fraction > 0.0) /* else a pilot, which does not know what is left */
-        snprintf(line + used, sizeof line - (size_t)used, "  %ld:%02ld:%02ld left", left_s / 3600,
-                 left_s / 60 % 60, left_s % 60);
+    print_line(progress, percent / step * step, line, sizeof line);
     if (state->on_terminal)
         write_over(line);
     else

@@ -68,7 +68,7 @@ static inline cs_pair cs_shuffled_pair(cs_vuint element, cs_u32 key, cs_u32 slot
 static inline cs_pair cs_extra_net_pair(const cs_pattern *pattern, cs_sample_table table,
                                         cs_u32 key, cs_vuint index, cs_u32 slot)
 {
-    return cs_shuffled_pair(cs_sample_word(pattern, table, 0u, index), key, slot);
+    return cs_shuffled_pair(cs_sample_word_anywhere(pattern, table, 0u, index), key, slot);
 }
 
 /* The light's pair as two more dimensions of the net that the film and lens coordinates are from.

@@ -1,0 +1,69 @@
+/* What the rays of paths find that shines. Device only. */
+#ifndef CS_PATH_EMISSION_H
+#define CS_PATH_EMISSION_H
+
+#include "kernels/path/state.h"
+
+/* Lanes whose emission reaches more than the camera. */
+static inline cs_vint cs_shines_on_surfaces(const cs_surface *surface)
+{
+#if CS_HAS(MATERIALS)
+    return surface->shines_to != (cs_vint)(CS_SHINES_CAMERA);
+#else
+    (void)surface;
+    return (cs_vint)(-1);
+#endif
+}
+
+/* Adds what surfaces emit towards the path. */
+static inline void cs_path_add_emission(const cs_scene_buffers *scene, cs_paths *paths,
+                                        const cs_path *path, const cs_surface *surface,
+                                        cs_vfloat distance)
+{
+    cs_vint shines = surface->hit & (cs_luminance(surface->emission) > 0.0f);
+    if (paths->depth > 0u) shines = shines & cs_shines_on_surfaces(surface);
+    if (!cs_any(shines)) return;
+    cs_vfloat weight = (cs_vfloat)(1.0f);
+    if (paths->depth > 0u) {
+#if CS_HAS(EMITTERS)
+        cs_vfloat density = cs_emitters_density(scene, &path->left, surface);
+        (void)distance;
+#else
+        cs_vfloat density =
+            cs_emitter_density(scene, paths->launch->lights, surface, &path->ray, distance);
+#endif
+        weight = cs_power_weight(path->density, density);
+    }
+    cs_path_add(paths, path, shines ? weight : (cs_vfloat)(0.0f), surface->emission);
+}
+
+#if CS_HAS(LIGHTS)
+/* Adds lights that the paths met, and what comes from beyond the scene. The camera does not see
+ * suns. */
+static inline void cs_path_add_escaped(const cs_scene_buffers *scene, cs_paths *paths,
+                                       const cs_path *path, const cs_hit *hit)
+{
+    if (!cs_any(path->alive & (hit->triangle < 0))) return;
+    for (cs_u32 i = 0u; i < paths->launch->lights; i++) {
+        CS_GLOBAL const cs_light *light = scene->lights + i;
+        cs_vint escaped = path->alive & (hit->triangle == (cs_vint)(CS_NO_HIT));
+        cs_escaped found;
+        if (cs_is_shape(light)) {
+            escaped = path->alive & (hit->triangle == (cs_vint)(cs_shape_hit(i)));
+            if (!cs_any(escaped)) continue;
+            found = cs_escape_to_shape(light, &path->ray);
+        } else if (light->kind == CS_LIGHT_ENVIRONMENT)
+            found =
+                cs_escape_to_environment(scene, light, &path->ray, path->cosine, paths->depth > 0u);
+        else if (light->kind == CS_LIGHT_SUN && paths->depth > 0u)
+            found = cs_escape_to_sun(light, &path->ray);
+        else
+            continue;
+        cs_vfloat weight = (cs_vfloat)(1.0f);
+        if (paths->depth > 0u) weight = cs_power_weight(path->density, found.density);
+        cs_path_add(paths, path, escaped ? weight : (cs_vfloat)(0.0f), found.colour);
+    }
+}
+#endif
+
+#endif
