@@ -50,9 +50,8 @@ const program_command predict_command = {
              "Parts of a pixel are frequencies of one coordinate, of two, of three or more\n"
              "(the block), and the tail. The shear, of the oracle or --shear-px, is part of\n"
              "its integrand: x, y, u, v, and t where the scene moves, are what the sampler\n"
-             "draws. Values are means of R, G and B; an area light is one point. --measure has the "
-             "variance of sets that\n"
-             "are shifted, and of sets as they are.\n\n"
+             "draws. Values are means of R, G and B; an area light is one point.\n"
+             "--measure has the variance of sets that are shifted, and of sets as they are.\n\n"
              "--map and --plot take all pixels of a small image, with fewer samples of each:\n"
              "predicted beside measured variance. Give few --sets and a low --resolution.\n",
     COMMAND_FLAGS(flags),
