@@ -15,7 +15,7 @@ static const program_flag flags[] = {
               AT(integrand), CLSHEAR_INTEGRAND_LIST(INTEGRAND_NAME)),
     NUMBER_FLAG("angle", "DEG", "direction of the integrand", "0", AT(angle), 1, 1, -1e6, 1e6),
     NUMBER_FLAG("size", "S", "its size, or offset of a step", "", AT(size), 1, 1, -1e6, 1e6),
-    WHOLE_FLAG("pixel", "X,Y", "of SCENE, in four or, where it moves, five dimensions", "",
+    WHOLE_FLAG("pixel", "X,Y", "of SCENE, in four dimensions, moving: five", "",
                AT(pixel), 2, 1, 0, 65535),
     WHOLE_FLAG("measure", "M", "measure too, with M other sets", "", AT(measure), 1, 1, 2,
                MOST_POINTS),
@@ -23,7 +23,7 @@ static const program_flag flags[] = {
     TEXT_FLAG("projection dims", "LETTERS", "two coordinates out of xyuvpqt (xy)", "",
               offsetof(point_source, letters), ""),
     WHOLE_FLAG("resolution", "R", "frequencies along a side", "255", AT(resolution), 1, 1, 3, 4095),
-    WHOLE_FLAG("block", "B", "of a pixel: highest frequency of the block (8; moving: 4)", "",
+    WHOLE_FLAG("block", "B", "of a pixel: reach of the block (8; moving: 4)", "",
                AT(block), 1, 1, 1, 15),
     TEXT_FLAG("out o", "FILE", "table, - is standard output", "-", AT(out), ""),
     FILES_FLAG("map", "of all pixels of SCENE: .csv .exr .png .tif; repeatable", "", AT(map),
@@ -50,9 +50,8 @@ const program_command predict_command = {
              "Parts of a pixel are frequencies of one coordinate, of two, of three or more\n"
              "(the block), and the tail. The shear, of the oracle or --shear-px, is part of\n"
              "its integrand: x, y, u, v, and t where the scene moves, are what the sampler\n"
-             "draws. Values are means of R, G and B; an area light is one point. --measure has the "
-             "variance of sets that\n"
-             "are shifted, and of sets as they are.\n\n"
+             "draws. Values are means of R, G and B; an area light is one point.\n"
+             "--measure has the variance of sets that are shifted, and of sets as they are.\n\n"
              "--map and --plot take all pixels of a small image, with fewer samples of each:\n"
              "predicted beside measured variance. Give few --sets and a low --resolution.\n",
     COMMAND_FLAGS(flags),
