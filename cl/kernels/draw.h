@@ -35,8 +35,9 @@ static inline cs_place cs_place_of(const cs_launch *launch, cs_u32 index, cs_u32
 /* Packets that are drawn before any of them is traced. Their draws do not depend on each other and
  * overlap in the processor; one by one they wait on their own latency. */
 typedef struct cs_drawn {
-    int count;                   /* packets, at most CS_TOGETHER */
-    int place[CS_TOGETHER];      /* whose samples they are */
+    int count;              /* packets, at most CS_TOGETHER */
+    int place[CS_TOGETHER]; /* whose samples they are */
+    cs_f32 shear[CS_TOGETHER];
     cs_vint active[CS_TOGETHER]; /* lanes that are samples of the pattern */
     cs_camera_sample point[CS_TOGETHER];
 #if CS_HAS(MOTION)
@@ -100,6 +101,7 @@ static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sampl
         drawn->light[k] =
             cs_draw_light(launch, sample_table, place->key, index, place->shear, &point);
     drawn->place[k] = number;
+    drawn->shear[k] = place->shear;
     drawn->active[k] = active;
 #if CS_HAS(MOTION)
     cs_vfloat time = cs_draw_time(&launch->pattern, sample_table, place->key, index,
@@ -110,8 +112,8 @@ static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sampl
     drawn->point[k] = moving.point;
     drawn->time[k] = cs_shutter_time(moving.time, launch->shutter);
 #else
-    drawn->point[k] = cs_shear(point.x, point.y, point.u, point.v, launch->shear_mode,
-                               &launch->camera.optics, lens_table, place->shear);
+    drawn->point[k] =
+        cs_shear_alone(point, launch->shear_mode, &launch->camera.optics, lens_table, place->shear);
 #endif
 #if CS_HAS(PATHS)
     drawn->index[k] = index;
@@ -128,6 +130,10 @@ static inline void cs_draw_packets(const cs_launch *launch, cs_sample_table samp
     for (int number = 0; number < count; number++)
         for (cs_u32 at = start; drawn->count < CS_TOGETHER && at < end; at += (cs_u32)CS_PACKET)
             cs_draw_packet(launch, sample_table, lens_table, places, number, at, end, drawn);
+#if !CS_HAS(MOTION)
+    cs_shear_together(drawn->point, drawn->shear, drawn->count, launch->shear_mode,
+                      &launch->camera.optics);
+#endif
 }
 
 #endif

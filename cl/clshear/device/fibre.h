@@ -113,21 +113,6 @@ CS_INLINED cs_fibre_guess cs_fibre_guess_at(const cs_fibre_axis *axis, cs_vfloat
     return guess;
 }
 
-/* Halley's step from t towards F(t) = mass, given value = F(t), density = F'(t), slope = F''(t):
- * the next t is t less the result. It solves sqrt(F) = sqrt(mass), which is nearly linear in the
- * tails too. */
-CS_INLINED cs_vfloat cs_root_step(cs_vfloat mass_root, cs_vfloat value, cs_vfloat density,
-                                  cs_vfloat slope)
-{
-    value = cs_max(value, (cs_vfloat)(1e-12f));
-    density = cs_max(density, (cs_vfloat)(1e-6f));
-    cs_vfloat root = cs_sqrt(value);
-    cs_vfloat excess = root - mass_root;
-    cs_vfloat square = density * density;
-    cs_vfloat divisor = square * (2.0f * root + excess) - 2.0f * value * excess * slope;
-    return 4.0f * value * excess * density / cs_max(divisor, root * square);
-}
-
 /* The t with P(T < t) = mass where the density has one hump, as a square's has: Halley's steps from
  * the side of the smaller tail. A smooth filter takes one, in the tails two, a box two: errors of
  * the mass are 1e-6 on average, 3e-4 at most. */
@@ -140,8 +125,9 @@ CS_INLINED cs_vfloat cs_fibre_quantile_unimodal(const cs_fibre_axis *axis, cs_vf
     cs_vfloat t = guess.t;
     for (int step = 0; step < 2 && (step == 0 || cs_any(tail)); step++) {
         cs_fibre_mass at = cs_fibre_at(axis, t);
-        cs_vfloat move = cs_root_step(root, right ? 1.0f - at.below : at.below, at.density,
-                                      right ? -at.slope : at.slope);
+        cs_vfloat move = cs_root_step_of(root, right ? 1.0f - at.below : at.below, at.density,
+                                         right ? -at.slope : at.slope)
+                             .back;
         cs_vfloat next = cs_clamp(right ? t + move : t - move, guess.low, guess.high);
         if (step == 0)
             t = next;

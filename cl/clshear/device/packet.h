@@ -90,7 +90,7 @@ static inline int cs_any(cs_i32 mask)
 
 #endif
 
-/* Packets that are drawn together at most: as many as lie between two updates
+/* Packets that are mapped together at most (cs_shear_together): as many as lie between two updates
  * of a pixel. With one lane there is one, which keeps to registers. */
 #if CS_PACKET == 1
 #define CS_TOGETHER 1

@@ -6,13 +6,18 @@
  * (docs/method.md). `toroidal` slides points along the fibres and wraps them around (Singh & Jarosz
  * 2017, section 5). `equal area` maps without wrapping, by Rosenblatt's transform: the fibre
  * coordinate x + s * u depends on the tuple's first pair alone, the second pair moves along the
- * fibre. Disks and polygons have a map that is nearly so, and quick (chord_map.h). */
+ * fibre. Disks and polygons have a map that is nearly so, and quick (chord_map.h); a disk with a
+ * box filter has an exact one too, which blurs below CS_EXACT_DISK_BLUR take (disk_map.h).
+ *
+ * Programs call cs_shear. Those that map several packets at once, which is faster for a disk, call
+ * cs_shear_alone for each of them and then cs_shear_together once. */
 #ifndef CLSHEAR_DEVICE_SHEAR_H
 #define CLSHEAR_DEVICE_SHEAR_H
 
 #include "camera.h"
 #include "camera_sample.h"
 #include "chord_map.h"
+#include "disk_map.h"
 #include "fibre.h"
 #include "packet.h"
 
@@ -140,6 +145,22 @@ static inline cs_camera_sample cs_toroidal(cs_vfloat a, cs_vfloat b, cs_vfloat c
     return point;
 }
 
+/* Blur, in pixels per unit of the lens's width along its narrower axis, up to which a disk with a
+ * box filter one pixel wide is mapped exactly. Beyond, the quick map moves the fibre so little that
+ * the exact one is not worth its time (docs/notes/lenses.md). */
+#ifndef CS_EXACT_DISK_BLUR
+#define CS_EXACT_DISK_BLUR 5.0f
+#endif
+
+/* Whether cs_shear_together does the mapping, which is so for the equal-area shear of a disk with a
+ * box filter one pixel wide where the blur is narrow; otherwise cs_shear_alone does it. */
+static inline int cs_shears_together(cs_u32 mode, const cs_optics *optics, cs_f32 shear)
+{
+    cs_blur blur = cs_blur_of(shear, optics->squeeze);
+    return mode == CS_SHEAR_EQUAL_AREA && optics->has_closed_form &&
+           optics->marginal == CS_MARGINAL_DISK && cs_min(blur.x, blur.y) < CS_EXACT_DISK_BLUR;
+}
+
 /* Keeps a point inside the width of the filter, which rounding may leave. */
 static inline void cs_clamp_to_filter(const cs_optics *optics, cs_camera_sample *point)
 {
@@ -149,30 +170,60 @@ static inline void cs_clamp_to_filter(const cs_optics *optics, cs_camera_sample 
     point->y = cs_clamp(point->y, first, last);
 }
 
-/* Maps the tuples (a, b, c, d) of one packet, four coordinates in [0, 1), to points of film and
- * lens. All modes keep measure: the mean of a function of the points is the same, its variance is
- * not.
+/* Maps a packet of tuples, unless cs_shears_together.
  *
- * mode: a CS_SHEAR_ constant; CS_SHEAR_TOROIDAL only for optics that have a closed form. table: the
- * lens table of the optics. shear: signed circle of confusion, in pixels per unit of v, finite; 0
- * in focus (cs_shear_of_depth). */
+ * p: the tuple, four coordinates in [0, 1). mode: a CS_SHEAR_ constant; CS_SHEAR_TOROIDAL only for
+ * optics that have a closed form. table: the lens table of the optics. shear: signed circle of
+ * confusion, in pixels per unit of v, finite; 0 in focus (cs_shear_of_depth). */
+static inline cs_camera_sample cs_shear_alone(cs_camera_sample p, cs_u32 mode,
+                                              const cs_optics *optics, cs_optics_table table,
+                                              cs_f32 shear)
+{
+    cs_blur blur = cs_blur_of(shear, optics->squeeze);
+    if (cs_shears_together(mode, optics, shear)) return p;
+    if (mode == CS_SHEAR_NONE)
+        p = cs_unsheared(p.x, p.y, p.u, p.v, optics, table);
+    else if (mode == CS_SHEAR_TOROIDAL)
+        p = cs_toroidal(p.x, p.y, p.u, p.v, optics, table, shear);
+    else if (cs_has_chord_map(optics))
+        p = cs_chord_map(p.x, p.y, p.u, p.v, optics, table, blur);
+    else if (!optics->has_closed_form)
+        p = cs_equal_area_any(p.x, p.y, p.u, p.v, optics, table, blur);
+    else
+        p = cs_equal_area_square(p.x, p.y, p.u, p.v, blur);
+    cs_clamp_to_filter(optics, &p);
+    return p;
+}
+
+/* Maps each packet of `points` for which cs_shears_together is true, in place, and leaves the
+ * others as cs_shear_alone made them. count: packets, 1 to CS_TOGETHER. shears: of each packet,
+ * pixels. */
+static inline void cs_shear_together(cs_camera_sample *points, const cs_f32 *shears, int count,
+                                     cs_u32 mode, const cs_optics *optics)
+{
+    for (int first = 0, end = 0; first < count; first = end + 1) {
+        for (end = first; end < count; end++)
+            if (!cs_shears_together(mode, optics, shears[end])) break;
+        if (end > first) cs_disk_map(points + first, shears + first, end - first, optics->squeeze);
+        for (int k = first; k < end; k++)
+            cs_clamp_to_filter(optics, points + k);
+    }
+}
+
+/* Maps the tuples (a, b, c, d) of one packet to points of film and lens. The other arguments are
+ * those of cs_shear_alone. All modes keep measure: the mean of a function of the points is the
+ * same, its variance is not. */
 static inline cs_camera_sample cs_shear(cs_vfloat a, cs_vfloat b, cs_vfloat c, cs_vfloat d,
                                         cs_u32 mode, const cs_optics *optics, cs_optics_table table,
                                         cs_f32 shear)
 {
-    cs_blur blur = cs_blur_of(shear, optics->squeeze);
     cs_camera_sample point;
-    if (mode == CS_SHEAR_NONE)
-        point = cs_unsheared(a, b, c, d, optics, table);
-    else if (mode == CS_SHEAR_TOROIDAL)
-        point = cs_toroidal(a, b, c, d, optics, table, shear);
-    else if (cs_has_chord_map(optics))
-        point = cs_chord_map(a, b, c, d, optics, table, blur);
-    else if (!optics->has_closed_form)
-        point = cs_equal_area_any(a, b, c, d, optics, table, blur);
-    else
-        point = cs_equal_area_square(a, b, c, d, blur);
-    cs_clamp_to_filter(optics, &point);
+    point.x = a;
+    point.y = b;
+    point.u = c;
+    point.v = d;
+    point = cs_shear_alone(point, mode, optics, table, shear);
+    cs_shear_together(&point, &shear, 1, mode, optics);
     return point;
 }
 
