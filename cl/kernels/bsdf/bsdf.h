@@ -43,7 +43,8 @@ static inline cs_bsdf_view cs_bsdf_view_of(const cs_surface *surface, const cs_v
     cs_vfloat glass = solid ? cs_glass_part(surface) : (cs_vfloat)(0.0f);
     cs_vint needed = cs_bsdf_lanes(surface, CS_BSDF_STANDARD) | (solid & (glass < 1.0f));
     /* What of a solid is not glass is opaque. */
-    if (cs_any(needed))
+    view.has_standard = cs_any(needed);
+    if (view.has_standard)
         view.standard = cs_standard_of(
             surface, out, p[CS_PARAMETER_METALLIC] / cs_max(1.0f - glass, (cs_vfloat)(1e-6f)),
             solid ? (cs_vfloat)(0.0f) : p[CS_PARAMETER_TRANSMISSION]);

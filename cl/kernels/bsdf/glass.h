@@ -127,7 +127,7 @@ static inline cs_bsdf_value cs_bsdf_eval_glass(const cs_bsdf_view *view, const c
     value.density = g.part * density;
     for (int c = 0; c < 3; c++)
         value.colour[c] = g.part * glass * (behind ? surface->albedo[c] : (cs_vfloat)(1.0f));
-    if (!cs_any(g.part < 1.0f)) return value;
+    if (!view->has_standard) return value;
     cs_bsdf_value rest = cs_standard_value(&view->standard, surface, unit);
     value.density += (1.0f - g.part) * rest.density;
     for (int c = 0; c < 3; c++)
@@ -171,7 +171,7 @@ static inline cs_bsdf_direction cs_bsdf_sample_glass(const cs_bsdf_view *view, c
     cs_vint lost;
     cs_vfloat among = choice / cs_max(g.part, (cs_vfloat)(1e-20f));
     cs_glass_draw(&g, surface, pair, among, drawn.in, &lost);
-    if (cs_any(g.part < 1.0f)) {
+    if (view->has_standard) {
         cs_vfloat rest[3];
         cs_vint by_rest = choice >= g.part;
         among = (choice - g.part) / cs_max(1.0f - g.part, (cs_vfloat)(1e-20f));

@@ -52,7 +52,8 @@ typedef struct cs_bsdf_view {
     const cs_surface *surface;
     const cs_vfloat *out; /* to the viewer */
 #if CS_HAS(MATERIALS)
-    cs_standard standard; /* of the lanes that are standard surfaces or partly glass */
+    int has_standard;     /* whether any lane is a standard surface or partly glass */
+    cs_standard standard; /* of all lanes, if so */
 #endif
 } cs_bsdf_view;
 

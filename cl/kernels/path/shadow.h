@@ -91,7 +91,10 @@ static inline void cs_path_add_light(const cs_scene_buffers *scene, cs_paths *pa
     cs_vfloat colour[3];
     for (int c = 0; c < 3; c++)
         colour[c] = light->colour[c] * bsdf.colour[c];
-    cs_path_carry(paths, path, fabs(light->weight) * bsdf.scale * share, colour, shadow->light);
+    /* Where a polished surface leaves the sample no weight, its value may be infinite. */
+    cs_vfloat weight = fabs(light->weight) * bsdf.scale * share;
+    facing = facing & (weight > 0.0f);
+    cs_path_carry(paths, path, weight, colour, shadow->light);
     cs_leave_towards(surface, origin, light->towards, shadow->ray.origin);
     for (int axis = 0; axis < 3; axis++) {
         cs_vfloat apart = light->reach < INFINITY ? surface->point[axis] - shadow->ray.origin[axis]
