@@ -147,24 +147,33 @@ static void film_and_lens_stay_independent(void **state)
             }
 }
 
-/* After the equal-area shear of a square the fibre coordinates depend on the first pair alone, t_x
- * on a and t_y on a and b, for any second pair. */
+/* Whether the map of an aperture with a box filter is exact. */
+static int is_exact(cs_u32 aperture, cs_f32 shear)
+{
+    return aperture == CLSHEAR_APERTURE_SQUARE ||
+           cs_shears_together(CS_SHEAR_EQUAL_AREA, &optics_of(aperture)->optics, shear);
+}
+
+/* After the exact equal-area shears the fibre coordinates depend on the first pair alone, t_x on a
+ * and t_y on a and b, for any second pair. */
 static void first_pair_fixes_the_fibre(void **state)
 {
     (void)state;
-    const cs_u32 mode = CS_SHEAR_EQUAL_AREA, square = CLSHEAR_APERTURE_SQUARE;
+    const cs_u32 mode = CS_SHEAR_EQUAL_AREA;
     for (int k = 0; k < SHEARS; k++) {
         const cs_f32 s = shears[k], tolerance = 2e-5f * (1.0f + fabsf(s));
-        for (cs_u32 i = 0; i < 500; i++) {
-            cs_f32 a = uniform(i, 0), b = uniform(i, 1);
-            cs_camera_sample p = sheared(a, b, uniform(i, 2), uniform(i, 3), mode, square, s);
-            cs_camera_sample q = sheared(a, b, uniform(i, 4), uniform(i, 5), mode, square, s);
-            cs_camera_sample r =
-                sheared(a, uniform(i, 6), uniform(i, 4), uniform(i, 5), mode, square, s);
-            assert_near(p.x + s * p.u, q.x + s * q.u, tolerance);
-            assert_near(p.y + s * p.v, q.y + s * q.v, tolerance);
-            assert_near(p.x + s * p.u, r.x + s * r.u, tolerance);
-        }
+        for (cs_u32 i = 0; i < 500; i++)
+            for (cs_u32 aperture = 0; aperture < APERTURES; aperture++) {
+                if (!is_exact(aperture, s)) continue;
+                cs_f32 a = uniform(i, 0), b = uniform(i, 1);
+                cs_camera_sample p = sheared(a, b, uniform(i, 2), uniform(i, 3), mode, aperture, s);
+                cs_camera_sample q = sheared(a, b, uniform(i, 4), uniform(i, 5), mode, aperture, s);
+                cs_camera_sample r =
+                    sheared(a, uniform(i, 6), uniform(i, 4), uniform(i, 5), mode, aperture, s);
+                assert_near(p.x + s * p.u, q.x + s * q.u, tolerance);
+                assert_near(p.y + s * p.v, q.y + s * q.v, tolerance);
+                assert_near(p.x + s * p.u, r.x + s * r.u, tolerance);
+            }
     }
 }
 
@@ -215,22 +224,64 @@ static void chords_nearly_keep_the_fibre(void **state)
     }
 }
 
-/* With a square the fibre coordinate increases with the first pair without jumps: no seams. */
+/* Integrates numerically the share of the pixel and of the disk's slab at t_x with y - 1/2 + s v <
+ * t_y: the slab's chords weighted by their length, v clipped exactly. */
+static double fibre_share(double t_x, double t_y, double s)
+{
+    const int steps = 20000;
+    const double radius = CS_DISK_RADIUS;
+    double low = fmax((t_x - 0.5) / s, -radius), high = fmin((t_x + 0.5) / s, radius);
+    double below = 0.0, total = 0.0;
+    for (int i = 0; i < steps; i++) {
+        double u = low + (high - low) * (i + 0.5) / steps;
+        double chord = sqrt(fmax(radius * radius - u * u, 0.0)), part[2];
+        for (int side = 0; side < 2; side++) { /* integral of max(q - v, 0) over the chord */
+            double q = (t_y + (side == 0 ? 0.5 : -0.5)) / s;
+            double reach = fmin(fmax(q, -chord), chord) + chord;
+            part[side] = 0.5 * reach * reach + 2.0 * chord * fmax(q - chord, 0.0);
+        }
+        below += s * (part[0] - part[1]);
+        total += 2.0 * chord;
+    }
+    return below / total;
+}
+
+/* With the disk, t_y is the quantile b of its distribution given t_x, with the lens coordinate u
+ * integrated out. */
+static void disk_fibre_is_a_quantile(void **state)
+{
+    (void)state;
+    const cs_f32 blurs[] = {1e-5f, 0.01f, 0.4f, 1.0f, 3.0f, 8.5f, 60.0f};
+    for (size_t k = 0; k < sizeof blurs / sizeof *blurs; k++)
+        for (cs_u32 i = 0; i < 60; i++) {
+            const cs_f32 s = blurs[k];
+            cs_f32 a = 0.01f + 0.98f * uniform(i, 0), b = uniform(i, 1);
+            cs_camera_sample p = {a, b, uniform(i, 2), uniform(i, 3)};
+            cs_disk_map(&p, &s, 1, 1.0f);
+            double t_x = (double)p.x - 0.5 + (double)s * p.u;
+            double t_y = (double)p.y - 0.5 + (double)s * p.v;
+            assert_near(fibre_share(t_x, t_y, s), b, 2e-5);
+        }
+}
+
+/* The fibre coordinate increases with the first pair without jumps: no seams. */
 static void equal_area_has_no_seams(void **state)
 {
     (void)state;
-    for (int k = 0; k < SHEARS; k++) {
-        const cs_f32 s = shears[k], span = 1.0f + fabsf(s) * 1.2f;
-        cs_f32 before = -INFINITY;
-        for (cs_u32 i = 0; i < 4096; i++) {
-            cs_camera_sample p = sheared(((cs_f32)i + 0.5f) / 4096.0f, 0.5f, 0.3f, 0.7f,
-                                         CS_SHEAR_EQUAL_AREA, CLSHEAR_APERTURE_SQUARE, s);
-            cs_f32 t = p.x + s * p.u;
-            assert_above(t, before - 1e-5f * span);
-            if (i > 0) assert_below(t - before, 0.05f * span);
-            before = t;
+    for (cs_u32 aperture = 0; aperture < APERTURES; aperture++)
+        for (int k = 0; k < SHEARS; k++) {
+            const cs_f32 s = shears[k], span = 1.0f + fabsf(s) * 1.2f;
+            if (!is_exact(aperture, s)) continue;
+            cs_f32 before = -INFINITY;
+            for (cs_u32 i = 0; i < 4096; i++) {
+                cs_camera_sample p = sheared(((cs_f32)i + 0.5f) / 4096.0f, 0.5f, 0.3f, 0.7f,
+                                             CS_SHEAR_EQUAL_AREA, aperture, s);
+                cs_f32 t = p.x + s * p.u;
+                assert_above(t, before - 1e-5f * span);
+                if (i > 0) assert_below(t - before, 0.05f * span);
+                before = t;
+            }
         }
-    }
 }
 
 /* The toroidal shear cancels the slope: modulo the wrap, x + s u is the first pair. */
@@ -249,7 +300,18 @@ static void toroidal_slides_along_fibres(void **state)
     }
 }
 
-/* Inverse and distribution of the disk's marginal agree. */
+static cs_f32 disk_fibre(cs_f32 across, cs_f32 blur)
+{
+    const cs_f32 cdf = cs_disk_fibre_mass(across);
+    cs_f32 t = cs_disk_fibre_guess(cdf, blur);
+    cs_i32 rough = 1;
+    for (int step = 0; step < 2 && rough; step++)
+        t = cs_disk_fibre_step(t, sqrtf(cdf), blur, &rough);
+    return across > 0.5f ? -t : t;
+}
+
+/* Inverse and distribution of the disk's marginal agree, and the fibre quantile inverts its
+ * distribution (checked by numerical integration over the pixel). */
 static void disk_functions_invert(void **state)
 {
     (void)state;
@@ -257,6 +319,15 @@ static void disk_functions_invert(void **state)
         cs_f32 cdf = (cs_f32)i / 4000.0f;
         assert_near(cs_disk_cdf(cs_disk_quantile(cdf)), cdf, 1e-6f);
     }
+    const cs_f32 blurs[] = {1e-5f, 0.01f, 0.4f, 1.0f, 3.0f, 5.9f, 6.1f, 20.0f};
+    for (size_t k = 0; k < sizeof blurs / sizeof *blurs; k++)
+        for (cs_u32 i = 1; i < 40; i++) {
+            cs_f32 cdf = (cs_f32)i / 40.0f, t = disk_fibre(cdf, blurs[k]);
+            double sum = 0.0;
+            for (int j = 0; j < 4000; j++)
+                sum += cs_disk_cdf((cs_f32)((t - (j + 0.5) / 4000.0 + 0.5) / blurs[k]));
+            assert_near(sum / 4000.0, cdf, 3e-4);
+        }
 }
 
 /* The thin lens: all rays of a raster point meet on the focal plane, and a point at depth z seen
@@ -299,6 +370,7 @@ int main(void)
         cmocka_unit_test(film_and_lens_stay_independent),
         cmocka_unit_test(first_pair_fixes_the_fibre),
         cmocka_unit_test(chords_nearly_keep_the_fibre),
+        cmocka_unit_test(disk_fibre_is_a_quantile),
         cmocka_unit_test(equal_area_has_no_seams),
         cmocka_unit_test(toroidal_slides_along_fibres),
         cmocka_unit_test(disk_functions_invert),

@@ -49,15 +49,13 @@ typedef struct cs_drawn {
 #endif
 } cs_drawn;
 
-/* Whether a light gets the lens's pair of a tuple. Not without a shear; a shear of exactly 0 is
- * one, of a pixel whose rule is not to shear. Nor with `sobol`, where the light's pair belongs to
- * the net too: the lens's pair moves the fibre of chords a little, and the exchange gains nothing
- * there (docs/notes/lenses.md). Squares and images exchange always. */
+/* Whether a light gets the lens's pair of a tuple: where the equal-area shear makes that pair move
+ * along fibres only, and with a pinhole, which has no use for it. A shear of exactly 0 is none:
+ * that of a pixel whose rule is not to shear. */
 static inline int cs_exchanges_pairs(const cs_launch *launch, cs_f32 shear)
 {
-    if (launch->shear_mode != (cs_u32)CS_SHEAR_EQUAL_AREA) return 0;
-    return !cs_has_chord_map(&launch->camera.optics) ||
-           (shear != 0.0f && launch->pattern.sampler != (cs_u32)CS_SAMPLER_SOBOL);
+    return launch->shear_mode == (cs_u32)CS_SHEAR_EQUAL_AREA &&
+           (shear != 0.0f || launch->camera.aperture_width == 0.0f);
 }
 
 /* The pair of samples `index` for area lights. Where cs_exchanges_pairs, it takes the place of the
