@@ -92,6 +92,17 @@ expect 0 "" -- predict "$cornell" --quiet --width 24 --height 20 --crop 3,5,5,6 
 [ "$(awk -F, 'NR > 1 && $1 >= 3 && $2 == 5 && $3 > 0 && $4 > 0' predicted.csv | wc -l)" -eq 2 ] || wrong "predict --map: no two pixels with a variance"
 oiiotool --info predicted.png | grep -q '4 x *1' || wrong "predicted.png is not two panels"
 [ -s predicted.exr ] && [ -s scatter.png ] || wrong "predict --map: no predicted.exr or scatter.png"
+[ "$(awk -F, 'NR > 1 && ($5 < 0 || $5 > $4 || $6 < $4)' predicted.csv | wc -l)" -eq 0 ] || wrong "intervals: $(cat predicted.csv)"
+expect 0 "6 of 6 pixels" -- predict "$cornell" --width 3 --height 2 --sampler mj --n 4 --sets 4 --resolution 7 --block 1 \
+    --measure 4 --map small.csv
+expect 2 "--out t.csv: is of a --pixel or an --integrand" -- predict "$cornell" --measure 4 --map small.csv --out t.csv
+expect 1 "an image of 6 x 6 pixels: an interval needs more than one tile" -- converge "$cornell" --quiet --width 6 \
+    --height 6 --sampler mj --nsamps 4,16
+# A gain is over the curve without a shear, in whatever order; without that curve there is none.
+expect 0 "" -- converge "$cornell" --quiet --width 24 --height 8 --sampler mj --shear equal-area,none --nsamps 4,16 --map order.csv
+expect 0 "" -- converge "$cornell" --quiet --width 24 --height 8 --sampler mj --shear equal-area --nsamps 4,16 --map alone.csv
+[ "$(grep -c ',none,.*,1$' order.csv)" -gt 96 ] && [ "$(grep -c ',equal-area,.*nan$' alone.csv)" -eq 192 ] ||
+    wrong "gains: $(head -3 order.csv alone.csv)"
 expect 2 "--map and --plot are of a whole SCENE" -- predict "$cornell" --pixel 1,1 --measure 9 --map predicted.csv
 expect 2 "give the sets to --measure with" -- predict "$cornell" --map predicted.csv
 expect 2 "--map is of a whole image: leave out --pixels" -- converge "$cornell" --pixels 3,4 --map map.csv

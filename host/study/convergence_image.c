@@ -105,6 +105,9 @@ clshear_status cs_converge_image(clshear_scene *scene, const clshear_settings *s
     const tiling t = tiling_of(settings);
     double *parts = calloc((study->sizes + 1) * t.tiles, sizeof *parts);
     CS_REQUIRE(parts != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    CS_REQUIRE(t.tiles >= 2, CLSHEAR_BAD_ARGUMENT,
+               "an image of %zu x %zu pixels: an interval needs more than one tile of %d x %d",
+               t.width, t.height, TILE, TILE);
     CS_TRY(check_reference(reference, &t, error));
     CS_TRY(cs_convergence_reserve(study, result, error));
     result->maps = calloc(study->sizes * t.width * t.height, sizeof *result->maps);

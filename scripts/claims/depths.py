@@ -1,5 +1,6 @@
 """Rows on the shear of a pixel: how it follows from depth and focus."""
 import random
+import statistics
 
 import measure
 import slices
@@ -28,6 +29,7 @@ def depths():
                               lambda s: s > 0)]:
         yield row(name, f'shear fitted to slices over (A/w)(F/z - 1), {what}', '1',
                   interval([coefficient(fit, keep) for fit in fits]), ONE, COMMAND)
-    in_focus = at_once(lambda at: slices.share_along_u(slices.slice_of((242, 488), at)), places)
-    yield row('focus-along-u', 'in focus: part of a slice\'s variance that is along u', '0',
-              interval(in_focus), DARK, COMMAND.replace('302,130', '242,488'))
+    parts = at_once(lambda at: slices.along_u(slices.slice_of((242, 488), at)), places)
+    whole = statistics.fmean(total for _, total in parts)
+    yield row('focus-along-u', 'in focus: part of a pixel\'s variance that is along u', '0',
+              interval([along / whole for along, _ in parts]), DARK, COMMAND.replace('302,130', '242,488'))

@@ -13,13 +13,12 @@ MARK = re.compile(r'<!-- ([a-z0-9-]+) -->')
 SOURCE = re.compile(r'^<!-- (section )?from (.+) -->$')
 NUMBER = re.compile(r'(?<![\w.])[-−]?\d+(?:\.\d+)?(?:e[-+−]?\d+)?|(?<=\^)[-−]?\d+(?:\.\d+)?')
 MINUS = str.maketrans('−', '-')
-# What looks like a figure of a gain, a slope, a variance or a share.
-CLAIMED = re.compile(r'N\^[-−]\d[\d.]*|\d(?:\.\d+)?(?= times)|(?<![\w.,^])[-−]\d\.\d+|\d(?= ?%)|\d(?= percent)'
-                     r'|\d(?:\.\d+)?e-\d+|(?<=factor of )\w+')
+# What looks like a figure of a gain or a slope.
+CLAIMED = re.compile(r'N\^[-−]\d[\d.]*|\d(?:\.\d+)?(?= times)|(?<![\w.,^])[-−]\d\.\d+(?!\d*e)|(?<=factor of )\w+')
 GENERATED = ('reproduction.md', 'settings.md')
-# theory: derived, not measured. machine: timings, on the machine that the page names. command: that of
-# the page, given in the text. once: measured by hand, as the text says how.
-WORDS = ('theory', 'machine', 'command', 'once')
+# theory: derived, not measured. definition: chosen. machine: timings, on the machine that the page names.
+# command: that of the page, given in the text. once: with code that is no more in the tree.
+WORDS = ('theory', 'definition', 'machine', 'command', 'once')
 
 
 def bounds(text):

@@ -1,7 +1,7 @@
 """Rows on pixels of scenes: convergence, gains, the oracle's error."""
 import measure
-from expectation import (LESS, LITTLE, MORE, MUCH_MORE, OPEN, STEEP, STEEPER, rate)
-from measure import Studies, clshear, gain_between, ratio_of
+from expectation import LESS, LITTLE, MORE, MOST, MUCH_MORE, ONE, OPEN, STEEP, STEEPER, rate
+from measure import Studies, clshear, gain_between, interval, part_over, predictions, ratio_of
 from rows import group, row
 
 BOX = 'scenes/cornell.obj --quiet'
@@ -175,6 +175,13 @@ def calm():
     s = study(pixel, words)
     yield row('calm-toroidal', 'a calm pixel: variance with the toroidal shear over that without, N = 1024', '–',
               s.gain(1024, 'toroidal', 'none'), OPEN, command(pixel, words))
+    words = (f'{BOX} --pixel {pixel} --width 64 --height 64 --shear toroidal --sampler mj --sets 30 '
+             '--measure 300')
+    parts = predictions(words, 4)
+    shown = f'clshear predict {words}'
+    yield row('calm-seam', '… measured over predicted, toroidal', '1', part_over(parts, 'measured'), ONE, shown)
+    yield row('calm-seam-planes', '… part of the prediction that lies in XU and YV', 'most',
+              interval([(p['xu'] + p['yv']) / p['predicted'] for p in parts]), MOST, shown)
 
 
 def pictures(folder, work, mosaic):

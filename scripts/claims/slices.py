@@ -42,32 +42,46 @@ def slice_of(pixel, at):
 
 def spread(values, shear):
     """Mean square of what is left of L(x, u) after the mean over each fibre x + shear u."""
-    fibres = {}
+    fibres = {}  # bin: count, sum, sum of squares
     for (column, row), value in values.items():
         place = (column + 0.5) / WIDTH + shear * ((row + 0.5) / HEIGHT - 0.5)
-        fibres.setdefault(math.floor(place / BIN), []).append(value)
-    rest = sum(statistics.pvariance(v) * len(v) for v in fibres.values())
+        fibre = fibres.setdefault(math.floor(place / BIN), [0, 0.0, 0.0])
+        fibre[0] += 1
+        fibre[1] += value
+        fibre[2] += value * value
+    rest = sum(squares - total * total / count for count, total, squares in fibres.values())
     return rest / (len(values) - len(fibres))
 
 
 def fitted(values):
     """The shear for which the slice varies least along its fibres: a scan, then golden sections."""
-    step = 1.0
-    best = min((spread(values, 0.5 * s), 0.5 * s) for s in range(-40, 20))[1]
+    mean = statistics.fmean(values.values())
+    centred = {place: value - mean for place, value in values.items()}
+
+    def left(shear):
+        return spread(centred, shear)
+
+    step, golden = 0.75, 0.5 * (math.sqrt(5.0) - 1.0)
+    best = min(range(-27, 14), key=lambda k: left(k * step)) * step
     low, high = best - step, best + step
-    for _ in range(12):
-        a, b = high - 0.618 * (high - low), low + 0.618 * (high - low)
-        if spread(values, a) < spread(values, b):
-            high = b
+    inner = [high - golden * (high - low), low + golden * (high - low)]
+    levels = [left(s) for s in inner]
+    while high - low > 0.01:
+        if levels[0] < levels[1]:
+            high = inner[1]
+            inner = [high - golden * (high - low), inner[0]]
+            levels = [left(inner[0]), levels[0]]
         else:
-            low = a
+            low = inner[0]
+            inner = [inner[1], low + golden * (high - low)]
+            levels = [levels[1], left(inner[1])]
     return 0.5 * (low + high)
 
 
-def share_along_u(values):
-    """Part of a slice's variance that is variation along u at one x."""
+def along_u(values):
+    """Variance along u at one x, in the mean over x, and the whole variance of a slice."""
     columns = {}
     for (column, _), value in values.items():
         columns.setdefault(column, []).append(value)
     within = statistics.fmean(statistics.pvariance(v) for v in columns.values())
-    return within / statistics.pvariance(values.values())
+    return within, statistics.pvariance(values.values())

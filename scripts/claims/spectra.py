@@ -1,4 +1,6 @@
 """Rows on the spectra of samplers. Power is 1 for random points."""
+import cmath
+import functools
 import math
 import statistics
 
@@ -65,6 +67,30 @@ def on_diagonal(radius):
     return 1.0 - sinc2(f / 32.0) ** 2
 
 
+def fibre(a, shear):
+    """t for which the part `a` of all x + shear u is below t: the inverse of a trapezoid's distribution."""
+    low, high = min(1.0, shear), max(1.0, shear)
+    ramp = low / (2.0 * high)
+    if a < ramp:
+        return math.sqrt(2.0 * low * high * a)
+    if a <= 1.0 - ramp:
+        return low + (a - ramp) * high
+    return 1.0 + shear - math.sqrt(2.0 * low * high * (1.0 - a))
+
+
+@functools.lru_cache(maxsize=None)
+def on_the_line(radius, shear=3, strata=1024, steps=8):
+    """Power at (f, shear f), the frequency next to `radius`, of points whose first coordinate a is jittered in
+    strata: 1 less the mean over strata of the squared mean of exp(2 pi i f t(a)) in each (equal-area.md)."""
+    f = max(1, round(radius / math.hypot(1, shear)))
+    kept = 0.0
+    for stratum in range(strata):
+        waves = [cmath.exp(2j * math.pi * f * fibre((stratum + (k + 0.5) / steps) / strata, shear))
+                 for k in range(steps)]
+        kept += abs(sum(waves) / steps) ** 2
+    return 1.0 - kept / strata
+
+
 @group
 def blue_noise():
     for sampler, count, low, high, expected, words in [
@@ -90,6 +116,9 @@ def pairs():
         tables = spectra(f'{base} --projection {plane} --shear-px 3')
         yield row(f'{plane}-sheared', f'sheared by 3 pixels, those of {plane.upper()} lie on it', '→ 0',
                   power(tables, 'along 1:3', 8, 64), DARK,
+                  f'clshear spectrum {base} --projection {plane} --shear-px 3')
+        yield row(f'{plane}-sheared-profile', '… where its power is that of its closed form', '1 × that',
+                  over_closed_form(tables, 'along 1:3', range(8, 65), on_the_line), ONE,
                   f'clshear spectrum {base} --projection {plane} --shear-px 3')
     for plane in ('xv', 'yu'):
         tables = spectra(f'{base} --projection {plane} --shear-px 3')

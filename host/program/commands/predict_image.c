@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "commands/predict.h"
 #include "report/failure.h"
@@ -64,16 +65,26 @@ static int allocate(const clshear_settings *settings, variance_image *image)
 static void store(const pixel_result *r, const variance_image *image, size_t pixel)
 {
     const double values[PLANES] = {clshear_prediction_variance(r->prediction), r->shifted.variance,
-                                   r->shifted.variance - 1.96 * r->shifted.error,
+                                   fmax(r->shifted.variance - 1.96 * r->shifted.error, 0.0),
                                    r->shifted.variance + 1.96 * r->shifted.error,
                                    r->rendered.variance};
     for (int p = 0; p < PLANES; p++)
         image->planes[p][pixel] = (float)values[p];
 }
 
+/* Says how far it is, at each tenth of the pixels: a large image takes hours. */
+static void tell(const predict_job *job, size_t done, size_t pixels)
+{
+    if (!job->source.options.quiet && done * 10 / pixels != (done - 1) * 10 / pixels)
+        fprintf(stderr, "clshear: %zu of %zu pixels\n", done, pixels);
+}
+
 static int predict_all(const predict_job *job, pixel_view *view, const variance_image *image)
 {
     int code = EXIT_DONE;
+    if (!job->source.options.quiet && image->pixels > 10000)
+        fprintf(stderr, "clshear: %zu pixels take long; --width and --height, or --crop, take fewer\n",
+                image->pixels);
     for (size_t i = 0; i < image->pixels && code == EXIT_DONE; i++) {
         pixel_result result = {0};
         view->x = image->window[0] + (int)(i % (size_t)image->width);
@@ -81,6 +92,7 @@ static int predict_all(const predict_job *job, pixel_view *view, const variance_
         code = pixel_view_predict(job, view, GRID_POINTS, &result);
         if (code == EXIT_DONE) store(&result, image, i);
         clshear_prediction_free(result.prediction);
+        if (code == EXIT_DONE) tell(job, i + 1, image->pixels);
     }
     return code;
 }
@@ -160,6 +172,9 @@ static int check(const predict_job *job)
                                     "--integrand");
     if (job->measure.count == 0)
         return complain(EXIT_USAGE, "--map and --plot compare: give the sets to --measure with");
+    if (strcmp(job->out.items[0], "-") != 0)
+        return complain(EXIT_USAGE, "--out %s: is of a --pixel or an --integrand; --map FILE.csv has "
+                                    "the table of all pixels", job->out.items[0]);
     const int code = check_places("map", job->map.items, job->map.count);
     return code == EXIT_DONE ? check_places("plot", job->plot.items, job->plot.count) : code;
 }

@@ -20,7 +20,7 @@ typedef struct error_map {
     int height;
     size_t pixels;
     float *slope; /* [curve * pixels + pixel] */
-    float *gain;
+    float *gain; /* NaN without a curve of shear none, or without variance */
 } error_map;
 
 static double error_at(const error_series *series, size_t size, size_t pixel)
@@ -42,13 +42,22 @@ static float slope_at(const error_series *series, size_t pixel)
     return count < 2.0 ? NAN : (float)((count * xy - x * y) / (count * xx - x * x));
 }
 
-/* The first curve of the same sampler. */
+/* The curve of the same sampler without a shear; NULL if there is none. */
 static const error_series *base_of(const error_study *study, const error_series *series)
 {
-    const error_series *base = study->series;
-    while (strcmp(base->sampler, series->sampler) != 0)
-        base++;
-    return base;
+    for (size_t s = 0; s < study->count; s++) {
+        const error_series *base = &study->series[s];
+        if (strcmp(base->sampler, series->sampler) == 0 && strcmp(base->shear, "none") == 0)
+            return base;
+    }
+    return NULL;
+}
+
+/* Whether a curve has a gain to draw: it is not the one that gains are over. */
+static int has_gain(const error_study *study, size_t number)
+{
+    const error_series *series = &study->series[number], *base = base_of(study, series);
+    return base != NULL && base != series;
 }
 
 static int fill(error_map *map)
@@ -61,7 +70,8 @@ static int fill(error_map *map)
         const error_series *series = &study->series[s], *base = base_of(study, series);
         const size_t last = clshear_convergence_sizes(series->result) - 1;
         for (size_t i = 0; i < map->pixels; i++) {
-            const double own = error_at(series, last, i), other = error_at(base, last, i);
+            const double own = error_at(series, last, i);
+            const double other = base != NULL ? error_at(base, last, i) : NAN;
             map->slope[s * map->pixels + i] = slope_at(series, i);
             map->gain[s * map->pixels + i] = own > 0.0 ? (float)(other / own) : NAN;
         }
@@ -143,14 +153,14 @@ static int write_picture(const error_map *map, const char *path)
     const error_study *study = map->study;
     size_t panels = study->count;
     for (size_t s = 0; s < study->count; s++)
-        panels += base_of(study, &study->series[s]) != &study->series[s];
+        panels += (size_t)has_gain(study, s);
     float *picture = calloc(3 * panels * map->pixels + 1, sizeof *picture);
     if (picture == NULL) return complain(EXIT_FAILED, "out of memory");
     size_t panel = 0;
     for (size_t s = 0; s < study->count; s++)
         draw_panel(map, map->slope + s * map->pixels, colour_of_slope, panel++, panels, picture);
     for (size_t s = 0; s < study->count; s++)
-        if (base_of(study, &study->series[s]) != &study->series[s])
+        if (has_gain(study, s))
             draw_panel(map, map->gain + s * map->pixels, colour_of_gain, panel++, panels, picture);
     const float *const planes[] = {picture, picture + panels * map->pixels,
                                    picture + 2 * panels * map->pixels};
