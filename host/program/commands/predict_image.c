@@ -83,7 +83,8 @@ static int predict_all(const predict_job *job, pixel_view *view, const variance_
 {
     int code = EXIT_DONE;
     if (!job->source.options.quiet && image->pixels > 10000)
-        fprintf(stderr, "clshear: %zu pixels take long; --width and --height, or --crop, take fewer\n",
+        fprintf(stderr,
+                "clshear: %zu pixels take long; --width and --height, or --crop, take fewer\n",
                 image->pixels);
     for (size_t i = 0; i < image->pixels && code == EXIT_DONE; i++) {
         pixel_result result = {0};
@@ -173,8 +174,10 @@ static int check(const predict_job *job)
     if (job->measure.count == 0)
         return complain(EXIT_USAGE, "--map and --plot compare: give the sets to --measure with");
     if (strcmp(job->out.items[0], "-") != 0)
-        return complain(EXIT_USAGE, "--out %s: is of a --pixel or an --integrand; --map FILE.csv has "
-                                    "the table of all pixels", job->out.items[0]);
+        return complain(EXIT_USAGE,
+                        "--out %s: is of a --pixel or an --integrand; --map FILE.csv has "
+                        "the table of all pixels",
+                        job->out.items[0]);
     const int code = check_places("map", job->map.items, job->map.count);
     return code == EXIT_DONE ? check_places("plot", job->plot.items, job->plot.count) : code;
 }

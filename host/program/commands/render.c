@@ -270,7 +270,8 @@ static int run(void *user)
     if (code == EXIT_DONE)
         code = check_setting_place(options->settings, CLSHEAR_CHECKPOINT, "checkpoint");
     if (code == EXIT_DONE) code = check_setting_place(options->settings, CLSHEAR_RECORD, "record");
-    if (code == EXIT_DONE) code = check_setting_place(options->settings, CLSHEAR_PREVIEW, "preview");
+    if (code == EXIT_DONE)
+        code = check_setting_place(options->settings, CLSHEAR_PREVIEW, "preview");
     if (code == EXIT_DONE) code = render_frames(job);
     free(name);
     return code;

@@ -20,7 +20,7 @@ typedef struct error_map {
     int height;
     size_t pixels;
     float *slope; /* [curve * pixels + pixel] */
-    float *gain; /* NaN without a curve of shear none, or without variance */
+    float *gain;  /* NaN without a curve of shear none, or without variance */
 } error_map;
 
 static double error_at(const error_series *series, size_t size, size_t pixel)
