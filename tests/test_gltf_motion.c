@@ -33,10 +33,12 @@ static void fill(unsigned char *bytes)
     memcpy(bytes + sizeof numbers, joints, sizeof joints);
 }
 
-static const char *animated_file(void)
+/* A file whose scene has these nodes, of five: 0 turns, 1 takes another shape, 2 has the skin of
+ * the joints 3 and 4. */
+static const char *animated_file(const char *nodes)
 {
     static const char head[] =
-        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1,2,3,4]}],\"nodes\":["
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[%s]}],\"nodes\":["
         "{\"mesh\":0},{\"mesh\":1},{\"mesh\":2,\"skin\":0,\"translation\":[9,9,9]},{},{}],"
         "\"skins\":[{\"joints\":[3,4]}],\"meshes\":["
         "{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]},"
@@ -56,7 +58,7 @@ static const char *animated_file(void)
     char data[2 * BYTES], text[8192];
     fill(bytes);
     test_base64(bytes, sizeof bytes, data);
-    size_t used = (size_t)snprintf(text, sizeof text, "%s", head);
+    size_t used = (size_t)snprintf(text, sizeof text, head, nodes);
     for (size_t i = 0; i < sizeof accessors / sizeof *accessors; i++)
         used += (size_t)snprintf(
             text + used, sizeof text - used,
@@ -87,28 +89,41 @@ static void expected_places(double time, double places[9][3])
     memcpy(places, turned, sizeof turned);
 }
 
-/* Ten frames of the animation, vertex by vertex; beyond the last key it stands still. */
+/* The places of `count` vertices that a file has at a time. */
+static void expect_places(const char *path, double time_s, const double (*places)[3], size_t count)
+{
+    const cs_log log = {0};
+    const cs_import_options options = {.smooth_degrees = -1.0, .is_played = 1, .time_s = time_s};
+    cs_error error = {{0}};
+    cs_scene scene;
+    cs_scene_init(&scene);
+    if (cs_import_here(path, &options, NULL, &scene, &log, &error) != CLSHEAR_OK)
+        fail_msg("%s", error.message);
+    assert_int_equal(scene.positions.count, count);
+    for (size_t i = 0; i < count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            assert_near(((const float(*)[3])scene.positions.items)[i][axis], places[i][axis], 1e-5);
+    cs_scene_free(&scene);
+}
+
+/* Files with an animated node, with a morph, with a skin, and with all three: ten frames of each,
+ * vertex by vertex. Beyond the last key they stand still. */
 static void vertices_are_where_the_file_has_them(void **state)
 {
+    static const struct {
+        const char *nodes;
+        size_t first, count; /* of the nine vertices */
+    } files[] = {{"0", 0, 3}, {"1", 3, 3}, {"2,3,4", 6, 3}, {"0,1,2,3,4", 0, 9}};
     (void)state;
-    const char *path = animated_file();
-    for (int frame = 0; frame < FRAMES; frame++) {
-        const cs_log log = {0};
-        cs_import_options options = {.smooth_degrees = -1.0, .is_played = 1};
-        cs_error error = {{0}};
-        cs_scene scene;
-        double places[9][3];
-        options.time_s = frame / 8.0;
-        cs_scene_init(&scene);
-        if (cs_import_here(path, &options, NULL, &scene, &log, &error) != CLSHEAR_OK)
-            fail_msg("%s", error.message);
-        expected_places(fmin(options.time_s, 1.0), places);
-        assert_int_equal(scene.positions.count, 9);
-        for (int i = 0; i < 9; i++)
-            for (int axis = 0; axis < 3; axis++)
-                assert_near(((const float(*)[3])scene.positions.items)[i][axis], places[i][axis],
-                            1e-5);
-        cs_scene_free(&scene);
+    for (size_t f = 0; f < sizeof files / sizeof *files; f++) {
+        const char *path = animated_file(files[f].nodes);
+        for (int frame = 0; frame <= FRAMES; frame++) {
+            const double time_s = frame / (FRAMES - 1.0);
+            double places[9][3];
+            expected_places(fmin(time_s, 1.0), places);
+            expect_places(path, time_s, (const double(*)[3])(places + files[f].first),
+                          files[f].count);
+        }
     }
 }
 
