@@ -1,5 +1,5 @@
-/* What the shear of lens and time gains over unsheared samples, as a Markdown table: a Cornell box
- * with a checkered wall, whose camera moves while the shutter is open.
+/* Prints a Markdown table of variances, with and without the shear of lens and time. The scene is a
+ * Cornell box with a checkered wall, whose camera moves while the shutter is open.
  *
  *   bench_motion [--scene FILE] [--aperture square|disk] [--lens-radius R] [--move-x X] [--move-y
  * Y]
@@ -78,7 +78,8 @@ static void render_crop(clshear_scene *scene, clshear_settings *settings, int cr
     clshear_film_free(film);
 }
 
-/* What is measured: variances by way, size and seed. */
+/* Variance of the mean of one pattern, averaged over pixels: squared radiance, by way of sampling,
+ * number of samples and seed; and the speed of each pixel, pixels while the shutter is open. */
 typedef struct table {
     double variance[WAYS][MOST_SIZES][MOST_SEEDS];
     double speed_px[PIXELS];
@@ -86,7 +87,8 @@ typedef struct table {
     int seeds;
 } table;
 
-/* The brightest pixels are those of all renders so far, the first of which is thrown away. */
+/* Fills the table. A pixel is left out by its mean over all renders so far, so the first render
+ * runs twice, and only its second run counts. */
 static void measure(clshear_scene *scene, clshear_settings *settings, int size, table *t)
 {
     static pixels p;

@@ -223,6 +223,26 @@ clshear_settings *test_cornell_settings(void)
     return settings;
 }
 
+int test_open_context(void **state)
+{
+    *state = test_context();
+    return 0;
+}
+
+int test_close_context(void **state)
+{
+    clshear_context_free(*state);
+    return 0;
+}
+
+clshear_scene *test_load(clshear_context *context, const char *path)
+{
+    clshear_scene *scene = NULL;
+    test_warnings();
+    test_ok(clshear_scene_load(context, path, NULL, &scene));
+    return scene;
+}
+
 int test_open_cornell(void **state)
 {
     test_fixture *made = calloc(1, sizeof *made);

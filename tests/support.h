@@ -30,6 +30,14 @@ void test_compare(double a, const char *relation, double b, const char *what, co
 /* Creates a context on the first device. Fails the test if there is none. */
 clshear_context *test_context(void);
 
+/* Such a context as a fixture: cmocka opens and closes it; *state is the context. */
+int test_open_context(void **state);
+int test_close_context(void **state);
+
+/* Loads a scene with the fallbacks of all settings. Errors fail the test; test_warnings has what
+ * the file warns of. */
+clshear_scene *test_load(clshear_context *context, const char *path);
+
 /* Fails the test, with the thread's message, unless `status` is CLSHEAR_OK. */
 void test_ok(clshear_status status);
 

@@ -18,18 +18,6 @@ enum {
     HEIGHT = 8
 };
 
-static int set_up(void **state)
-{
-    *state = test_context();
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    clshear_context_free(*state);
-    return 0;
-}
-
 static test_estimate mean_of_render(clshear_scene *scene, clshear_settings *settings)
 {
     return test_mean_of_render(scene, settings, "R");
@@ -176,12 +164,12 @@ static void directions_follow_their_density(void **state)
     cs_environment_free(&made);
 }
 
-/* Writes an image of one colour around everything. Its size in the file is always the same. */
-static void write_even_image(const char *path, float value)
+/* Writes an image around everything, of texels row by row, in three channels. */
+static void write_image(const char *path, const float *texels)
 {
-    static float plane[WIDTH * HEIGHT];
+    static float planes[3][WIDTH * HEIGHT];
     const char *const names[3] = {"R", "G", "B"};
-    const float *const list[3] = {plane, plane, plane};
+    const float *const list[3] = {planes[0], planes[1], planes[2]};
     const cs_picture picture = {.width = WIDTH,
                                 .height = HEIGHT,
                                 .full_width = WIDTH,
@@ -190,9 +178,18 @@ static void write_even_image(const char *path, float value)
                                 .names = names,
                                 .planes = list};
     cs_error error;
-    for (int i = 0; i < WIDTH * HEIGHT; i++)
-        plane[i] = value;
+    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
+        planes[i % 3][i / 3] = texels[i];
     assert_int_equal(cs_image_write(path, &picture, &error), CLSHEAR_OK);
+}
+
+/* Writes one of one colour. Its size in the file is always the same. */
+static void write_even_image(const char *path, float value)
+{
+    float texels[3 * WIDTH * HEIGHT];
+    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
+        texels[i] = value;
+    write_image(path, texels);
 }
 
 static double sky_of(clshear_scene *scene, const char *path, double strength)
@@ -241,25 +238,12 @@ static void image_around_a_floor(void **state)
         STEPS = 400
     };
     float texels[3 * WIDTH * HEIGHT];
-    static float planes[3][WIDTH * HEIGHT];
-    const char *const names[3] = {"R", "G", "B"};
-    const float *const list[3] = {planes[0], planes[1], planes[2]};
-    const cs_picture picture = {.width = WIDTH,
-                                .height = HEIGHT,
-                                .full_width = WIDTH,
-                                .full_height = HEIGHT,
-                                .channel_count = 3,
-                                .names = names,
-                                .planes = list};
-    cs_error error;
     const char *path = test_path("around.exr");
     cs_environment made = made_environment(0.0);
     const cs_lat_long image = cs_lat_long_of(&made.light, made.image.items);
     double irradiance = 0.0;
     fill_image(texels);
-    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
-        planes[i % 3][i / 3] = texels[i];
-    assert_int_equal(cs_image_write(path, &picture, &error), CLSHEAR_OK);
+    write_image(path, texels);
     for (int i = 0; i < STEPS * STEPS;
          i++) { /* uniform in the square of the sine: cosine-weighted */
         const double s = (i / STEPS + 0.5) / STEPS, a = (i % STEPS + 0.5) / STEPS * 2.0 * pi;
@@ -293,5 +277,5 @@ int main(void)
         cmocka_unit_test(environment_files_are_kept),
         cmocka_unit_test(image_around_a_floor),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, test_open_context, test_close_context);
 }

@@ -1,34 +1,10 @@
 /* The textures that materials of files name, from the images to the texels on the device. */
-#include "import_support.h"
-#include "material_files.h"
+#include "material_scenes.h"
 
 #include <math.h>
 
 #include "image/image_io.h"
 #include "import/transfer.h"
-
-static cs_scene load(const char *path)
-{
-    cs_scene scene = import_load(path);
-    assert_true(cs_scene_is_sound(&scene));
-    return scene;
-}
-
-static cs_scene load_mtl(const char *lines)
-{
-    return load(material_mtl(lines));
-}
-
-static cs_scene load_gltf(const char *material)
-{
-    return load(material_gltf(material));
-}
-
-static const cs_material *first_of(const cs_scene *scene)
-{
-    return (const cs_material *)scene->materials.items +
-           *(const uint32_t *)scene->triangle_materials.items;
-}
 
 /* The value of a half that is 0 or between 2^-14 and 2. */
 static double value_of(uint16_t half)
@@ -50,7 +26,7 @@ static void expect_texel(const cs_scene *scene, cs_u32 number, double red, doubl
 
 static cs_u32 base_of(const cs_scene *scene)
 {
-    return (cs_u32)(first_of(scene)->texture + 1);
+    return (cs_u32)(import_material(scene, 0)->texture + 1);
 }
 
 /* Colours are on the sRGB curve ((128 / 255) is 0.2158 there), numbers are not, alpha never. */
@@ -59,12 +35,12 @@ static void maps_of_gltf(void **state)
     (void)state;
     material_even_picture("grey.tga", 128, 255, 0, 51);
     material_even_picture("tone.tga", 128, 128, 255, 255);
-    cs_scene scene =
-        load_gltf("{'alphaMode':'BLEND','emissiveFactor':[2,2,2],'emissiveTexture':{'index':1},"
-                  "'normalTexture':{'index':1,'scale':0.5},'occlusionTexture':{'index':0},"
-                  "'pbrMetallicRoughness':{'baseColorTexture':{'index':0},"
-                  "'metallicRoughnessTexture':{'index':1}}}");
-    const cs_material *m = first_of(&scene);
+    cs_scene scene = material_scene_gltf(
+        "{'alphaMode':'BLEND','emissiveFactor':[2,2,2],'emissiveTexture':{'index':1},"
+        "'normalTexture':{'index':1,'scale':0.5},'occlusionTexture':{'index':0},"
+        "'pbrMetallicRoughness':{'baseColorTexture':{'index':0},"
+        "'metallicRoughnessTexture':{'index':1}}}");
+    const cs_material *m = import_material(&scene, 0);
     assert_string_equal(import_warnings, "");
     assert_int_equal(m->flags, CS_MATERIAL_BLEND);
     expect_texel(&scene, base_of(&scene), 0.2158, 1, 0, 0.2);
@@ -75,13 +51,14 @@ static void maps_of_gltf(void **state)
     assert_true(m->normal_scale == 0.5f && m->emission[0] == 2.0f);
     assert_int_equal(*(const uint8_t *)scene.triangle_flags.items, CS_FACE_TEXTURED);
     cs_scene_free(&scene);
-    scene = load_gltf("{'alphaMode':'MASK','pbrMetallicRoughness':{'baseColorTexture':{'index':1},"
-                      "'baseColorFactor':[1,1,1,0.8]}}");
-    assert_int_equal(first_of(&scene)->flags, 0); /* alpha is 1 in the image */
+    scene = material_scene_gltf(
+        "{'alphaMode':'MASK','pbrMetallicRoughness':{'baseColorTexture':{'index':1},"
+        "'baseColorFactor':[1,1,1,0.8]}}");
+    assert_int_equal(import_material(&scene, 0)->flags, 0); /* alpha is 1 in the image */
     cs_scene_free(&scene);
-    scene = load_gltf("{'normalTexture':{'index':1,'extensions':{'KHR_texture_transform':"
-                      "{'offset':[0.5,0]}}},'pbrMetallicRoughness':{'baseColorTexture':"
-                      "{'index':0}}}");
+    scene = material_scene_gltf("{'normalTexture':{'index':1,'extensions':{'KHR_texture_transform':"
+                                "{'offset':[0.5,0]}}},'pbrMetallicRoughness':{'baseColorTexture':"
+                                "{'index':0}}}");
     import_warned("texture coordinates that differ between its maps");
     cs_scene_free(&scene);
 }
@@ -95,35 +72,36 @@ static void maps_of_mtl(void **state)
     material_even_picture("tone.tga", 255, 255, 255, 51);
     material_even_picture("bent.tga", 100, 140, 240, 255);
     material_picture("ramp.tga", ramp);
-    cs_scene scene = load_mtl("map_Kd grey.tga\nmap_d tone.tga");
+    cs_scene scene = material_scene_mtl("map_Kd grey.tga\nmap_d tone.tga");
     expect_texel(&scene, base_of(&scene), 0.2158, 0.2158, 0.2158, 0.2); /* has alpha */
-    assert_int_equal(first_of(&scene)->flags, CS_MATERIAL_BLEND);
+    assert_int_equal(import_material(&scene, 0)->flags, CS_MATERIAL_BLEND);
     cs_scene_free(&scene);
-    scene = load_mtl("map_d grey.tga");
+    scene = material_scene_mtl("map_d grey.tga");
     expect_texel(&scene, base_of(&scene), 1, 1, 1, 0.502); /* has none */
     cs_scene_free(&scene);
-    scene = load_mtl("map_Pr grey.tga\nmap_Pm tone.tga");
-    expect_texel(&scene, first_of(&scene)->facets_texture, 1, 0.502, 1, 1);
-    assert_true(first_of(&scene)->parameters[CS_PARAMETER_METALLIC] == 1.0f);
+    scene = material_scene_mtl("map_Pr grey.tga\nmap_Pm tone.tga");
+    expect_texel(&scene, import_material(&scene, 0)->facets_texture, 1, 0.502, 1, 1);
+    assert_true(import_material(&scene, 0)->parameters[CS_PARAMETER_METALLIC] == 1.0f);
     cs_scene_free(&scene);
-    scene = load_mtl("Ks 1 1 1\nNs 60\nmap_Ns grey.tga");
-    expect_texel(&scene, first_of(&scene)->facets_texture, 1, pow(2.0 / (60 * 0.50196 + 2), 0.25),
-                 1, 1);
-    assert_true(first_of(&scene)->parameters[CS_PARAMETER_ROUGHNESS] == 1.0f);
+    scene = material_scene_mtl("Ks 1 1 1\nNs 60\nmap_Ns grey.tga");
+    expect_texel(&scene, import_material(&scene, 0)->facets_texture, 1,
+                 pow(2.0 / (60 * 0.50196 + 2), 0.25), 1, 1);
+    assert_true(import_material(&scene, 0)->parameters[CS_PARAMETER_ROUGHNESS] == 1.0f);
     cs_scene_free(&scene);
-    scene = load_mtl("map_Ke grey.tga");
-    expect_texel(&scene, first_of(&scene)->emission_texture, 0.2158, 0.2158, 0.2158, 1);
-    assert_true(first_of(&scene)->emission[0] == 1.0f);
+    scene = material_scene_mtl("map_Ke grey.tga");
+    expect_texel(&scene, import_material(&scene, 0)->emission_texture, 0.2158, 0.2158, 0.2158, 1);
+    assert_true(import_material(&scene, 0)->emission[0] == 1.0f);
     cs_scene_free(&scene);
-    scene = load_mtl("norm grey.tga");
-    expect_texel(&scene, first_of(&scene)->normal_texture, 0.502, 0.502, 0.502, 1);
+    scene = material_scene_mtl("norm grey.tga");
+    expect_texel(&scene, import_material(&scene, 0)->normal_texture, 0.502, 0.502, 0.502, 1);
     cs_scene_free(&scene);
-    scene = load_mtl("map_Bump -bm 0.3 ramp.tga"); /* as high on both sides of each texel */
-    expect_texel(&scene, first_of(&scene)->normal_texture, 0.5, 0.5, 1, 1);
-    assert_true(first_of(&scene)->normal_scale == 0.3f);
+    scene =
+        material_scene_mtl("map_Bump -bm 0.3 ramp.tga"); /* as high on both sides of each texel */
+    expect_texel(&scene, import_material(&scene, 0)->normal_texture, 0.5, 0.5, 1, 1);
+    assert_true(import_material(&scene, 0)->normal_scale == 0.3f);
     cs_scene_free(&scene);
-    scene = load_mtl("bump bent.tga"); /* looks like normals */
-    expect_texel(&scene, first_of(&scene)->normal_texture, 0.392, 0.549, 0.941, 1);
+    scene = material_scene_mtl("bump bent.tga"); /* looks like normals */
+    expect_texel(&scene, import_material(&scene, 0)->normal_texture, 0.392, 0.549, 0.941, 1);
     cs_scene_free(&scene);
 }
 

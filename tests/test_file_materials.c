@@ -1,35 +1,11 @@
 /* What files say of materials, from the lines of a file to the numbers on the device. */
-#include "import_support.h"
-#include "material_files.h"
+#include "material_scenes.h"
 
 #include <math.h>
 #include <stdio.h>
 
 #include "import/transfer.h"
 #include "kernels/bsdf/list.h"
-
-static cs_scene load(const char *path)
-{
-    cs_scene scene = import_load(path);
-    assert_true(cs_scene_is_sound(&scene));
-    return scene;
-}
-
-static cs_scene load_mtl(const char *lines)
-{
-    return load(material_mtl(lines));
-}
-
-static cs_scene load_gltf(const char *material)
-{
-    return load(material_gltf(material));
-}
-
-static const cs_material *first_of(const cs_scene *scene)
-{
-    return (const cs_material *)scene->materials.items +
-           *(const uint32_t *)scene->triangle_materials.items;
-}
 
 /* A float of a device material. */
 typedef struct expectation {
@@ -45,10 +21,10 @@ static void expect_all(const expectation *all, size_t count, cs_scene (*load_tex
     for (size_t i = 0; i < count; i++) {
         cs_scene scene = load_text(all[i].text);
         float found;
-        memcpy(&found, (const char *)first_of(&scene) + all[i].offset, sizeof found);
+        memcpy(&found, (const char *)import_material(&scene, 0) + all[i].offset, sizeof found);
         if (!(fabs((double)found - all[i].value) < 1e-5))
             fail_msg("%s: %g is not %g", all[i].text, (double)found, all[i].value);
-        assert_int_equal(first_of(&scene)->bsdf, CS_BSDF_STANDARD);
+        assert_int_equal(import_material(&scene, 0)->bsdf, CS_BSDF_STANDARD);
         assert_string_equal(import_warnings, "");
         cs_scene_free(&scene);
     }
@@ -86,7 +62,7 @@ static void numbers_of_gltf(void **state)
         {EXTENSION("pbrSpecularGlossiness", "'diffuseFactor':[0,0,0,1]"), PARAMETER(METALLIC), 1.0},
     };
     (void)state;
-    expect_all(all, sizeof all / sizeof *all, load_gltf);
+    expect_all(all, sizeof all / sizeof *all, material_scene_gltf);
 }
 
 /* Roughness by Ns: (2 / (Ns + 2))^(1/4). */
@@ -118,7 +94,7 @@ static void numbers_of_mtl(void **state)
         {"Ps 0.5", PARAMETER(SHEEN) + 8, 0.5},
     };
     (void)state;
-    expect_all(all, sizeof all / sizeof *all, load_mtl);
+    expect_all(all, sizeof all / sizeof *all, material_scene_mtl);
 }
 
 /* Files that ask for Lambert's surface have it, and the kernels that know no other. */
@@ -145,8 +121,9 @@ static void lambert_stays_lambert(void **state)
     const size_t count = sizeof mtl / sizeof *mtl;
     (void)state;
     for (size_t i = 0; i < count + sizeof gltf / sizeof *gltf; i++) {
-        cs_scene scene = i < count ? load_mtl(mtl[i]) : load_gltf(gltf[i - count]);
-        assert_int_equal(first_of(&scene)->bsdf, CS_BSDF_LAMBERT);
+        cs_scene scene =
+            i < count ? material_scene_mtl(mtl[i]) : material_scene_gltf(gltf[i - count]);
+        assert_int_equal(import_material(&scene, 0)->bsdf, CS_BSDF_LAMBERT);
         assert_int_equal(cs_scene_material_needs(&scene).features, 0);
         assert_string_equal(import_warnings, "");
         cs_scene_free(&scene);
@@ -178,8 +155,8 @@ static void volumes_are_solids(void **state)
     };
     (void)state;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        cs_scene scene = load_gltf(all[i].text);
-        const cs_material *material = first_of(&scene);
+        cs_scene scene = material_scene_gltf(all[i].text);
+        const cs_material *material = import_material(&scene, 0);
         assert_int_equal(material->bsdf, all[i].is_solid ? CS_BSDF_GLASS : CS_BSDF_STANDARD);
         if (all[i].is_solid) assert_near(material->parameters[CS_PARAMETER_INDEX], 1.3, 1e-6);
         for (int c = 0; c < 3 && all[i].is_solid; c++)
@@ -211,12 +188,13 @@ static void flags_of_materials(void **state)
     };
     (void)state;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        cs_scene scene = all[i].is_mtl ? load_mtl(all[i].text) : load_gltf(all[i].text);
-        assert_int_equal(first_of(&scene)->flags, all[i].flags);
-        assert_true(first_of(&scene)->alpha == all[i].alpha);
+        cs_scene scene =
+            all[i].is_mtl ? material_scene_mtl(all[i].text) : material_scene_gltf(all[i].text);
+        assert_int_equal(import_material(&scene, 0)->flags, all[i].flags);
+        assert_true(import_material(&scene, 0)->alpha == all[i].alpha);
         cs_scene_free(&scene);
     }
-    cs_scene scene = load_mtl("Tr 1");
+    cs_scene scene = material_scene_mtl("Tr 1");
     import_warned("\"m\" has the opacity 0 and cannot be seen");
     cs_scene_free(&scene);
 }
@@ -247,7 +225,7 @@ static void unsound_materials_are_found(void **state)
     (void)state;
     material_even_picture("grey.tga", 128, 128, 128, 255);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        cs_scene scene = load_mtl("map_Kd grey.tga\nPr 0.5\nnorm grey.tga");
+        cs_scene scene = material_scene_mtl("map_Kd grey.tga\nPr 0.5\nnorm grey.tga");
         char *material = scene.materials.items;
         if (cases[i].number != 0.0f)
             memcpy(material + cases[i].offset, &cases[i].number, sizeof(float));
@@ -256,7 +234,7 @@ static void unsound_materials_are_found(void **state)
         if (cs_scene_is_sound(&scene)) fail_msg("case %zu passes", i);
         cs_scene_free(&scene);
     }
-    cs_scene scene = load_mtl("map_Kd grey.tga");
+    cs_scene scene = material_scene_mtl("map_Kd grey.tga");
     ((cs_vertex *)scene.vertices.items)->texture[1] = NAN;
     assert_false(cs_scene_is_sound(&scene));
     ((cs_vertex *)scene.vertices.items)->texture[1] = 0.0f;

@@ -7,18 +7,6 @@
 static const double pi = 3.14159265358979;
 static const uint32_t quad[6] = {0, 1, 2, 0, 2, 3};
 
-static int set_up(void **state)
-{
-    *state = test_context();
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    clshear_context_free(*state);
-    return 0;
-}
-
 static test_estimate mean_of_render(clshear_scene *scene, clshear_settings *settings)
 {
     return test_mean_of_render(scene, settings, "R");
@@ -256,5 +244,5 @@ int main(void)
         cmocka_unit_test(studio_lights_the_inside),
         cmocka_unit_test(wrong_lights_are_refused),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, test_open_context, test_close_context);
 }

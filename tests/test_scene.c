@@ -7,34 +7,6 @@
 
 #include "settings/view.h"
 
-typedef struct fixture {
-    clshear_context *context;
-} fixture;
-
-static int set_up(void **state)
-{
-    fixture *made = calloc(1, sizeof *made);
-    made->context = test_context();
-    *state = made;
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    fixture *made = *state;
-    clshear_context_free(made->context);
-    free(made);
-    return 0;
-}
-
-static clshear_scene *load(fixture *made, const char *path)
-{
-    clshear_scene *scene = NULL;
-    test_warnings();
-    test_ok(clshear_scene_load(made->context, path, NULL, &scene));
-    return scene;
-}
-
 /* A narrow view of (x, y, 0) from a height above it. */
 static clshear_settings *looking_down_z(double x, double y, double height)
 {
@@ -77,11 +49,11 @@ static void expect_colour(clshear_scene *scene, float x, float y, float r, float
 
 static void obj_polygons_and_negative_indices(void **state)
 {
-    fixture *made = *state;
+    clshear_context *context = *state;
     const char *path = test_file("polygons.obj", SQUARE "v 0 1.5 0\nf 1 2 3 5 4\n"
                                                         "v 2 -1 0\nv 4 -1 0\nv 4 1 0\nv 2 1 0\n"
                                                         "f -4 -3 -2 -1\n");
-    clshear_scene *scene = load(made, path);
+    clshear_scene *scene = test_load(context, path);
     assert_int_equal(test_scene_info(scene).triangles, 3 + 2);
     expect_colour(scene, 3.0f, 0.0f, 0.5f, 0.5f, 0.5f);
     clshear_scene_free(scene);
@@ -90,7 +62,7 @@ static void obj_polygons_and_negative_indices(void **state)
 /* Material files in several statements, and several names in one statement. */
 static void several_material_files(void **state)
 {
-    fixture *made = *state;
+    clshear_context *context = *state;
     const char *const statements[] = {"mtllib red.mtl\nmtllib blue.mtl\n",
                                       "mtllib red.mtl blue.mtl\n"};
     test_file("red.mtl", "newmtl red\nKd 0.8 0.1 0.1\n");
@@ -101,11 +73,11 @@ static void several_material_files(void **state)
                  SQUARE "v 2 -1 0\nv 4 -1 0\nv 4 1 0\nv 2 1 0\n"
                         "usemtl red\nf 1 2 3 4\nusemtl blue\nf 5 6 7 8\n");
         const char *path = test_file("materials.obj", text);
-        clshear_scene *scene = load(made, path);
+        clshear_scene *scene = test_load(context, path);
         assert_string_equal(test_warnings(), "");
         expect_colour(scene, 0, 0, 0.8f, 0.1f, 0.1f);
         clshear_scene_free(scene);
-        scene = load(made, path);
+        scene = test_load(context, path);
         expect_colour(scene, 3, 0, 0.1f, 0.2f, 0.9f);
         clshear_scene_free(scene);
     }
@@ -113,10 +85,10 @@ static void several_material_files(void **state)
 
 static void emission_is_seen(void **state)
 {
-    fixture *made = *state;
+    clshear_context *context = *state;
     test_file("glow.mtl", "newmtl glow\nKd 0 0 0\nKe 2 3 4\n");
-    clshear_scene *scene =
-        load(made, test_file("glow.obj", "mtllib glow.mtl\n" SQUARE "usemtl glow\nf 1 2 3 4\n"));
+    clshear_scene *scene = test_load(
+        context, test_file("glow.obj", "mtllib glow.mtl\n" SQUARE "usemtl glow\nf 1 2 3 4\n"));
     assert_int_equal(test_scene_info(scene).emitters, 2);
     expect_colour(scene, 0, 0, 2.0f, 3.0f, 4.0f);
     clshear_scene_free(scene);
@@ -132,7 +104,7 @@ static void write_picture(const char *name)
 
 static void textures_are_bilinear_and_upright(void **state)
 {
-    fixture *made = *state;
+    clshear_context *context = *state;
     write_picture("four.ppm");
     test_file("textured.mtl", "newmtl t\nKd 1 1 1\nmap_Kd four.ppm\n");
     const char *path = test_file("textured.obj", "mtllib textured.mtl\n" SQUARE
@@ -144,7 +116,7 @@ static void textures_are_bilinear_and_upright(void **state)
         {0.5f, 0.5f, 0, 1, 0},         {0.0f, 0.5f, 0.5f, 0.5f, 0}, /* between red and green */
         {0.0f, 0.0f, 0.5f, 0.5f, 0.5f}};
     for (int i = 0; i < 6; i++) {
-        clshear_scene *scene = load(made, path);
+        clshear_scene *scene = test_load(context, path);
         expect_colour(scene, expected[i][0], expected[i][1], expected[i][2], expected[i][3],
                       expected[i][4]);
         clshear_scene_free(scene);
@@ -154,12 +126,12 @@ static void textures_are_bilinear_and_upright(void **state)
 /* Texture names may be URIs, as in glTF. */
 static void texture_names_are_decoded(void **state)
 {
-    fixture *made = *state;
+    clshear_context *context = *state;
     write_picture("my four.ppm");
     test_file("spaced.mtl", "newmtl t\nKd 1 1 1\nmap_Kd my%20four.ppm\n");
     clshear_scene *scene =
-        load(made, test_file("spaced.obj", "mtllib spaced.mtl\n" SQUARE
-                                           "vt 0.25 0.25\nusemtl t\nf 1/1 2/1 3/1 4/1\n"));
+        test_load(context, test_file("spaced.obj", "mtllib spaced.mtl\n" SQUARE
+                                                   "vt 0.25 0.25\nusemtl t\nf 1/1 2/1 3/1 4/1\n"));
     assert_string_equal(test_warnings(), "");
     expect_colour(scene, 0.3f, 0.1f, 0, 0, 1);
     clshear_scene_free(scene);
@@ -168,14 +140,14 @@ static void texture_names_are_decoded(void **state)
 /* Huge texture coordinates do not read outside the image. */
 static void wild_texture_coordinates_are_safe(void **state)
 {
-    fixture *made = *state;
+    clshear_context *context = *state;
     float colour[3];
     write_picture("four.ppm");
     test_file("wild.mtl", "newmtl t\nKd 1 1 1\nmap_Kd four.ppm\n");
-    clshear_scene *scene =
-        load(made, test_file("wild.obj", "mtllib wild.mtl\n" SQUARE
-                                         "vt 3e38 3e38\nvt -3e38 0\nvt nan 1\nvt 0.99999999 1\n"
-                                         "usemtl t\nf 1/1 2/2 3/3 4/4\n"));
+    clshear_scene *scene = test_load(
+        context, test_file("wild.obj", "mtllib wild.mtl\n" SQUARE
+                                       "vt 3e38 3e38\nvt -3e38 0\nvt nan 1\nvt 0.99999999 1\n"
+                                       "usemtl t\nf 1/1 2/2 3/3 4/4\n"));
     look_at(scene, 0.1f, 0.2f, colour);
     for (int c = 0; c < 3; c++)
         assert_true(colour[c] >= 0.0f && colour[c] <= 1.01f);
@@ -185,24 +157,24 @@ static void wild_texture_coordinates_are_safe(void **state)
 /* A tilted vertex normal darkens a surface that is itself head-on: cos 60 degrees. */
 static void smooth_normals_shade(void **state)
 {
-    fixture *made = *state;
-    clshear_scene *scene =
-        load(made, test_file("smooth.obj", SQUARE "vn 0.8660254 0 0.5\nf 1//1 2//1 3//1 4//1\n"));
+    clshear_context *context = *state;
+    clshear_scene *scene = test_load(
+        context, test_file("smooth.obj", SQUARE "vn 0.8660254 0 0.5\nf 1//1 2//1 3//1 4//1\n"));
     expect_colour(scene, 0, 0, 0.25f, 0.25f, 0.25f);
     clshear_scene_free(scene);
 }
 
 static void missing_parts_become_grey(void **state)
 {
-    fixture *made = *state;
-    clshear_scene *scene =
-        load(made, test_file("bare.obj", "mtllib nowhere.mtl\n" SQUARE "usemtl lost\nf 1 2 3 4\n"));
+    clshear_context *context = *state;
+    clshear_scene *scene = test_load(
+        context, test_file("bare.obj", "mtllib nowhere.mtl\n" SQUARE "usemtl lost\nf 1 2 3 4\n"));
     assert_non_null(strstr(test_warnings(), "nowhere.mtl"));
     expect_colour(scene, 0, 0, 0.5f, 0.5f, 0.5f);
     clshear_scene_free(scene);
     test_file("nomap.mtl", "newmtl t\nKd 1 0 0\nmap_Kd nomap.png\n");
-    scene = load(made, test_file("nomap.obj", "mtllib nomap.mtl\n" SQUARE
-                                              "vt 0 0\nusemtl t\nf 1/1 2/1 3/1 4/1\n"));
+    scene = test_load(context, test_file("nomap.obj", "mtllib nomap.mtl\n" SQUARE
+                                                      "vt 0 0\nusemtl t\nf 1/1 2/1 3/1 4/1\n"));
     assert_non_null(strstr(test_warnings(), "nomap.png"));
     expect_colour(scene, 0, 0, 0.5f, 0.5f, 0.5f);
     clshear_scene_free(scene);
@@ -210,9 +182,9 @@ static void missing_parts_become_grey(void **state)
 
 static void degenerate_triangles_are_dropped(void **state)
 {
-    fixture *made = *state;
-    clshear_scene *scene =
-        load(made, test_file("thin.obj", SQUARE "f 1 2 3\nf 1 1 2\nf 1 2 2\nv 0 -1 0\nf 1 2 5\n"));
+    clshear_context *context = *state;
+    clshear_scene *scene = test_load(
+        context, test_file("thin.obj", SQUARE "f 1 2 3\nf 1 1 2\nf 1 2 2\nv 0 -1 0\nf 1 2 5\n"));
     assert_int_equal(test_scene_info(scene).triangles, 1);
     assert_int_equal(test_scene_info(scene).degenerate, 3);
     assert_non_null(strstr(test_warnings(), "3 triangles without area"));
@@ -221,17 +193,18 @@ static void degenerate_triangles_are_dropped(void **state)
 
 static void other_formats(void **state)
 {
-    fixture *made = *state;
-    clshear_scene *scene = load(
-        made, test_file("square.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
-                                      "property float y\nproperty float z\nelement face 1\n"
-                                      "property list uchar int vertex_indices\nend_header\n"
-                                      "-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n4 0 1 2 3\n"));
+    clshear_context *context = *state;
+    clshear_scene *scene =
+        test_load(context, test_file("square.ply",
+                                     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                                     "property float y\nproperty float z\nelement face 1\n"
+                                     "property list uchar int vertex_indices\nend_header\n"
+                                     "-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n4 0 1 2 3\n"));
     assert_int_equal(test_scene_info(scene).triangles, 2);
     clshear_scene_free(scene);
-    scene = load(made, test_file("one.stl", "solid one\nfacet normal 0 0 1\nouter loop\n"
-                                            "vertex -1 -1 0\nvertex 1 -1 0\nvertex 0 1 0\n"
-                                            "endloop\nendfacet\nendsolid one\n"));
+    scene = test_load(context, test_file("one.stl", "solid one\nfacet normal 0 0 1\nouter loop\n"
+                                                    "vertex -1 -1 0\nvertex 1 -1 0\nvertex 0 1 0\n"
+                                                    "endloop\nendfacet\nendsolid one\n"));
     assert_int_equal(test_scene_info(scene).triangles, 1);
     clshear_scene_free(scene);
 }
@@ -239,9 +212,9 @@ static void other_formats(void **state)
 /* A glTF triangle with a camera and a point light; the buffer is embedded in base 64. */
 static void gltf_with_camera_and_light(void **state)
 {
-    fixture *made = *state;
-    clshear_scene *scene = load(
-        made,
+    clshear_context *context = *state;
+    clshear_scene *scene = test_load(
+        context,
         test_file(
             "scene.gltf",
             "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1,2]}],"
@@ -285,11 +258,11 @@ static void gltf_with_camera_and_light(void **state)
 
 static void invalid_colours_become_black(void **state)
 {
-    fixture *made = *state;
+    clshear_context *context = *state;
     test_file("odd.mtl", "newmtl a\nKd inf 1 1\nnewmtl b\nKd 0.5 0.25 1\nKe -5 nan 1e38\n");
     clshear_scene *scene =
-        load(made, test_file("odd.obj",
-                             "mtllib odd.mtl\n" SQUARE "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n"));
+        test_load(context, test_file("odd.obj", "mtllib odd.mtl\n" SQUARE
+                                                "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n"));
     const char *warnings = test_warnings();
     assert_non_null(strstr(warnings, "material \"a\" has the colour inf 1 1"));
     assert_non_null(strstr(warnings, "material \"b\" has the colour -5 nan 1e+38"));
@@ -320,5 +293,5 @@ int main(void)
         cmocka_unit_test(gltf_with_camera_and_light),
         cmocka_unit_test(invalid_colours_become_black),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, test_open_context, test_close_context);
 }

@@ -5,55 +5,27 @@
 #include <stdio.h>
 #include <sys/stat.h>
 
-typedef struct fixture {
-    clshear_context *context;
-} fixture;
-
 #define SQUARE "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
 
-static int set_up(void **state)
-{
-    fixture *made = calloc(1, sizeof *made);
-    made->context = test_context();
-    *state = made;
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    fixture *made = *state;
-    clshear_context_free(made->context);
-    free(made);
-    return 0;
-}
-
-static clshear_scene *load(fixture *made, const char *path)
-{
-    clshear_scene *scene = NULL;
-    test_warnings();
-    test_ok(clshear_scene_load(made->context, path, NULL, &scene));
-    return scene;
-}
-
-static void refuse_file(fixture *made, const char *path)
+static void refuse_file(clshear_context *context, const char *path)
 {
     clshear_scene *scene = NULL;
     const char *name = strrchr(path, '/') + 1;
-    assert_int_equal(clshear_scene_load(made->context, path, NULL, &scene), CLSHEAR_BAD_FILE);
+    assert_int_equal(clshear_scene_load(context, path, NULL, &scene), CLSHEAR_BAD_FILE);
     assert_null(scene);
-    if (strstr(clshear_context_message(made->context), name) == NULL)
-        fail_msg("\"%s\" does not name %s", clshear_context_message(made->context), name);
-    assert_null(strchr(clshear_context_message(made->context), '\n'));
+    if (strstr(clshear_context_message(context), name) == NULL)
+        fail_msg("\"%s\" does not name %s", clshear_context_message(context), name);
+    assert_null(strchr(clshear_context_message(context), '\n'));
 }
 
 static void bad_files_are_refused(void **state)
 {
-    fixture *made = *state;
-    refuse_file(made, test_path("not_there.obj"));
-    refuse_file(made, SCENES);
-    refuse_file(made, test_file("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
-    refuse_file(made, test_file("infinite.obj", "v 1e39 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
-    refuse_file(made, test_file("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"));
+    clshear_context *context = *state;
+    refuse_file(context, test_path("not_there.obj"));
+    refuse_file(context, SCENES);
+    refuse_file(context, test_file("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    refuse_file(context, test_file("infinite.obj", "v 1e39 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    refuse_file(context, test_file("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"));
     const char *const ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
                             "property float y\nproperty float z\nelement face 1\n"
                             "property list uchar int vertex_indices\nend_header\n"
@@ -62,19 +34,19 @@ static void bad_files_are_refused(void **state)
     for (int i = 0; i < 3; i++) {
         char text[512];
         snprintf(text, sizeof text, ply, indices[i]);
-        refuse_file(made, test_file("range.ply", text));
+        refuse_file(context, test_file("range.ply", text));
     }
-    refuse_file(made, test_file("none.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"));
-    refuse_file(made, test_file("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\nl 1 2\n"));
-    refuse_file(made, test_file("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"));
-    refuse_file(made, test_file("empty.obj", ""));
-    refuse_file(made, test_file("prose.txt", "This is not a scene.\n"));
-    refuse_file(made, test_file("broken.gltf", "{\"asset\":"));
+    refuse_file(context, test_file("none.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"));
+    refuse_file(context, test_file("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\nl 1 2\n"));
+    refuse_file(context, test_file("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"));
+    refuse_file(context, test_file("empty.obj", ""));
+    refuse_file(context, test_file("prose.txt", "This is not a scene.\n"));
+    refuse_file(context, test_file("broken.gltf", "{\"asset\":"));
 }
 
 static void bad_meshes_are_refused(void **state)
 {
-    fixture *made = *state;
+    clshear_context *context = *state;
     clshear_scene *scene = NULL;
     const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     const uint32_t outside[3] = {0, 1, 3}, inside[3] = {0, 1, 2};
@@ -84,7 +56,7 @@ static void bad_meshes_are_refused(void **state)
                          .indices = outside,
                          .vertex_count = 3,
                          .triangle_count = 1};
-    test_ok(clshear_scene_create(made->context, &scene));
+    test_ok(clshear_scene_create(context, &scene));
     test_refused(clshear_scene_add_mesh(scene, &mesh), CLSHEAR_BAD_ARGUMENT, "3");
     test_refused(clshear_scene_complete(scene), CLSHEAR_BAD_ARGUMENT, "no triangles");
     mesh.indices = NULL;
@@ -105,13 +77,13 @@ static void bad_meshes_are_refused(void **state)
 /* Pipes and folders are refused: a pipe without a writer would block, and a folder has no bytes. */
 static void pipes_and_folders_are_not_read(void **state)
 {
-    fixture *made = *state;
+    clshear_context *context = *state;
     mkfifo(test_path("pipe.png"), 0600);
     mkdir(test_path("folder.mtl"), 0700);
     test_file("piped.mtl", "newmtl t\nmap_Kd pipe.png\n");
     clshear_scene *scene =
-        load(made, test_file("piped.obj", "mtllib piped.mtl folder.mtl\n" SQUARE
-                                          "vt 0 0\nusemtl t\nf 1/1 2/1 3/1 4/1\n"));
+        test_load(context, test_file("piped.obj", "mtllib piped.mtl folder.mtl\n" SQUARE
+                                                  "vt 0 0\nusemtl t\nf 1/1 2/1 3/1 4/1\n"));
     const char *warnings = test_warnings();
     assert_non_null(strstr(warnings, "folder.mtl not found"));
     assert_non_null(strstr(warnings, "pipe.png: is not a regular file"));
@@ -125,5 +97,5 @@ int main(void)
         cmocka_unit_test(bad_meshes_are_refused),
         cmocka_unit_test(pipes_and_folders_are_not_read),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, test_open_context, test_close_context);
 }

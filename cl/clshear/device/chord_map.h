@@ -4,19 +4,18 @@
  * Along an axis the other lens coordinate stays, so the lens coordinate is uniform on a chord of
  * the aperture. A box filter makes the film coordinate uniform too, and for two uniform variables
  * the map is known: t = film + blur * lens has a trapezoid as its density (shear.h). A symmetrical
- * filter with one hump is a mixture of boxes around its middle, as the area under its curve is a
- * pile of them: a hash of the tuple chooses one of those that hold the film's place, and the film
- * moves within it.
+ * filter with one hump is a mixture of boxes, one for each height under its curve. A hash of the
+ * tuple chooses a height, and so a box that holds the film's place. The film moves within that box.
  *
- * The first pair is a point of what is wider: of the film for narrow blurs, of the lens for wide
- * ones. The second pair is a point of the other. Each axis takes its fibre from the first and the
- * place on the fibre from the second.
+ * Up to a blur of CS_FILM_FIRST the first pair is a point of the film and the second a point of the
+ * lens; beyond it they change places. Each axis takes its fibre from the first pair and the place
+ * on the fibre from the second.
  *
- * This keeps measure to rounding, for every blur: on each axis the other coordinates are fixed, and
- * the map of the two that move keeps theirs. The fibre depends on the second pair a little, because
- * chords differ in length and boxes in width. The mean square of what it moves by is at most 0.004
- * square pixels for a disk or a hexagon with a box, 0.05 for a gaussian, near a blur of one pixel,
- * and falls to both sides (tests/test_shear.c); without a shear it is blur^2 / (2 pi). */
+ * The map keeps measure to rounding for every blur, because each axis keeps it while the other
+ * coordinates are fixed. The second pair moves the fibre a little, because chords differ in length
+ * and boxes in width: by a mean square of at most 0.004 square pixels for a hexagon with a box and
+ * 0.05 for a gaussian, both near a blur of one pixel (tests/test_shear.c). Without a shear the mean
+ * square is blur^2 / (2 pi). */
 #ifndef CLSHEAR_DEVICE_CHORD_MAP_H
 #define CLSHEAR_DEVICE_CHORD_MAP_H
 

@@ -71,8 +71,8 @@ static inline cs_moving_axis cs_chain_axis(cs_vfloat across, cs_vfloat narrow, c
     return axis;
 }
 
-/* The chain. The x axis comes first and limits the times; the y axis moves during those times alone
- * and chooses one of them; then x moves on to that time.
+/* Maps both axes of a square lens with one time. The x axis gives an interval of times, the y axis
+ * chooses one time in it, and x then takes its place at that time.
  *
  * blur_x, blur_y, speed_x, speed_y: magnitudes, pixels. speed_x is the larger speed. */
 static inline void cs_chain(const cs_moving_tuple *z, cs_f32 blur_x, cs_f32 blur_y, cs_f32 speed_x,
