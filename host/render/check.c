@@ -165,6 +165,8 @@ static cs_u32 features_of(const cs_job *job)
 {
     cs_u32 features = job->lighting.features | job->scene->device_scene.needs.features;
     if (cs_integer(&job->settings, BOUNCES) > 0) features |= CS_FEATURE_PATHS;
+    if ((features & CS_FEATURE_PATHS) != 0 && job->scene->device_scene.is_wide)
+        features |= CS_FEATURE_WIDE;
     return features;
 }
 

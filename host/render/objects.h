@@ -17,6 +17,7 @@ typedef struct cs_device_scene {
     double emitted_light;                 /* by all, a unit of the scene's area: luminance */
     cs_material_needs needs;
     size_t geometry_bytes;
+    int is_wide; /* whether it has a wide hierarchy */
 } cs_device_scene;
 
 struct clshear_scene {
