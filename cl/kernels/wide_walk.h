@@ -9,159 +9,229 @@
 #include "kernels/traverse.h"
 #include "kernels/wide_lanes.h"
 
-/* Rays on their way, one in each lane. */
-typedef struct cs_wide_rays {
-    cs_float_lanes origin[3];
-    cs_float_lanes direction[3];
-    cs_float_lanes inverse[3]; /* of the direction */
-    cs_int_lanes octant;
-    cs_float_lanes limit; /* distance of the nearest hit so far, or the ray's reach */
-    cs_int_lanes triangle;
-    int top[CS_PACKET]; /* entries of the stacks */
-    cs_u32 references[CS_PACKET][CS_WIDE_STACK];
-    cs_f32 enters[CS_PACKET][CS_WIDE_STACK]; /* distances at which rays enter their boxes */
-} cs_wide_rays;
+#define CS_WIDE_END 0x80000000u /* the stack's first reference, which is taken last */
+
+/* A ray on its way. */
+typedef struct cs_wide_ray {
+    float4 origin;
+    float4 inverse; /* of the direction */
+    float4 direction;
+    cs_f32 limit; /* distance of the nearest hit so far, or the ray's reach */
+    int near[3];  /* bytes from low planes to those that the ray meets first: 0 or 16 */
+    int order;    /* in which children are pushed: an octant */
+    int next;     /* node or leaf */
+    int triangle; /* CS_WIDE_LEAF times its leaf, and its place there; or CS_NO_HIT */
+    int top;      /* entries of the stack */
+    cs_u32 references[CS_WIDE_STACK];
+    cs_f32 enters[CS_WIDE_STACK]; /* distances at which the ray enters their boxes */
+} cs_wide_ray;
 
 /* Meets the boxes of a node's children. */
-static inline void cs_wide_enter(CS_GLOBAL const cs_wide_node *node, cs_wide_rays *rays, int lane,
-                                 const int any_hit)
+static inline void cs_wide_enter(CS_GLOBAL const cs_wide_node *nodes, cs_wide_ray *ray)
 {
-    int octant = rays->octant.lane[lane];
-    cs_f32 limit = rays->limit.lane[lane];
-    cs_vfloat near[3], far[3];
-    for (int axis = 0; axis < 3; axis++) {
-        int negative = octant >> axis & 1;
-        cs_f32 inverse = rays->inverse[axis].lane[lane];
-        cs_vfloat scale = (cs_vfloat)(node->step[axis] * inverse);
-        cs_vfloat offset = (cs_vfloat)((node->low[axis] - rays->origin[axis].lane[lane]) * inverse);
-        near[axis] = fma(cs_bytes_at(node->planes[axis][negative]), scale, offset);
-        far[axis] = fma(cs_bytes_at(node->planes[axis][1 - negative]), scale, offset);
-    }
-    cs_vfloat enter = cs_max(cs_max(near[0], near[1]), cs_max(near[2], (cs_vfloat)(0.0f)));
-    cs_vfloat leave = cs_min(cs_min(far[0], far[1]), far[2]);
+    CS_GLOBAL const cs_wide_node *node = nodes + ray->next;
+    CS_GLOBAL const uchar *planes = (CS_GLOBAL const uchar *)node->planes;
+    float4 scale = *(CS_GLOBAL const float4 *)node->step * ray->inverse;
+    float4 offset = (*(CS_GLOBAL const float4 *)node->low - ray->origin) * ray->inverse;
+    cs_vfloat near_x = fma(cs_bytes_at(planes + ray->near[0]), scale.x, offset.x);
+    cs_vfloat near_y = fma(cs_bytes_at(planes + 32 + ray->near[1]), scale.y, offset.y);
+    cs_vfloat near_z = fma(cs_bytes_at(planes + 64 + ray->near[2]), scale.z, offset.z);
+    cs_vfloat far_x = fma(cs_bytes_at(planes + 16 - ray->near[0]), scale.x, offset.x);
+    cs_vfloat far_y = fma(cs_bytes_at(planes + 48 - ray->near[1]), scale.y, offset.y);
+    cs_vfloat far_z = fma(cs_bytes_at(planes + 80 - ray->near[2]), scale.z, offset.z);
+    cs_vfloat enter = cs_max(cs_max(near_x, near_y), cs_max(near_z, (cs_vfloat)(0.0f)));
+    cs_vfloat leave = cs_min(cs_min(far_x, far_y), far_z);
     /* Ize 2013: what rounding loses relative to the distance */
     cs_vint hit = enter <= leave * 1.0000005f;
     hit = hit & (*(CS_GLOBAL const cs_vint *)node->child != 0);
     enter = hit ? enter : (cs_vfloat)(INFINITY);
-    int top = rays->top[lane];
-    rays->top[lane] = top + cs_push_lanes(node, any_hit ? 7 - octant : octant, enter, limit,
-                                          rays->references[lane] + top, rays->enters[lane] + top);
+    ray->top += cs_push_children(node, ray->order, enter, ray->limit, ray->references + ray->top,
+                                 ray->enters + ray->top);
 }
 
-/* Rows of four as columns: the numbers at `a`, `a` + 4, `a` + 8 and `a` + 12 of four vectors. */
-#define CS_COLUMNS(row, a, b, c, d)                                                         \
-    (float16)(row[0].s##a, row[1].s##a, row[2].s##a, row[3].s##a, row[0].s##b, row[1].s##b, \
-              row[2].s##b, row[3].s##b, row[0].s##c, row[1].s##c, row[2].s##c, row[3].s##c, \
-              row[0].s##d, row[1].s##d, row[2].s##d, row[3].s##d)
+/* A coordinate of four triangles. */
+#define CS_FOUR(of) (*(CS_GLOBAL const float4 *)(of))
 
-/* Meets four triangles, as cs_hit_triangle. */
-static inline void cs_wide_hit(CS_GLOBAL const cs_triangle *triangles, cs_u32 first,
-                               cs_wide_rays *rays, int lane, const int any_hit)
+/* Distances at which a ray meets a leaf's triangles, as cs_hit_triangle; returns the mask of those
+ * that it meets before its limit. */
+static inline cs_u32 cs_wide_distances(CS_GLOBAL const cs_wide_leaf *leaf, const cs_wide_ray *ray,
+                                       float4 *distance)
 {
-    float16 row[4];
-    for (int i = 0; i < 4; i++)
-        row[i] = *(CS_GLOBAL const float16 *)(triangles + first + i);
-    float16 x = CS_COLUMNS(row, 0, 4, 8, c);
-    float16 y = CS_COLUMNS(row, 1, 5, 9, d);
-    float16 z = CS_COLUMNS(row, 2, 6, a, e);
-    float4 dx = (float4)(rays->direction[0].lane[lane]);
-    float4 dy = (float4)(rays->direction[1].lane[lane]);
-    float4 dz = (float4)(rays->direction[2].lane[lane]);
-    float4 to_x = x.s0123 - rays->origin[0].lane[lane];
-    float4 to_y = y.s0123 - rays->origin[1].lane[lane];
-    float4 to_z = z.s0123 - rays->origin[2].lane[lane];
-    float4 inverse = 1.0f / fma(x.scdef, dx, fma(y.scdef, dy, z.scdef * dz));
-    float4 cross_x = fma(to_y, dz, -to_z * dy);
-    float4 cross_y = fma(to_z, dx, -to_x * dz);
-    float4 cross_z = fma(to_x, dy, -to_y * dx);
-    float4 u = inverse * fma(cross_x, x.s89ab, fma(cross_y, y.s89ab, cross_z * z.s89ab));
-    float4 v = -inverse * fma(cross_x, x.s4567, fma(cross_y, y.s4567, cross_z * z.s4567));
-    float4 distance = inverse * fma(x.scdef, to_x, fma(y.scdef, to_y, z.scdef * to_z));
-    int4 inside = (u >= 0.0f) & (v >= 0.0f) & (u + v <= 1.0f) & (distance > 0.0f) &
-                  (distance < rays->limit.lane[lane]);
-    if (!any(inside)) return;
+    float4 e1[3], e2[3], n[3];
+    float4 dx = (float4)(ray->direction.x), dy = (float4)(ray->direction.y);
+    float4 dz = (float4)(ray->direction.z);
+    float4 to_x = CS_FOUR(leaf->corner[0]) - ray->origin.x;
+    float4 to_y = CS_FOUR(leaf->corner[1]) - ray->origin.y;
+    float4 to_z = CS_FOUR(leaf->corner[2]) - ray->origin.z;
+    for (int i = 0; i < 3; i++) {
+        e1[i] = CS_FOUR(leaf->edge1[i]);
+        e2[i] = CS_FOUR(leaf->edge2[i]);
+    }
+    n[0] = e1[1] * e2[2] - e1[2] * e2[1];
+    n[1] = e1[2] * e2[0] - e1[0] * e2[2];
+    n[2] = e1[0] * e2[1] - e1[1] * e2[0];
+    float4 inverse = 1.0f / fma(n[0], dx, fma(n[1], dy, n[2] * dz));
+    float4 x = fma(to_y, dz, -to_z * dy);
+    float4 y = fma(to_z, dx, -to_x * dz);
+    float4 z = fma(to_x, dy, -to_y * dx);
+    float4 u = inverse * fma(x, e2[0], fma(y, e2[1], z * e2[2]));
+    float4 v = -inverse * fma(x, e1[0], fma(y, e1[1], z * e1[2]));
+    *distance = inverse * fma(n[0], to_x, fma(n[1], to_y, n[2] * to_z));
+    return cs_mask_of_four((u >= 0.0f) & (v >= 0.0f) & (u + v <= 1.0f) & (*distance > 0.0f) &
+                           (*distance < ray->limit));
+}
+
+/* Meets the triangles of a leaf. */
+static inline void cs_wide_hit(CS_GLOBAL const cs_wide_leaf *leaves, cs_wide_ray *ray,
+                               const int any_hit)
+{
+    union {
+        float4 all;
+        cs_f32 lane[CS_WIDE_LEAF];
+    } distance;
+    cs_u32 inside = cs_wide_distances(leaves + ray->next, ray, &distance.all);
+    if (inside == 0u) return;
     if (any_hit) {
-        rays->limit.lane[lane] = -1.0f;
+        ray->limit = -1.0f;
+        ray->top = 1;
         return;
     }
-    distance = inside ? distance : (float4)(INFINITY);
-    float2 least = fmin(distance.lo, distance.hi);
-    float nearest = fmin(least.x, least.y);
-    int number = distance.z == nearest ? 2 : 3;
-    number = distance.y == nearest ? 1 : number;
-    number = distance.x == nearest ? 0 : number;
-    rays->limit.lane[lane] = nearest;
-    rays->triangle.lane[lane] = (int)first + number;
+    for (; inside != 0u; inside &= inside - 1u) {
+        int place = (int)popcount((inside & -inside) - 1u);
+        if (!(distance.lane[place] < ray->limit)) continue;
+        ray->limit = distance.lane[place];
+        ray->triangle = ray->next * CS_WIDE_LEAF + place;
+    }
 }
 
-/* A turn of all rays that are left: takes what is next from each one's stack, then does it. */
-static inline int cs_wide_turn(const cs_scene_buffers *scene, cs_wide_rays *rays, int *left,
-                               int count, const int any_hit)
+/* Lanes whose rays meet a node next, and those whose rays meet a leaf. */
+typedef struct cs_wide_turn {
+    int nodes[CS_PACKET], leaves[CS_PACKET];
+    int node_count, leaf_count;
+} cs_wide_turn;
+
+/* Takes what a ray meets next from its stack and asks for it. */
+static inline void cs_wide_pop(const cs_scene_buffers *scene, cs_wide_ray *ray, int lane,
+                               cs_wide_turn *turn)
 {
-    cs_u32 next[CS_PACKET];
-    int entering[CS_PACKET], hitting[CS_PACKET];
-    int enters = 0, hits = 0;
-    for (int i = 0; i < count; i++) {
-        int lane = left[i], top = rays->top[lane];
-        cs_f32 limit = rays->limit.lane[lane];
-        while (top > 0 && !(rays->enters[lane][top - 1] < limit))
-            top--;
-        if (top == 0) continue;
-        cs_u32 reference = rays->references[lane][--top];
-        rays->top[lane] = top;
-        next[lane] = reference & ~(cs_u32)CS_LEAF;
-        int leaf = (reference & CS_LEAF) != 0u;
-        size_t line = leaf ? (size_t)(scene->triangles + next[lane])
-                           : (size_t)(scene->wide_nodes + next[lane]);
-        CS_PREFETCH(line);
-        CS_PREFETCH(line + 64u);
-        CS_PREFETCH(line + 128u);
-        CS_PREFETCH(line + 192u);
-        entering[enters] = lane;
-        hitting[hits] = lane;
-        enters += !leaf;
-        hits += leaf;
+    int top = ray->top;
+    do
+        top--;
+    while (!(ray->enters[top] < ray->limit));
+    cs_u32 reference = ray->references[top], kind = reference >> 30;
+    ray->top = top;
+    reference &= (cs_u32)CS_LEAF - 1u;
+    ray->next = (int)reference;
+    size_t node = (size_t)(scene->wide_nodes + reference);
+    size_t line = (size_t)(scene->wide_leaves + reference);
+    line = node ^ ((node ^ line) & -(size_t)(kind & 1u));
+    CS_PREFETCH(line);
+    CS_PREFETCH(line + 64u);
+    CS_PREFETCH(line + 128u);
+    CS_PREFETCH(line + 192u);
+    turn->nodes[turn->node_count] = lane;
+    turn->leaves[turn->leaf_count] = lane;
+    turn->node_count += kind == 0u;
+    turn->leaf_count += (int)(kind & 1u);
+}
+
+/* Lets all rays take turns until none is left. */
+static inline void cs_wide_take_turns(const cs_scene_buffers *scene, cs_wide_ray *rays,
+                                      cs_wide_turn *turns, const int any_hit)
+{
+    for (int now = 0; turns[now].node_count + turns[now].leaf_count > 0; now = 1 - now) {
+        cs_wide_turn *turn = turns + now, *next = turns + 1 - now;
+        next->node_count = next->leaf_count = 0;
+        for (int i = 0; i < turn->node_count; i++) {
+            int lane = turn->nodes[i];
+            cs_wide_enter(scene->wide_nodes, rays + lane);
+            cs_wide_pop(scene, rays + lane, lane, next);
+        }
+        for (int i = 0; i < turn->leaf_count; i++) {
+            int lane = turn->leaves[i];
+            cs_wide_hit(scene->wide_leaves, rays + lane, any_hit);
+            cs_wide_pop(scene, rays + lane, lane, next);
+        }
     }
-    for (int i = 0; i < enters; i++) {
-        int lane = entering[i];
-        cs_wide_enter(scene->wide_nodes + next[lane], rays, lane, any_hit);
-        left[i] = lane;
-    }
-    for (int i = 0; i < hits; i++) {
-        int lane = hitting[i];
-        cs_wide_hit(scene->triangles, next[lane], rays, lane, any_hit);
-        left[enters + i] = lane;
-    }
-    return enters + hits;
+}
+
+/* A ray at the root. */
+static inline void cs_wide_begin(cs_wide_ray *ray, const cs_float_lanes *origin,
+                                 const cs_float_lanes *direction, const cs_float_lanes *inverse,
+                                 int lane, int octant, const int any_hit)
+{
+    ray->origin = (float4)(origin[0].lane[lane], origin[1].lane[lane], origin[2].lane[lane], 0.0f);
+    ray->direction =
+        (float4)(direction[0].lane[lane], direction[1].lane[lane], direction[2].lane[lane], 0.0f);
+    ray->inverse =
+        (float4)(inverse[0].lane[lane], inverse[1].lane[lane], inverse[2].lane[lane], 0.0f);
+    for (int axis = 0; axis < 3; axis++)
+        ray->near[axis] = (octant >> axis & 1) * CS_WIDE;
+    ray->order = any_hit ? 7 - octant : octant;
+    ray->next = 0;
+    ray->triangle = CS_NO_HIT;
+    ray->references[0] = CS_WIDE_END;
+    ray->enters[0] = -INFINITY;
+    ray->top = 1;
 }
 
 /* As cs_traverse. */
+CS_INLINED void cs_walk_wide(const cs_scene_buffers *scene, const cs_ray *ray, const int any_hit,
+                             cs_hit *hit)
+{
+    cs_wide_ray rays[CS_PACKET];
+    cs_wide_turn turns[2];
+    cs_float_lanes origin[3], direction[3], inverse[3], distance;
+    cs_int_lanes octant, triangle;
+    turns[0].node_count = turns[0].leaf_count = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        cs_vfloat d = ray->direction[axis];
+        origin[axis].all = ray->origin[axis];
+        direction[axis].all = d;
+        inverse[axis].all = 1.0f / (fabs(d) < 1e-18f ? (cs_vfloat)(1e-18f) : d);
+    }
+    octant.all = cs_octants((const cs_vfloat *)inverse);
+    distance.all = hit->distance;
+    triangle.all = (cs_vint)(CS_NO_HIT);
+    for (int lane = 0; lane < CS_PACKET; lane++) {
+        if (!(distance.lane[lane] > 0.0f)) continue;
+        cs_wide_begin(rays + lane, origin, direction, inverse, lane, octant.lane[lane], any_hit);
+        rays[lane].limit = distance.lane[lane];
+        turns[0].nodes[turns[0].node_count++] = lane;
+    }
+    int begun = turns[0].node_count;
+    int lanes[CS_PACKET];
+    for (int i = 0; i < begun; i++)
+        lanes[i] = turns[0].nodes[i];
+    cs_wide_take_turns(scene, rays, turns, any_hit);
+    for (int i = 0; i < begun; i++) {
+        int lane = lanes[i], found = rays[lane].triangle;
+        distance.lane[lane] = rays[lane].limit;
+        if (!any_hit && found >= 0)
+            triangle.lane[lane] =
+                (int)scene->wide_leaves[found / CS_WIDE_LEAF].first + found % CS_WIDE_LEAF;
+    }
+    hit->distance = distance.all;
+    hit->triangle = triangle.all;
+}
+
+static void cs_wide_nearest(const cs_scene_buffers *scene, const cs_ray *ray, cs_hit *hit)
+{
+    cs_walk_wide(scene, ray, 0, hit);
+}
+
+static void cs_wide_any(const cs_scene_buffers *scene, const cs_ray *ray, cs_hit *hit)
+{
+    cs_walk_wide(scene, ray, 1, hit);
+}
+
 static inline void cs_traverse_wide(const cs_scene_buffers *scene, const cs_ray *ray,
                                     const int any_hit, cs_hit *hit)
 {
-    cs_wide_rays rays;
-    int left[CS_PACKET], count = 0;
-    for (int axis = 0; axis < 3; axis++) {
-        cs_vfloat d = ray->direction[axis];
-        cs_vfloat safe = fabs(d) < 1e-18f ? (cs_vfloat)(1e-18f) : d;
-        rays.origin[axis].all = ray->origin[axis];
-        rays.direction[axis].all = d;
-        rays.inverse[axis].all = 1.0f / safe;
-    }
-    rays.octant.all = cs_octants((const cs_vfloat *)&rays.inverse);
-    rays.limit.all = hit->distance;
-    rays.triangle.all = (cs_vint)(CS_NO_HIT);
-    for (int lane = 0; lane < CS_PACKET; lane++) {
-        if (!(rays.limit.lane[lane] > 0.0f)) continue;
-        rays.references[lane][0] = 0u;
-        rays.enters[lane][0] = 0.0f;
-        rays.top[lane] = 1;
-        left[count++] = lane;
-    }
-    while (count > 0)
-        count = cs_wide_turn(scene, &rays, left, count, any_hit);
-    hit->distance = rays.limit.all;
-    hit->triangle = rays.triangle.all;
+    if (any_hit)
+        cs_wide_any(scene, ray, hit);
+    else
+        cs_wide_nearest(scene, ray, hit);
 }
 
 #endif

@@ -24,8 +24,8 @@ typedef struct choice {
 
 typedef struct widening {
     const cs_node *nodes;
-    cs_u32 triangles;
-    cs_array *wide;
+    const cs_triangle *triangles;
+    cs_wide_bvh *wide;
     choice *choices; /* of each binary node */
     size_t stack;    /* entries that a walk needs at most */
     int failed;      /* 1 when out of memory */
@@ -42,11 +42,19 @@ static int is_leaf(cs_u32 reference)
     return (reference & (cs_u32)CS_LEAF) != 0;
 }
 
-static cs_u32 first_triangle(const widening *work, cs_u32 reference)
+/* The first of the consecutive triangles below a reference, and their number. */
+static cs_u32 find_triangles(const widening *work, cs_u32 reference, cs_u32 *count)
 {
-    while (!is_leaf(reference))
-        reference = work->nodes[reference].child[0];
-    return reference & ((1u << CS_LEAF_SHIFT) - 1u);
+    if (is_leaf(reference)) {
+        *count = (reference >> CS_LEAF_SHIFT & 7u) + 1u;
+        return reference & ((1u << CS_LEAF_SHIFT) - 1u);
+    }
+    cs_u32 others;
+    const cs_u32 *child = work->nodes[reference].child;
+    const cs_u32 first[2] = {find_triangles(work, child[0], count),
+                             find_triangles(work, child[1], &others)};
+    *count += others;
+    return first[0] < first[1] ? first[0] : first[1];
 }
 
 /* Half of a box's surface: rays meet it in proportion. */
@@ -180,19 +188,39 @@ static void write_boxes(const part *parts, int count, cs_wide_node *wide)
     }
 }
 
+/* Appends a leaf of the triangles below a reference; returns its own. */
+static cs_u32 write_leaf(widening *work, cs_u32 reference)
+{
+    cs_u32 count;
+    const cs_u32 first = find_triangles(work, reference, &count);
+    const size_t index = work->wide->leaves.count;
+    cs_wide_leaf *leaf = cs_array_extend(&work->wide->leaves, 1);
+    if (leaf == NULL) {
+        work->failed = 1;
+        return 0;
+    }
+    leaf->first = first;
+    for (cs_u32 i = 0; i < CS_WIDE_LEAF; i++) {
+        const cs_triangle *triangle = work->triangles + first + (i < count ? i : count - 1);
+        for (int axis = 0; axis < 3; axis++) {
+            leaf->corner[axis][i] = triangle->corner[axis];
+            leaf->edge1[axis][i] = triangle->edge1[axis];
+            leaf->edge2[axis][i] = triangle->edge2[axis];
+        }
+    }
+    return (cs_u32)CS_LEAF | (cs_u32)index;
+}
+
 static void write_node(widening *work, size_t index, cs_u32 node, size_t waiting);
 
-/* The reference of a part: a node that is made, or triangles. waiting: entries of the stack while
- * it is walked. */
+/* The reference of a part: a node that is made, or a leaf. waiting: entries of the stack while it
+ * is walked. */
 static cs_u32 write_part(widening *work, const part *of, size_t waiting)
 {
-    if (is_leaf(of->reference) || work->choices[of->reference].is_leaf) {
-        const cs_u32 first = first_triangle(work, of->reference);
-        const cs_u32 most = work->triangles - CS_WIDE_LEAF;
-        return (cs_u32)CS_LEAF | (first < most ? first : most);
-    }
-    const size_t index = work->wide->count;
-    if (cs_array_extend(work->wide, 1) == NULL) work->failed = 1;
+    if (is_leaf(of->reference) || work->choices[of->reference].is_leaf)
+        return write_leaf(work, of->reference);
+    const size_t index = work->wide->nodes.count;
+    if (cs_array_extend(&work->wide->nodes, 1) == NULL) work->failed = 1;
     if (!work->failed) write_node(work, index, of->reference, waiting);
     return (cs_u32)index;
 }
@@ -203,34 +231,40 @@ static void write_node(widening *work, size_t index, cs_u32 node, size_t waiting
     cs_wide_node made = {0};
     const int count = collect(work, node, CS_WIDE, parts, 0);
     waiting += (size_t)count - 1;
-    /* The walk writes a whole node's worth at once. */
-    if (waiting + CS_WIDE > work->stack) work->stack = waiting + CS_WIDE;
+    /* The walk writes a whole node's worth at once, above its end. */
+    if (waiting + CS_WIDE + 1 > work->stack) work->stack = waiting + CS_WIDE + 1;
     write_boxes(parts, count, &made);
     write_orders(work, node, parts, count, &made);
     for (int i = 0; i < count; i++)
         made.child[i] = write_part(work, &parts[i], waiting);
-    if (!work->failed) ((cs_wide_node *)work->wide->items)[index] = made;
+    if (!work->failed) ((cs_wide_node *)work->wide->nodes.items)[index] = made;
 }
 
-clshear_status cs_wide_make(const cs_node *nodes, size_t count, size_t triangles, cs_array *wide,
-                            cs_error *error)
+void cs_wide_bvh_free(cs_wide_bvh *wide)
+{
+    cs_array_free(&wide->nodes);
+    cs_array_free(&wide->leaves);
+}
+
+clshear_status cs_wide_bvh_make(const cs_node *nodes, size_t count, const cs_triangle *triangles,
+                                cs_wide_bvh *wide, cs_error *error)
 {
     static const cs_f32 anything[3][2];
     clshear_status status = CLSHEAR_OK;
     cs_array choices = {.item_size = sizeof(choice)};
     forests all;
-    wide->item_size = sizeof(cs_wide_node);
-    if (triangles <= CS_WIDE_LEAF) return CLSHEAR_OK;
-    CS_REQUIRE(cs_array_extend(&choices, count) != NULL && cs_array_extend(wide, 1) != NULL,
+    *wide = (cs_wide_bvh){.nodes = {.item_size = sizeof(cs_wide_node)},
+                          .leaves = {.item_size = sizeof(cs_wide_leaf)}};
+    CS_REQUIRE(cs_array_extend(&choices, count) != NULL && cs_array_extend(&wide->nodes, 1) != NULL,
                CLSHEAR_OUT_OF_MEMORY, "out of memory for the wide hierarchy");
     widening work = {
-        .nodes = nodes, .triangles = (cs_u32)triangles, .wide = wide, .choices = choices.items};
+        .nodes = nodes, .triangles = triangles, .wide = wide, .choices = choices.items};
     choose(&work, 0, anything, &all);
-    write_node(&work, 0, 0, 0);
+    if (!work.choices[0].is_leaf) write_node(&work, 0, 0, 0);
     CS_REQUIRE(!work.failed, CLSHEAR_OUT_OF_MEMORY, "out of memory for the wide hierarchy");
-    if (work.stack > CS_WIDE_STACK) wide->count = 0;
+    if (work.choices[0].is_leaf || work.stack > CS_WIDE_STACK) cs_wide_bvh_free(wide);
 done:
     cs_array_free(&choices);
-    if (status != CLSHEAR_OK) cs_array_free(wide);
+    if (status != CLSHEAR_OK) cs_wide_bvh_free(wide);
     return status;
 }

@@ -6,11 +6,18 @@
 #include "base/status.h"
 #include "kernels/scene.h"
 
-/* Makes the array of cs_wide_node of a hierarchy at rest from its `count` nodes, whose leaves name
- * `triangles` triangles. The root is node 0. The result is empty where single rays cannot walk
- * it: with fewer triangles than a leaf is tested for, or if it needs a larger stack than
- * CS_WIDE_STACK. Frees nothing of `nodes`. Fails when out of memory. */
-clshear_status cs_wide_make(const cs_node *nodes, size_t count, size_t triangles, cs_array *wide,
-                            cs_error *error);
+/* In the kernels' layout. */
+typedef struct cs_wide_bvh {
+    cs_array nodes;  /* cs_wide_node; the root is node 0 */
+    cs_array leaves; /* cs_wide_leaf */
+} cs_wide_bvh;
+
+void cs_wide_bvh_free(cs_wide_bvh *wide);
+
+/* Makes the wide hierarchy of a binary one at rest: of `count` nodes, whose leaves name
+ * `triangles`. The result is empty if a walk of it needs a larger stack than CS_WIDE_STACK, and
+ * where there is but one leaf. Fails when out of memory. */
+clshear_status cs_wide_bvh_make(const cs_node *nodes, size_t count, const cs_triangle *triangles,
+                                cs_wide_bvh *wide, cs_error *error);
 
 #endif

@@ -81,12 +81,13 @@ clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const 
     CS_TRY(upload(world, device, CS_SCENE_NODE_STEPS, &bvh->node_steps, error));
     CS_TRY(upload(world, device, CS_SCENE_TRIANGLE_STEPS, &bvh->triangle_steps, error));
     if (cs_device_packet(device) == CS_WIDE && bvh->node_steps.count == 0) {
-        cs_array wide = {0};
-        CS_TRY(
-            cs_wide_make(bvh->nodes.items, bvh->nodes.count, bvh->triangles.count, &wide, error));
-        CS_TRY(upload(world, device, CS_SCENE_WIDE_NODES, &wide, error));
-        world->is_wide = wide.count > 0;
-        cs_array_free(&wide);
+        cs_wide_bvh wide;
+        CS_TRY(cs_wide_bvh_make(bvh->nodes.items, bvh->nodes.count, bvh->triangles.items, &wide,
+                                error));
+        CS_TRY(upload(world, device, CS_SCENE_WIDE_NODES, &wide.nodes, error));
+        CS_TRY(upload(world, device, CS_SCENE_WIDE_LEAVES, &wide.leaves, error));
+        world->is_wide = wide.nodes.count > 0;
+        cs_wide_bvh_free(&wide);
     }
     if (described) CS_TRY(upload_normal_steps(world, device, scene, error));
     CS_TRY(upload(world, device, CS_SCENE_TEXTURES, &scene->textures, error));
