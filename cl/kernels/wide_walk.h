@@ -57,16 +57,16 @@ static inline void cs_wide_enter(CS_GLOBAL const cs_wide_node *nodes, cs_wide_ra
 static inline cs_u32 cs_wide_distances(CS_GLOBAL const cs_wide_leaf *leaf, const cs_wide_ray *ray,
                                        float4 *distance)
 {
-    float4 e1[3], e2[3], n[3];
+    const float4 e1[3] = {CS_FOUR(leaf->edge1[0]), CS_FOUR(leaf->edge1[1]),
+                          CS_FOUR(leaf->edge1[2])};
+    const float4 e2[3] = {CS_FOUR(leaf->edge2[0]), CS_FOUR(leaf->edge2[1]),
+                          CS_FOUR(leaf->edge2[2])};
+    float4 n[3];
     float4 dx = (float4)(ray->direction.x), dy = (float4)(ray->direction.y);
     float4 dz = (float4)(ray->direction.z);
     float4 to_x = CS_FOUR(leaf->corner[0]) - ray->origin.x;
     float4 to_y = CS_FOUR(leaf->corner[1]) - ray->origin.y;
     float4 to_z = CS_FOUR(leaf->corner[2]) - ray->origin.z;
-    for (int i = 0; i < 3; i++) {
-        e1[i] = CS_FOUR(leaf->edge1[i]);
-        e2[i] = CS_FOUR(leaf->edge2[i]);
-    }
     n[0] = e1[1] * e2[2] - e1[2] * e2[1];
     n[1] = e1[2] * e2[0] - e1[0] * e2[2];
     n[2] = e1[0] * e2[1] - e1[1] * e2[0];
@@ -128,7 +128,7 @@ static inline void cs_wide_pop(const cs_scene_buffers *scene, cs_wide_ray *ray, 
     CS_PREFETCH(line);
     CS_PREFETCH(line + 64u);
     CS_PREFETCH(line + 128u);
-    CS_PREFETCH(line + 192u);
+    CS_PREFETCH(line + 192u - 64u * (kind & 1u)); /* a leaf has three */
     turn->nodes[turn->node_count] = lane;
     turn->leaves[turn->leaf_count] = lane;
     turn->node_count += kind == 0u;
@@ -225,6 +225,37 @@ static void cs_wide_any(const cs_scene_buffers *scene, const cs_ray *ray, cs_hit
     cs_walk_wide(scene, ray, 1, hit);
 }
 
+#ifndef CS_A
+#define CS_A 0.7f
+#endif
+#ifndef CS_B
+#define CS_B 0.1f
+#endif
+
+/* Largest less smallest value of the lanes in `active`, of which there is one. */
+static inline cs_f32 cs_extent(cs_vfloat x, cs_vint active)
+{
+    cs_vfloat high = active ? x : (cs_vfloat)(-INFINITY);
+    cs_vfloat low = active ? -x : (cs_vfloat)(-INFINITY);
+    return cs_reduce_largest(high) + cs_reduce_largest(low);
+}
+
+/* Whether rays have so little in common that they walk faster alone. */
+static inline int cs_is_scattered(const cs_scene_buffers *scene, const cs_ray *ray,
+                                  cs_vint active)
+{
+    const cs_vfloat *d = ray->direction;
+    cs_vfloat scale = 1.0f / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    cs_f32 apart = 0.0f, away = 0.0f, size = 0.0f;
+    for (int axis = 0; axis < 3; axis++) {
+        apart += cs_extent(d[axis] * scale, active);
+        away += cs_extent(ray->origin[axis], active);
+        size += 255.0f * scene->wide_nodes->step[axis];
+    }
+    return apart > CS_A || away > CS_B * size;
+}
+
+/* As cs_traverse. */
 static inline void cs_traverse_wide(const cs_scene_buffers *scene, const cs_ray *ray,
                                     const int any_hit, cs_hit *hit)
 {
@@ -232,6 +263,17 @@ static inline void cs_traverse_wide(const cs_scene_buffers *scene, const cs_ray 
         cs_wide_any(scene, ray, hit);
     else
         cs_wide_nearest(scene, ray, hit);
+}
+
+/* As cs_traverse, by the faster way. */
+static inline void cs_traverse_best(const cs_scene_buffers *scene, const cs_ray *ray,
+                                    const int any_hit, cs_hit *hit)
+{
+    cs_vint active = hit->distance > 0.0f;
+    if (!cs_any(active) || !cs_is_scattered(scene, ray, active))
+        cs_traverse(scene, ray, any_hit, hit);
+    else
+        cs_traverse_wide(scene, ray, any_hit, hit);
 }
 
 #endif

@@ -34,7 +34,7 @@ static inline cs_vint cs_find_surfaces(const cs_scene_buffers *scene, cs_u32 lig
 {
 #if CS_HAS(WIDE)
     if (scattered)
-        cs_traverse_wide(scene, ray, 0, hit);
+        cs_traverse_best(scene, ray, 0, hit);
     else
 #endif
         cs_traverse(scene, ray, 0, hit);

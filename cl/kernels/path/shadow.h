@@ -46,7 +46,7 @@ static inline void cs_trace_shadow(const cs_scene_buffers *scene, const cs_paths
     }
 #endif
 #if CS_HAS(WIDE)
-    cs_traverse_wide(scene, &shadow->ray, 1, hit);
+    cs_traverse_best(scene, &shadow->ray, 1, hit);
 #else
     cs_traverse(scene, &shadow->ray, 1, hit);
 #endif
