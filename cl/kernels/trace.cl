@@ -1,16 +1,17 @@
 /* Rays given by the caller, traced by the renderer's own traversal: for tests and benchmarks. */
 #include "kernels/kernel.h"
 #include "kernels/traverse.h"
-#if CS_HAS(WIDE)
+#if CS_WALKS_WIDE
 #include "kernels/wide_walk.h"
 
-/* Rays walk alone, and the hierarchy is the wide one. */
+/* Rays walk alone in the wide hierarchy, of which nodes and leaves are given, and instead of faces
+ * their triangles' places in the array of cs_triangle are found. */
 typedef cs_wide_node cs_traced_node;
 typedef cs_wide_leaf cs_traced_triangle;
 #define CS_TRACED_NODES wide_nodes
 #define CS_TRACED_TRIANGLES wide_leaves
 #define CS_TRACED_FACE(index) (index)
-#define CS_TRACE cs_traverse_wide
+#define CS_TRACE cs_traverse_alone
 #else
 typedef cs_node cs_traced_node;
 typedef cs_triangle cs_traced_triangle;

@@ -5,8 +5,9 @@
 #ifndef CS_KERNELS_WIDE_LANES_H
 #define CS_KERNELS_WIDE_LANES_H
 
-#include "clshear/device/packet.h"
-#include "kernels/scene.h"
+#include "kernels/traverse.h"
+
+#if CS_WALKS_WIDE
 
 /* Packets at any place of 4 bytes. */
 typedef cs_vfloat __attribute__((aligned(4))) cs_loose_float;
@@ -66,6 +67,8 @@ static inline int cs_push_children(CS_GLOBAL const cs_wide_node *node, int octan
     }
     return pushed;
 }
+
+#endif
 
 #endif
 

@@ -6,8 +6,13 @@
 #ifndef CS_KERNELS_WIDE_WALK_H
 #define CS_KERNELS_WIDE_WALK_H
 
-#include "kernels/traverse.h"
 #include "kernels/wide_lanes.h"
+
+#if CS_WALKS_WIDE
+
+/* The three numbers of a lane. */
+#define CS_LANE_OF(lanes, i) \
+    (float4)((lanes)[0].lane[i], (lanes)[1].lane[i], (lanes)[2].lane[i], 0.0f)
 
 #define CS_WIDE_END 0x80000000u /* the stack's first reference, which is taken last */
 
@@ -155,19 +160,18 @@ static inline void cs_wide_take_turns(const cs_scene_buffers *scene, cs_wide_ray
     }
 }
 
-/* A ray at the root. */
+/* A lane's ray at the root; `origin`, `direction` and `inverse` are of all lanes. */
 static inline void cs_wide_begin(cs_wide_ray *ray, const cs_float_lanes *origin,
                                  const cs_float_lanes *direction, const cs_float_lanes *inverse,
                                  int lane, int octant, const int any_hit)
 {
-    ray->origin = (float4)(origin[0].lane[lane], origin[1].lane[lane], origin[2].lane[lane], 0.0f);
-    ray->direction =
-        (float4)(direction[0].lane[lane], direction[1].lane[lane], direction[2].lane[lane], 0.0f);
-    ray->inverse =
-        (float4)(inverse[0].lane[lane], inverse[1].lane[lane], inverse[2].lane[lane], 0.0f);
-    for (int axis = 0; axis < 3; axis++)
-        ray->near[axis] = (octant >> axis & 1) * CS_WIDE;
-    ray->order = any_hit ? 7 - octant : octant;
+    ray->origin = CS_LANE_OF(origin, lane);
+    ray->direction = CS_LANE_OF(direction, lane);
+    ray->inverse = CS_LANE_OF(inverse, lane);
+    ray->near[0] = (octant & 1) * CS_WIDE;
+    ray->near[1] = (octant >> 1 & 1) * CS_WIDE;
+    ray->near[2] = (octant >> 2 & 1) * CS_WIDE;
+    ray->order = any_hit ? 7 - octant : octant; /* as cs_walk_octant */
     ray->next = 0;
     ray->triangle = CS_NO_HIT;
     ray->references[0] = CS_WIDE_END;
@@ -175,39 +179,52 @@ static inline void cs_wide_begin(cs_wide_ray *ray, const cs_float_lanes *origin,
     ray->top = 1;
 }
 
-/* As cs_traverse. */
-CS_INLINED void cs_walk_wide(const cs_scene_buffers *scene, const cs_ray *ray, const int any_hit,
-                             cs_hit *hit)
+/* Begins the rays of all lanes that have a reach; returns how many there are, and names them. */
+static inline int cs_wide_begin_all(cs_wide_ray *rays, const cs_ray *ray,
+                                    const cs_float_lanes *reach, int *lanes, const int any_hit)
 {
-    cs_wide_ray rays[CS_PACKET];
-    cs_wide_turn turns[2];
-    cs_float_lanes origin[3], direction[3], inverse[3], distance;
-    cs_int_lanes octant, triangle;
-    turns[0].node_count = turns[0].leaf_count = 0;
+    cs_float_lanes origin[3], direction[3], inverse[3];
+    cs_int_lanes octant;
+    int count = 0;
     for (int axis = 0; axis < 3; axis++) {
         cs_vfloat d = ray->direction[axis];
         origin[axis].all = ray->origin[axis];
         direction[axis].all = d;
         inverse[axis].all = 1.0f / (fabs(d) < 1e-18f ? (cs_vfloat)(1e-18f) : d);
     }
-    octant.all = cs_octants((const cs_vfloat *)inverse);
+    octant.all = (inverse[0].all < 0.0f ? (cs_vint)(1) : (cs_vint)(0)) +
+                 (inverse[1].all < 0.0f ? (cs_vint)(2) : (cs_vint)(0)) +
+                 (inverse[2].all < 0.0f ? (cs_vint)(4) : (cs_vint)(0));
+    for (int lane = 0; lane < CS_PACKET; lane++) {
+        if (!(reach->lane[lane] > 0.0f)) continue;
+        cs_wide_begin(rays + lane, origin, direction, inverse, lane, octant.lane[lane], any_hit);
+        rays[lane].limit = reach->lane[lane];
+        lanes[count++] = lane;
+    }
+    return count;
+}
+
+/* As cs_traverse, each ray by itself. */
+static inline void cs_traverse_alone(const cs_scene_buffers *scene, const cs_ray *ray,
+                                     const int any_hit, cs_hit *hit)
+{
+    cs_wide_ray rays[CS_PACKET];
+    cs_wide_turn turns[2];
+    cs_float_lanes distance;
+    cs_int_lanes triangle;
+    int lanes[CS_PACKET];
     distance.all = hit->distance;
     triangle.all = (cs_vint)(CS_NO_HIT);
-    for (int lane = 0; lane < CS_PACKET; lane++) {
-        if (!(distance.lane[lane] > 0.0f)) continue;
-        cs_wide_begin(rays + lane, origin, direction, inverse, lane, octant.lane[lane], any_hit);
-        rays[lane].limit = distance.lane[lane];
-        turns[0].nodes[turns[0].node_count++] = lane;
-    }
-    int begun = turns[0].node_count;
-    int lanes[CS_PACKET];
-    for (int i = 0; i < begun; i++)
-        lanes[i] = turns[0].nodes[i];
+    int count = cs_wide_begin_all(rays, ray, &distance, lanes, any_hit);
+    for (int i = 0; i < count; i++)
+        turns[0].nodes[i] = lanes[i];
+    turns[0].node_count = count;
+    turns[0].leaf_count = 0;
     cs_wide_take_turns(scene, rays, turns, any_hit);
-    for (int i = 0; i < begun; i++) {
+    for (int i = 0; i < count; i++) {
         int lane = lanes[i], found = rays[lane].triangle;
         distance.lane[lane] = rays[lane].limit;
-        if (!any_hit && found >= 0)
+        if (found != CS_NO_HIT)
             triangle.lane[lane] =
                 (int)scene->wide_leaves[found / CS_WIDE_LEAF].first + found % CS_WIDE_LEAF;
     }
@@ -215,24 +232,7 @@ CS_INLINED void cs_walk_wide(const cs_scene_buffers *scene, const cs_ray *ray, c
     hit->triangle = triangle.all;
 }
 
-static void cs_wide_nearest(const cs_scene_buffers *scene, const cs_ray *ray, cs_hit *hit)
-{
-    cs_walk_wide(scene, ray, 0, hit);
-}
-
-static void cs_wide_any(const cs_scene_buffers *scene, const cs_ray *ray, cs_hit *hit)
-{
-    cs_walk_wide(scene, ray, 1, hit);
-}
-
-#ifndef CS_A
-#define CS_A 0.7f
-#endif
-#ifndef CS_B
-#define CS_B 0.1f
-#endif
-
-/* Largest less smallest value of the lanes in `active`, of which there is one. */
+/* Largest less smallest value among the lanes in `active`, of which there is one. */
 static inline cs_f32 cs_extent(cs_vfloat x, cs_vint active)
 {
     cs_vfloat high = active ? x : (cs_vfloat)(-INFINITY);
@@ -240,9 +240,13 @@ static inline cs_f32 cs_extent(cs_vfloat x, cs_vint active)
     return cs_reduce_largest(high) + cs_reduce_largest(low);
 }
 
+/* From which extents on rays have little in common, summed over the axes: those of their unit
+ * directions, and of their origins as a part of the scene's. */
+#define CS_APART 1.0f
+#define CS_AWAY 0.1f
+
 /* Whether rays have so little in common that they walk faster alone. */
-static inline int cs_is_scattered(const cs_scene_buffers *scene, const cs_ray *ray,
-                                  cs_vint active)
+static inline int cs_is_scattered(const cs_scene_buffers *scene, const cs_ray *ray, cs_vint active)
 {
     const cs_vfloat *d = ray->direction;
     cs_vfloat scale = 1.0f / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -252,28 +256,20 @@ static inline int cs_is_scattered(const cs_scene_buffers *scene, const cs_ray *r
         away += cs_extent(ray->origin[axis], active);
         size += 255.0f * scene->wide_nodes->step[axis];
     }
-    return apart > CS_A || away > CS_B * size;
+    return apart > CS_APART || away > CS_AWAY * size;
 }
 
-/* As cs_traverse. */
-static inline void cs_traverse_wide(const cs_scene_buffers *scene, const cs_ray *ray,
-                                    const int any_hit, cs_hit *hit)
-{
-    if (any_hit)
-        cs_wide_any(scene, ray, hit);
-    else
-        cs_wide_nearest(scene, ray, hit);
-}
-
-/* As cs_traverse, by the faster way. */
-static inline void cs_traverse_best(const cs_scene_buffers *scene, const cs_ray *ray,
-                                    const int any_hit, cs_hit *hit)
+/* As cs_traverse, alone or together. */
+CS_INLINED void cs_traverse_scattered(const cs_scene_buffers *scene, const cs_ray *ray,
+                                      const int any_hit, cs_hit *hit)
 {
     cs_vint active = hit->distance > 0.0f;
-    if (!cs_any(active) || !cs_is_scattered(scene, ray, active))
-        cs_traverse(scene, ray, any_hit, hit);
+    if (cs_any(active) && cs_is_scattered(scene, ray, active))
+        cs_traverse_alone(scene, ray, any_hit, hit);
     else
-        cs_traverse_wide(scene, ray, any_hit, hit);
+        cs_traverse(scene, ray, any_hit, hit);
 }
+
+#endif
 
 #endif

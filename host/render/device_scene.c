@@ -1,5 +1,4 @@
 /* A scene's buffers on the device. */
-#include "accel/wide.h"
 #include "kernels/bsdf/bsdf.h"
 #include "render/objects.h"
 #include "scene/albedo.h"
@@ -80,15 +79,6 @@ clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const 
                                 &world->buffers[CS_SCENE_ALBEDOS], error));
     CS_TRY(upload(world, device, CS_SCENE_NODE_STEPS, &bvh->node_steps, error));
     CS_TRY(upload(world, device, CS_SCENE_TRIANGLE_STEPS, &bvh->triangle_steps, error));
-    if (cs_device_packet(device) == CS_WIDE && bvh->node_steps.count == 0) {
-        cs_wide_bvh wide;
-        CS_TRY(cs_wide_bvh_make(bvh->nodes.items, bvh->nodes.count, bvh->triangles.items, &wide,
-                                error));
-        CS_TRY(upload(world, device, CS_SCENE_WIDE_NODES, &wide.nodes, error));
-        CS_TRY(upload(world, device, CS_SCENE_WIDE_LEAVES, &wide.leaves, error));
-        world->is_wide = wide.nodes.count > 0;
-        cs_wide_bvh_free(&wide);
-    }
     if (described) CS_TRY(upload_normal_steps(world, device, scene, error));
     CS_TRY(upload(world, device, CS_SCENE_TEXTURES, &scene->textures, error));
     CS_TRY(upload(world, device, CS_SCENE_TEXELS, &scene->texels, error));

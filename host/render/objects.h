@@ -5,6 +5,7 @@
 #include "accel/accel.h"
 #include "clshear/clshear.h"
 #include "context/context.h"
+#include "render/wide_scene.h"
 #include "scene/scene.h"
 
 /* A scene on the device. */
@@ -17,7 +18,6 @@ typedef struct cs_device_scene {
     double emitted_light;                 /* by all, a unit of the scene's area: luminance */
     cs_material_needs needs;
     size_t geometry_bytes;
-    int is_wide; /* whether it has a wide hierarchy */
 } cs_device_scene;
 
 struct clshear_scene {
@@ -26,6 +26,7 @@ struct clshear_scene {
     cs_scene scene;
     cs_accel *accel;
     cs_device_scene device_scene;
+    cs_wide_scene *wide;
     clshear_scene_info info;
     int is_complete;
 };

@@ -4,7 +4,7 @@
 
 #include "kernels/hits.h"
 #include "kernels/path/state.h"
-#if CS_HAS(WIDE)
+#if CS_WALKS_WIDE
 #include "kernels/wide_walk.h"
 #endif
 
@@ -32,9 +32,9 @@ static inline cs_vint cs_is_open(const cs_surface *surface, const cs_vfloat *tow
 static inline cs_vint cs_find_surfaces(const cs_scene_buffers *scene, cs_u32 lights, int scattered,
                                        const cs_ray *ray, cs_hit *hit, cs_surface *surface)
 {
-#if CS_HAS(WIDE)
+#if CS_WALKS_WIDE
     if (scattered)
-        cs_traverse_best(scene, ray, 0, hit);
+        cs_traverse_scattered(scene, ray, 0, hit);
     else
 #endif
         cs_traverse(scene, ray, 0, hit);

@@ -45,8 +45,8 @@ static inline void cs_trace_shadow(const cs_scene_buffers *scene, const cs_paths
         return;
     }
 #endif
-#if CS_HAS(WIDE)
-    cs_traverse_best(scene, &shadow->ray, 1, hit);
+#if CS_WALKS_WIDE
+    cs_traverse_scattered(scene, &shadow->ray, 1, hit);
 #else
     cs_traverse(scene, &shadow->ray, 1, hit);
 #endif
