@@ -287,29 +287,36 @@ typedef struct box_chain {
     double box[3][2];
 } box_chain;
 
+/* Whether place `i` of a leaf is a triangle. */
+static int is_in_leaf(const cs_wide_leaf *leaf, cs_u32 i, const cs_triangle *triangle)
+{
+    int same = 1;
+    for (int axis = 0; axis < 3; axis++)
+        same &= leaf->corner[axis][i] == triangle->corner[axis] &&
+                leaf->edge1[axis][i] == triangle->edge1[axis] &&
+                leaf->edge2[axis][i] == triangle->edge2[axis];
+    return same;
+}
+
 static void check_wide_leaf(const fixture *made, const cs_wide_leaf *leaf, const box_chain *inner,
                             unsigned char *seen)
 {
     const cs_triangle *triangles = made->bvh.triangles.items;
     for (cs_u32 i = 0; i < CS_WIDE_LEAF; i++) {
-        const float *corner = triangles[leaf->first + i].corner;
-        if (i > 0 && leaf->corner[0][i] == leaf->corner[0][i - 1] &&
-            leaf->corner[1][i] == leaf->corner[1][i - 1] &&
-            leaf->edge1[0][i] == leaf->edge1[0][i - 1] &&
-            leaf->edge2[0][i] == leaf->edge2[0][i - 1])
-            break; /* the last one is repeated */
-        for (int axis = 0; axis < 3; axis++) {
-            assert_true(leaf->corner[axis][i] == corner[axis]);
-            for (const box_chain *at = inner; at != NULL; at = at->outer)
-                for (int k = 0; k < 3; k++) {
-                    const double edge = k == 1   ? (double)leaf->edge1[axis][i]
-                                        : k == 2 ? (double)leaf->edge2[axis][i]
-                                                 : 0.0;
-                    const double place = (double)corner[axis] + edge;
-                    assert_true(place > at->box[axis][0] - 1e-6 && place < at->box[axis][1] + 1e-6);
-                }
+        const cs_triangle *triangle = triangles + leaf->first + i;
+        if (leaf->first + i >= made->bvh.triangles.count || !is_in_leaf(leaf, i, triangle)) {
+            assert_true(i > 0 && is_in_leaf(leaf, i, triangle - 1)); /* the last one, repeated */
+            break;
         }
-        seen[triangles[leaf->first + i].face] = 1;
+        for (const box_chain *at = inner; at != NULL; at = at->outer)
+            for (int axis = 0; axis < 3; axis++) {
+                const double a = (double)triangle->corner[axis];
+                const double b = a + (double)triangle->edge1[axis];
+                const double c = a + (double)triangle->edge2[axis];
+                assert_true(fmin(a, fmin(b, c)) > at->box[axis][0] - 1e-6);
+                assert_true(fmax(a, fmax(b, c)) < at->box[axis][1] + 1e-6);
+            }
+        seen[triangle->face] = 1;
     }
 }
 
