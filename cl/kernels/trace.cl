@@ -1,9 +1,9 @@
 /* Rays given by the caller, traced by the renderer's own traversal: for tests and benchmarks. */
 #include "kernels/kernel.h"
 #include "kernels/traverse.h"
-#if CS_WALKS_WIDE
 #include "kernels/wide_walk.h"
 
+#if CS_WALKS_WIDE
 /* Rays walk alone in the wide hierarchy, of which nodes and leaves are given, and instead of faces
  * their triangles' places in the array of cs_triangle are found. */
 typedef cs_wide_node cs_traced_node;

@@ -259,17 +259,20 @@ static inline int cs_is_scattered(const cs_scene_buffers *scene, const cs_ray *r
     return apart > CS_APART || away > CS_AWAY * size;
 }
 
-/* As cs_traverse, alone or together. */
-CS_INLINED void cs_traverse_scattered(const cs_scene_buffers *scene, const cs_ray *ray,
-                                      const int any_hit, cs_hit *hit)
-{
-    cs_vint active = hit->distance > 0.0f;
-    if (cs_any(active) && cs_is_scattered(scene, ray, active))
-        cs_traverse_alone(scene, ray, any_hit, hit);
-    else
-        cs_traverse(scene, ray, any_hit, hit);
-}
-
 #endif
+
+/* As cs_traverse, alone or together, whichever is faster. */
+CS_INLINED void cs_traverse_either(const cs_scene_buffers *scene, const cs_ray *ray,
+                                   const int any_hit, cs_hit *hit)
+{
+#if CS_WALKS_WIDE
+    cs_vint active = hit->distance > 0.0f;
+    if (cs_any(active) && cs_is_scattered(scene, ray, active)) {
+        cs_traverse_alone(scene, ray, any_hit, hit);
+        return;
+    }
+#endif
+    cs_traverse(scene, ray, any_hit, hit);
+}
 
 #endif

@@ -19,7 +19,7 @@ static inline void cs_shadow_through(const cs_scene_buffers *scene, const cs_pat
         cs_surface surface;
         cs_vfloat origin[3], from[3];
         hit->distance = left;
-        cs_vint seen = cs_find_surfaces(scene, paths->launch->lights, 1, &ray, hit, &surface);
+        cs_vint seen = cs_find_surfaces(scene, paths->launch->lights, &ray, hit, &surface);
         left = hit->triangle < (cs_vint)(CS_NO_HIT) ? (cs_vfloat)(-1.0f) : left;
         if (!cs_any(seen)) break;
         cs_vint passes = cs_passes(&surface, cs_passing_bits(shadow->passing, n));
@@ -45,11 +45,7 @@ static inline void cs_trace_shadow(const cs_scene_buffers *scene, const cs_paths
         return;
     }
 #endif
-#if CS_WALKS_WIDE
-    cs_traverse_scattered(scene, &shadow->ray, 1, hit);
-#else
-    cs_traverse(scene, &shadow->ray, 1, hit);
-#endif
+    cs_traverse_either(scene, &shadow->ray, 1, hit);
 #if CS_HAS(LIGHTS)
     cs_meet_shapes(scene, paths->launch->lights, &shadow->ray, 1, hit);
 #else
