@@ -242,7 +242,7 @@ static inline cs_f32 cs_extent(cs_vfloat x, cs_vint active)
 
 /* From which extents on rays have little in common, summed over the axes: those of their unit
  * directions, and of their origins as a part of the scene's. */
-#define CS_APART 1.0f
+#define CS_APART 0.6f
 #define CS_AWAY 0.1f
 
 /* Whether rays have so little in common that they walk faster alone. */
