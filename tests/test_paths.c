@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "kernels/scene.h"
+
 static const uint32_t quad[6] = {0, 1, 2, 0, 2, 3};
 
 static int set_up(void **state)
@@ -153,14 +155,49 @@ static void samplers_agree(void **state)
     clshear_scene_free(scene);
 }
 
-static clshear_film *cube_by_packets(int packet)
+/* Ripples of 18 432 triangles, in the neutral studio: enough for rays to walk alone. */
+static clshear_scene *ripples(clshear_context *context)
+{
+    enum {
+        SIDE = 96
+    };
+    static float positions[(SIDE + 1) * (SIDE + 1)][3];
+    static uint32_t indices[SIDE * SIDE][2][3];
+    for (uint32_t i = 0; i <= SIDE; i++)
+        for (uint32_t k = 0; k <= SIDE; k++) {
+            float *at = positions[i * (SIDE + 1) + k];
+            at[0] = (float)i / (SIDE / 2) - 1.0f;
+            at[1] = (float)k / (SIDE / 2) - 1.0f;
+            at[2] = 0.2f * sinf(9.0f * at[0]) * cosf(7.0f * at[1]);
+        }
+    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+        const uint32_t corner = i / SIDE * (SIDE + 1) + i % SIDE;
+        const uint32_t both[2][3] = {{corner, corner + 1, corner + SIDE + 2},
+                                     {corner, corner + SIDE + 2, corner + SIDE + 1}};
+        memcpy(indices[i], both, sizeof both);
+    }
+    const clshear_mesh mesh = {.positions = positions[0],
+                               .indices = indices[0][0],
+                               .vertex_count = (SIDE + 1) * (SIDE + 1),
+                               .triangle_count = 2 * SIDE * SIDE,
+                               .diffuse = {0.8f, 0.5f, 0.2f}};
+    return test_meshes(context, &mesh, 1);
+}
+
+static clshear_scene *bright_cube(clshear_context *context)
+{
+    return closed_cube(context, 0.8f, 0.5f);
+}
+
+static clshear_film *film_by_packets(clshear_scene *(*make)(clshear_context *), int packet,
+                                     const char *eye)
 {
     clshear_context *context = NULL;
     clshear_settings *own = test_settings(NULL, 4, 4, 600);
     test_set_number(own, CLSHEAR_PACKET, packet);
     test_ok(clshear_context_create(own, &context));
-    clshear_scene *scene = closed_cube(context, 0.8f, 0.5f);
-    clshear_settings *settings = settings_at("0.1,0.2,0.3", "0,0.4,-1", 60.0, 600, 5);
+    clshear_scene *scene = make(context);
+    clshear_settings *settings = settings_at(eye, "0,0.4,-1", 60.0, 600, 5);
     test_set_number(settings, CLSHEAR_REPLICATES, 2);
     clshear_film *film = test_render(scene, settings);
     clshear_settings_free(settings);
@@ -170,22 +207,41 @@ static clshear_film *cube_by_packets(int packet)
     return film;
 }
 
+/* Rounding may send single paths of 600 elsewhere, of which each is 0.2 % of a pixel. */
+static void assert_same_pixels(const clshear_film *film, const clshear_film *expected)
+{
+    for (int p = 0; p < 16; p++) {
+        const double value = (double)clshear_film_channel(expected, "R")[p];
+        assert_above(value, 0.01);
+        assert_near(clshear_film_channel(film, "R")[p], value, 0.01 * value);
+    }
+}
+
 /* Which paths are followed together, and in which lanes, does not change what they find: one by
  * one, and sorted into packets, of patterns of 300, which are one whole pool and part of a second.
- * Rounding may send single paths of 600 elsewhere, of which each is 0.2 % of a pixel. */
+ */
 static void sorting_changes_nothing(void **state)
 {
     static const int packets[] = {4, 16};
     (void)state;
-    clshear_film *alone = cube_by_packets(1);
+    clshear_film *alone = film_by_packets(bright_cube, 1, "0.1,0.2,0.3");
     for (size_t i = 0; i < sizeof packets / sizeof *packets; i++) {
-        clshear_film *sorted = cube_by_packets(packets[i]);
-        for (int p = 0; p < 16; p++) {
-            const double one = (double)clshear_film_channel(alone, "R")[p];
-            assert_near(clshear_film_channel(sorted, "R")[p], one, 0.01 * one);
-        }
+        clshear_film *sorted = film_by_packets(bright_cube, packets[i], "0.1,0.2,0.3");
+        assert_same_pixels(sorted, alone);
         clshear_film_free(sorted);
     }
+    clshear_film_free(alone);
+}
+
+/* Neither does it which hierarchy they walk: with packets of 16, rays among many triangles walk the
+ * wide one. */
+static void wide_walk_changes_nothing(void **state)
+{
+    (void)state;
+    clshear_film *together = film_by_packets(ripples, 8, "0.2,-0.9,1.5");
+    clshear_film *alone = film_by_packets(ripples, CS_WIDE, "0.2,-0.9,1.5");
+    assert_same_pixels(alone, together);
+    clshear_film_free(together);
     clshear_film_free(alone);
 }
 
@@ -197,6 +253,7 @@ int main(void)
         cmocka_unit_test(clamping_darkens),
         cmocka_unit_test(samplers_agree),
         cmocka_unit_test(sorting_changes_nothing),
+        cmocka_unit_test(wide_walk_changes_nothing),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -4,9 +4,11 @@
 #include <math.h>
 
 #include "accel/accel.h"
+#include "accel/wide.h"
 #include "base/vec.h"
 #include "clshear/device/hash.h"
 #include "device/device.h"
+#include "kernels/features.h"
 #include "meshes.h"
 
 enum {
@@ -19,7 +21,13 @@ typedef struct fixture {
     cs_scene scene;
     cs_accel *accel;
     cs_flat_bvh bvh;
+    cs_wide_bvh wide;
 } fixture;
+
+/* What walks: packets of up to 16 rays, or each ray by itself. */
+enum {
+    ALONE = 17
+};
 
 static void build(fixture *made, const char *mesh, size_t triangles)
 {
@@ -28,41 +36,49 @@ static void build(fixture *made, const char *mesh, size_t triangles)
     assert_int_equal(test_make_mesh(mesh, triangles, &made->scene, &error), CLSHEAR_OK);
     assert_int_equal(cs_accel_create(&made->scene, 0, &made->accel, &error), CLSHEAR_OK);
     assert_int_equal(cs_accel_build_bvh(made->accel, &made->bvh, &error), CLSHEAR_OK);
+    assert_int_equal(cs_wide_bvh_make(made->bvh.nodes.items, made->bvh.nodes.count,
+                                      made->bvh.triangles.items, &made->wide, &error),
+                     CLSHEAR_OK);
 }
 
 static void destroy(fixture *made)
 {
     cs_flat_bvh_free(&made->bvh);
+    cs_wide_bvh_free(&made->wide);
     cs_accel_free(made->accel);
     cs_scene_free(&made->scene);
 }
 
-/* Traces RAYS rays (3 planes of origins, 3 of directions) with the kernel. `distances` holds the
- * length of each ray, and receives the distance of its hit, or a negative number if something
- * blocks it. */
-static void trace_device(const fixture *made, int packet, int any_hit, const float *rays,
+/* Traces RAYS rays (3 planes of origins, 3 of directions) with the kernel, in packets of `width`
+ * or ALONE. `distances` holds the length of each ray, and receives the distance of its hit, or a
+ * negative number if something blocks it. */
+static void trace_device(const fixture *made, int width, int any_hit, const float *rays,
                          float *distances)
 {
     cs_device *device = NULL;
     cs_buffer *buffers[6] = {0};
     const uint32_t count = RAYS;
     const size_t plane = RAYS * sizeof(float);
+    const int packet = width == ALONE ? CS_WIDE : width;
+    const cs_u32 features = width == ALONE ? CS_FEATURE_PATHS | CS_FEATURE_WIDE : 0u;
+    const cs_array *nodes = width == ALONE ? &made->wide.nodes : &made->bvh.nodes;
+    const cs_array *leaves = width == ALONE ? &made->wide.leaves : &made->bvh.triangles;
     assert_int_equal(cs_device_open(NULL, 0, packet, &device, &error), CLSHEAR_OK);
-    const void *sources[6] = {rays, rays + 3 * RAYS,       distances,
-                              NULL, made->bvh.nodes.items, made->bvh.triangles.items};
+    const void *sources[6] = {rays, rays + 3 * RAYS, distances, NULL, nodes->items, leaves->items};
     const size_t sizes[6] = {3 * plane,
                              3 * plane,
                              plane,
                              plane,
-                             made->bvh.nodes.count * sizeof(cs_node),
-                             made->bvh.triangles.count * sizeof(cs_triangle)};
+                             nodes->count * nodes->item_size,
+                             leaves->count * leaves->item_size};
     cs_argument arguments[8] = {{.value = &count, .size = 4}, {.value = &any_hit, .size = 4}};
     for (int i = 0; i < 6; i++) {
         assert_int_equal(cs_buffer_create(device, sizes[i], sources[i], &buffers[i], &error),
                          CLSHEAR_OK);
         arguments[2 + i].buffer = buffers[i];
     }
-    assert_int_equal(CS_RUN(device, TRACE, RAYS / (size_t)packet, arguments, &error), CLSHEAR_OK);
+    assert_int_equal(CS_RUN_WITH(device, TRACE, features, RAYS / (size_t)packet, arguments, &error),
+                     CLSHEAR_OK);
     assert_int_equal(cs_buffer_read(buffers[2], 0, plane, distances, &error), CLSHEAR_OK);
     for (int i = 0; i < 6; i++)
         cs_buffer_free(buffers[i]);
@@ -105,12 +121,12 @@ static void make_random_rays(float *rays, float reach, float *distances)
     }
 }
 
-/* All packet widths, closest hit and any hit, against a test of every triangle. Rays within
- * rounding of an edge may differ: 1 in 10 000 is allowed. */
+/* All packet widths and rays alone, closest hit and any hit, against a test of every triangle. Rays
+ * within rounding of an edge may differ: 1 in 10 000 is allowed. */
 static void hits_equal_brute_force(void **state)
 {
     (void)state;
-    const int widths[] = {1, 4, 8, 16};
+    const int widths[] = {1, 4, 8, 16, ALONE};
     float *rays = malloc(6 * RAYS * sizeof *rays), *found = malloc(RAYS * sizeof *found);
     fixture made;
     build(&made, "box", 0);
@@ -124,7 +140,7 @@ static void hits_equal_brute_force(void **state)
         }
         truth[i] = nearest_by_hand(&made.scene, o, d);
     }
-    for (int w = 0; w < 4; w++) {
+    for (int w = 0; w < 5; w++) {
         cs_u32 wrong = 0, blocked_wrong = 0;
         make_random_rays(rays, INFINITY, found);
         trace_device(&made, widths[w], 0, rays, found);
@@ -232,12 +248,127 @@ static void hierarchy_is_complete(void **state)
     destroy(&made);
 }
 
+/* Rays alone in many triangles find what packets find, nearest hit and any hit. Both compute
+ * distances alike, so that only boxes could make a difference, and they hold their triangles
+ * whatever is rounded: 1 in 10 000 is allowed, as against other walks. */
+static void alone_as_in_packets(void **state)
+{
+    (void)state;
+    const char *const meshes[] = {"spheres", "terrain"};
+    const float reaches[] = {INFINITY, 0.3f};
+    float *rays = malloc(6 * RAYS * sizeof *rays), *packets = malloc(RAYS * sizeof *packets);
+    float *alone = malloc(RAYS * sizeof *alone);
+    for (int k = 0; k < 2; k++) {
+        fixture made;
+        build(&made, meshes[k], 60000);
+        for (int any_hit = 0; any_hit < 2; any_hit++) {
+            cs_u32 different = 0, met = 0;
+            make_random_rays(rays, reaches[any_hit], packets);
+            trace_device(&made, CS_WIDE, any_hit, rays, packets);
+            make_random_rays(rays, reaches[any_hit], alone);
+            trace_device(&made, ALONE, any_hit, rays, alone);
+            for (cs_u32 i = 0; i < RAYS; i++) {
+                different += alone[i] != packets[i];
+                met += packets[i] != reaches[any_hit];
+            }
+            assert_above(met, RAYS / 20);
+            assert_at_most(different, RAYS / 10000);
+        }
+        destroy(&made);
+    }
+    free(rays);
+    free(packets);
+    free(alone);
+}
+
+/* A box of the wide hierarchy and those around it. */
+typedef struct box_chain {
+    const struct box_chain *outer;
+    double box[3][2];
+} box_chain;
+
+/* Whether place `i` of a leaf is a triangle. */
+static int is_in_leaf(const cs_wide_leaf *leaf, cs_u32 i, const cs_triangle *triangle)
+{
+    int same = 1;
+    for (int axis = 0; axis < 3; axis++)
+        same &= leaf->corner[axis][i] == triangle->corner[axis] &&
+                leaf->edge1[axis][i] == triangle->edge1[axis] &&
+                leaf->edge2[axis][i] == triangle->edge2[axis];
+    return same;
+}
+
+static void check_wide_leaf(const fixture *made, const cs_wide_leaf *leaf, const box_chain *inner,
+                            unsigned char *seen)
+{
+    const cs_triangle *triangles = made->bvh.triangles.items;
+    for (cs_u32 i = 0; i < CS_WIDE_LEAF; i++) {
+        const cs_triangle *triangle = triangles + leaf->first + i;
+        if (leaf->first + i >= made->bvh.triangles.count || !is_in_leaf(leaf, i, triangle)) {
+            assert_true(i > 0 && is_in_leaf(leaf, i, triangle - 1)); /* the last one, repeated */
+            break;
+        }
+        for (const box_chain *at = inner; at != NULL; at = at->outer)
+            for (int axis = 0; axis < 3; axis++) {
+                const double a = (double)triangle->corner[axis];
+                const double b = a + (double)triangle->edge1[axis];
+                const double c = a + (double)triangle->edge2[axis];
+                assert_true(fmin(a, fmin(b, c)) > at->box[axis][0] - 1e-6);
+                assert_true(fmax(a, fmax(b, c)) < at->box[axis][1] + 1e-6);
+            }
+        seen[triangle->face] = 1;
+    }
+}
+
+static void check_wide_node(const fixture *made, cs_u32 index, const box_chain *outer,
+                            unsigned char *seen)
+{
+    const cs_wide_node *node = (const cs_wide_node *)made->wide.nodes.items + index;
+    for (int octant = 0; octant < 8; octant++) {
+        cs_u32 pushed = 0;
+        for (int i = 0; i < CS_WIDE; i++)
+            pushed |= 1u << (node->order[octant][i & 1] >> (i >> 1) * 4 & 15u);
+        assert_int_equal(pushed, 0xffff);
+    }
+    for (int i = 0; i < CS_WIDE && node->child[i] != 0; i++) {
+        box_chain inner = {.outer = outer};
+        for (int axis = 0; axis < 3; axis++)
+            for (int end = 0; end < 2; end++) {
+                const cs_u32 byte = node->planes[axis][end][i / 4] >> i % 4 * 8 & 255u;
+                inner.box[axis][end] = (double)node->low[axis] + (double)node->step[axis] * byte;
+            }
+        if (node->child[i] & CS_LEAF)
+            check_wide_leaf(made,
+                            (const cs_wide_leaf *)made->wide.leaves.items +
+                                (node->child[i] & ~(cs_u32)CS_LEAF),
+                            &inner, seen);
+        else
+            check_wide_node(made, node->child[i], &inner, seen);
+    }
+}
+
+/* Every triangle is in a leaf of the wide hierarchy, and in the boxes of all that is above it;
+ * every octant has an order of all children. */
+static void wide_hierarchy_is_complete(void **state)
+{
+    (void)state;
+    fixture made;
+    build(&made, "spheres", 60000); /* more than have spatial splits */
+    assert_above(made.wide.nodes.count, 1);
+    unsigned char *seen = calloc(made.scene.indices.count, 1);
+    check_wide_node(&made, 0, NULL, seen);
+    for (size_t i = 0; i < made.scene.indices.count; i++)
+        assert_true(seen[i]);
+    free(seen);
+    destroy(&made);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hits_equal_brute_force),
-        cmocka_unit_test(hits_equal_embree),
-        cmocka_unit_test(hierarchy_is_complete),
+        cmocka_unit_test(hits_equal_brute_force),     cmocka_unit_test(hits_equal_embree),
+        cmocka_unit_test(hierarchy_is_complete),      cmocka_unit_test(alone_as_in_packets),
+        cmocka_unit_test(wide_hierarchy_is_complete),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,17 +1,25 @@
 /* Traversal: the kernel against Embree, with the same rays and threads.
  *
  *   bench_traverse [--mesh box|spheres|terrain] [--triangles N] [--spp N] [--size PX] [--rounds N]
- *                  [--threads N] [--packet W] [--lens R] [--json FILE]
+ *                  [--threads N] [--packet W] [--lens R] [--bounce 1] [--json FILE]
  *
  * Camera rays are drawn by the renderer's sampler, sheared and sent through its lens. Shadow rays
  * go from their hits to a point light. Embree traces them one by one, in packets of 8 and 16 and as
  * streams, in scenes of medium and high quality. Rounds are interleaved, Embree then kernel, and
- * the medians of their ratios are printed. Exits with 1 if the hits disagree. */
+ * the medians of their ratios are printed. Exits with 1 if the hits disagree.
+ *
+ * With --bounce 1, rays go from the hits in random directions instead of to the light, sorted by
+ * octant among 256, and packets of 16 are compared with rays alone in the wide hierarchy and with
+ * Embree's single rays: least nanoseconds of processor time a ray over the rounds. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 
+#include "accel/wide.h"
+#include "clshear/device/hash.h"
 #include "device/device.h"
+#include "kernels/features.h"
 #include "measure.h"
 #include "view.h"
 
@@ -21,11 +29,12 @@ enum {
 
 typedef struct bench {
     bench_view view;
-    int rounds, packet;
+    int rounds, packet, bounce;
     const char *json;
     cs_error error;
     cs_device *device;
     cs_buffer *nodes, *triangles, *origins, *directions, *distances, *hits;
+    cs_buffer *wide_nodes, *wide_leaves;
     embree_scene *embree[2]; /* medium and high quality */
     float *found[2];         /* distances by Embree, by the kernel */
     int *faces;
@@ -64,8 +73,8 @@ static void upload_rays(bench *state)
     must(state, cs_buffer_write(state->directions, 0, 3 * plane, rays->directions, &state->error));
 }
 
-/* Measures the kernel's seconds for all rays. */
-static double kernel_s(bench *state, int any_hit)
+/* Traces all rays, in packets or alone. */
+static void run_kernel(bench *state, int any_hit, int alone)
 {
     const ray_planes *rays = &state->view.rays;
     uint32_t count = (uint32_t)rays->count;
@@ -75,13 +84,21 @@ static double kernel_s(bench *state, int any_hit)
                                      {.buffer = state->directions},
                                      {.buffer = state->distances},
                                      {.buffer = state->hits},
-                                     {.buffer = state->nodes},
-                                     {.buffer = state->triangles}};
+                                     {.buffer = alone ? state->wide_nodes : state->nodes},
+                                     {.buffer = alone ? state->wide_leaves : state->triangles}};
+    must(state, CS_RUN_WITH(state->device, TRACE, alone ? CS_FEATURE_PATHS | CS_FEATURE_WIDE : 0u,
+                            rays->count / (size_t)cs_device_packet(state->device), arguments,
+                            &state->error));
+}
+
+/* Measures the kernel's seconds for all rays. */
+static double kernel_s(bench *state, int any_hit)
+{
+    const ray_planes *rays = &state->view.rays;
     must(state, cs_buffer_write(state->distances, 0, rays->count * sizeof(float), rays->reach,
                                 &state->error));
     double start_s = cs_now_s();
-    must(state, CS_RUN(state->device, TRACE, rays->count / (size_t)cs_device_packet(state->device),
-                       arguments, &state->error));
+    run_kernel(state, any_hit, 0);
     double took_s = cs_now_s() - start_s;
     must(state, cs_buffer_read(state->distances, 0, rays->count * sizeof(float), state->found[1],
                                &state->error));
@@ -152,6 +169,92 @@ static outcome compare(bench *state, int any_hit)
     return result;
 }
 
+/* Turns shadow rays into rays of random directions on the light's side, sorted by octant in groups
+ * of 256 as paths are. */
+static void make_bounce_rays(ray_planes *rays)
+{
+    static float kept[256][6];
+    for (size_t group = 0; group + 256 <= rays->count; group += 256) {
+        size_t at = 0;
+        for (size_t i = 0; i < 256; i++) {
+            float side = 0.0f, *ray = kept[i];
+            for (size_t axis = 0; axis < 3; axis++) {
+                const size_t place = axis * rays->count + group + i;
+                const cs_u32 bits = cs_key((cs_u32)(group + i), (cs_u32)axis) >> 8;
+                ray[axis] = rays->reach[group + i] > 0.0f ? rays->origins[place] : INFINITY;
+                ray[3 + axis] = (float)bits / (float)(1 << 23) - 1.0f;
+                side += ray[3 + axis] * rays->directions[place];
+            }
+            for (size_t axis = 3; axis < 6 && side < 0.0f; axis++)
+                ray[axis] = -ray[axis];
+        }
+        for (int octant = 0; octant < 9; octant++)
+            for (size_t i = 0; i < 256; i++) {
+                const float *ray = kept[i];
+                const int own = (ray[3] < 0.0f) + 2 * (ray[4] < 0.0f) + 4 * (ray[5] < 0.0f);
+                if ((isfinite(ray[0]) ? own : 8) != octant) continue;
+                for (size_t axis = 0; axis < 3; axis++) {
+                    rays->origins[axis * rays->count + group + at] = octant < 8 ? ray[axis] : 0.0f;
+                    rays->directions[axis * rays->count + group + at] = ray[3 + axis];
+                }
+                rays->reach[group + at++] = octant < 8 ? INFINITY : -1.0f;
+            }
+    }
+}
+
+static double processor_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Prints the row of nearest hits or of any hits of bounce rays. */
+static void compare_walks(bench *state, int any_hit)
+{
+    double least_s[3] = {INFINITY, INFINITY, INFINITY};
+    const ray_planes *rays = &state->view.rays;
+    for (int round = -1; round < state->rounds; round++) /* the first one compiles */
+        for (int walk = 0; walk < 3; walk++) {
+            must(state, cs_buffer_write(state->distances, 0, rays->count * sizeof(float),
+                                        rays->reach, &state->error));
+            const double start_s = processor_s();
+            if (walk == 2)
+                embree_trace(state->embree[0], EMBREE_ONE, any_hit, rays, state->found[0],
+                             state->faces);
+            else
+                run_kernel(state, any_hit, walk);
+            if (round >= 0) least_s[walk] = fmin(least_s[walk], processor_s() - start_s);
+        }
+    const double ns = 1e9 / (double)rays_with_reach(rays);
+    printf("| %s | %.1f | %.1f | %.1f |\n", any_hit ? "any hit" : "nearest hit", ns * least_s[0],
+           ns * least_s[1], ns * least_s[2]);
+}
+
+static void compare_bounces(bench *state)
+{
+    cs_wide_bvh wide;
+    if (cs_device_packet(state->device) != CS_WIDE) {
+        fprintf(stderr, "bench_traverse: --bounce needs packets of %d; use --packet %d\n", CS_WIDE,
+                CS_WIDE);
+        exit(1);
+    }
+    const cs_flat_bvh *bvh = &state->view.bvh;
+    must(state, cs_wide_bvh_make(bvh->nodes.items, bvh->nodes.count, bvh->triangles.items, &wide,
+                                 &state->error));
+    must(state, cs_buffer_create(state->device, wide.nodes.count * wide.nodes.item_size,
+                                 wide.nodes.items, &state->wide_nodes, &state->error));
+    must(state, cs_buffer_create(state->device, wide.leaves.count * wide.leaves.item_size,
+                                 wide.leaves.items, &state->wide_leaves, &state->error));
+    cs_wide_bvh_free(&wide);
+    make_shadow_rays(state);
+    make_bounce_rays(&state->view.rays);
+    upload_rays(state);
+    printf("| bounce rays, ns | packets | alone | Embree, single |\n|---|---|---|---|\n");
+    compare_walks(state, 0);
+    compare_walks(state, 1);
+}
+
 static void set_up(bench *state)
 {
     cs_error *error = &state->error;
@@ -180,8 +283,9 @@ static void set_up(bench *state)
 
 static void tear_down(bench *state)
 {
-    cs_buffer *buffers[] = {state->nodes,      state->triangles, state->origins,
-                            state->directions, state->distances, state->hits};
+    cs_buffer *buffers[] = {state->nodes,      state->triangles,  state->origins,
+                            state->directions, state->distances,  state->hits,
+                            state->wide_nodes, state->wide_leaves};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         cs_buffer_free(buffers[i]);
     for (int i = 0; i < 2; i++) {
@@ -235,11 +339,17 @@ int main(int argc, char **argv)
     const bench_flag flags[] = {BENCH_VIEW_FLAGS(view),
                                 {.name = "rounds", .number = &state.rounds},
                                 {.name = "packet", .number = &state.packet},
+                                {.name = "bounce", .number = &state.bounce},
                                 {.name = "json", .text = &state.json}};
     bench_read_flags(argc, argv, flags, sizeof flags / sizeof *flags);
     state.rounds = bench_rounds(state.rounds);
     set_up(&state);
     upload_rays(&state);
+    if (state.bounce) {
+        compare_bounces(&state);
+        tear_down(&state);
+        return 0;
+    }
     outcome camera = compare(&state, 0);
     make_shadow_rays(&state);
     upload_rays(&state);

@@ -16,7 +16,8 @@
 #define CS_FEATURE_MOTION 128   /* samples have times; the camera moves */
 #define CS_FEATURE_MOVING 256   /* surfaces move; needs MOTION */
 #define CS_FEATURE_EMITTERS 512 /* emissive triangles are chosen by a tree */
-#define CS_FEATURE_SETS 1024    /* more than any set of bits */
+#define CS_FEATURE_WIDE 1024    /* rays behind the first surface walk alone; needs PATHS */
+#define CS_FEATURE_SETS 2048    /* more than any set of bits */
 
 /* The host sees everything. */
 #ifndef CS_FEATURES

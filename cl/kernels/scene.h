@@ -11,7 +11,10 @@ enum {
     CS_STACK = 64,     /* entries of the traversal stack: the deepest hierarchy a device can walk */
     CS_MAX_LEAF = 4,   /* triangles in a leaf */
     CS_LEAF = 1 << 30, /* set in a child reference that names triangles; low bits: first */
-    CS_LEAF_SHIFT = 27, /* bits 27 to 29 of a leaf reference: number of triangles, less one */
+    CS_LEAF_SHIFT = 27,  /* bits 27 to 29 of a leaf reference: number of triangles, less one */
+    CS_WIDE = 16,        /* children of a node of the wide hierarchy, at most */
+    CS_WIDE_LEAF = 4,    /* triangles in a leaf there */
+    CS_WIDE_STACK = 192, /* entries of the stack of a walk there */
     CS_NO_TEXTURE = -1,
     CS_NO_HIT = -1,
     CS_MATERIAL_PARAMETERS = 16 /* numbers of a material that its BSDF alone knows */
@@ -36,7 +39,9 @@ enum {
     X(NODE_STEPS, node_steps, cs_node_step)             \
     X(TRIANGLE_STEPS, triangle_steps, cs_triangle_step) \
     X(NORMAL_STEPS, normal_steps, cs_normal_step)       \
-    X(EMITTER_STEPS, emitter_steps, cs_triangle_step)
+    X(EMITTER_STEPS, emitter_steps, cs_triangle_step)   \
+    X(WIDE_NODES, wide_nodes, cs_wide_node)             \
+    X(WIDE_LEAVES, wide_leaves, cs_wide_leaf)
 
 #define CS_SCENE_IDENTIFIER(identifier, name, type) CS_SCENE_##identifier,
 
@@ -52,6 +57,28 @@ typedef struct cs_node {
     cs_u32 padding;
 } cs_node;
 CS_SHARED_WORDS(cs_node, 16);
+
+/* A node of the wide hierarchy, for single rays: boxes of all children in bytes, relative to the
+ * box around them. Four cache lines. */
+typedef struct cs_wide_node {
+    cs_u32 planes[3][2][CS_WIDE / 4]; /* axis, low and high, a byte for each child */
+    cs_u32 child[CS_WIDE]; /* index of a node, or CS_LEAF | index of a leaf; 0: there is none */
+    cs_u32 order[8][2];    /* for each octant of directions, children from far to near: 4 bits each,
+                            * even places in the first word */
+    cs_f32 low[4];         /* where byte 0 is; three and padding */
+    cs_f32 step[4];        /* from one byte to the next; likewise */
+} cs_wide_node;
+CS_SHARED_WORDS(cs_wide_node, 64);
+
+/* A leaf of the wide hierarchy: consecutive triangles, their numbers beside each other. */
+typedef struct cs_wide_leaf {
+    cs_f32 corner[3][CS_WIDE_LEAF];
+    cs_f32 edge1[3][CS_WIDE_LEAF];
+    cs_f32 edge2[3][CS_WIDE_LEAF];
+    cs_u32 first; /* of the array of cs_triangle; what is beyond the last one repeats it */
+    cs_u32 padding[3];
+} cs_wide_leaf;
+CS_SHARED_WORDS(cs_wide_leaf, 40);
 
 /* A triangle: corner, two edges, their cross product, and what flat shading needs besides. */
 typedef struct cs_triangle {

@@ -10,6 +10,9 @@
 #include "clshear/device/packet.h"
 #include "kernels/shape.h"
 
+/* Whether rays may walk the wide hierarchy, whose nodes have as many children as packets lanes. */
+#define CS_WALKS_WIDE (CS_HAS(WIDE) && CS_PACKET == 16)
+
 typedef struct cs_hit {
     cs_vfloat distance; /* in units of the ray's direction */
     cs_vint triangle;   /* index into the array of cs_triangle, or CS_NO_HIT */

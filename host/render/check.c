@@ -165,7 +165,7 @@ static cs_u32 features_of(const cs_job *job)
 {
     cs_u32 features = job->lighting.features | job->scene->device_scene.needs.features;
     if (cs_integer(&job->settings, BOUNCES) > 0) features |= CS_FEATURE_PATHS;
-    return features;
+    return features | cs_wide_feature(job->scene, features);
 }
 
 clshear_status cs_job_begin(cs_job *job, clshear_scene *scene, const clshear_settings *settings,
@@ -187,6 +187,8 @@ clshear_status cs_job_begin(cs_job *job, clshear_scene *scene, const clshear_set
     CS_TRY(cs_studio_complete(scene, &job->settings, error));
     CS_TRY(cs_lighting_make(scene, &job->settings, &job->lighting, error));
     job->features = features_of(job);
+    if (job->features & CS_FEATURE_WIDE)
+        CS_TRY(cs_wide_scene_make(job->scene, &job->features, error));
     job->planes = cs_aov_planes(&job->settings);
     CS_TRY(make_camera(job, error));
 done:

@@ -187,4 +187,5 @@ void cs_lit_buffers(const clshear_scene *scene, const cs_lighting *lighting,
         buffers[i] = scene->device_scene.buffers[i];
     buffers[CS_SCENE_LIGHTS] = lighting->lights;
     buffers[CS_SCENE_ENVIRONMENT] = lighting->environment;
+    cs_wide_scene_buffers(scene->wide, buffers);
 }

@@ -5,6 +5,7 @@
 #include "accel/accel.h"
 #include "clshear/clshear.h"
 #include "context/context.h"
+#include "render/wide_scene.h"
 #include "scene/scene.h"
 
 /* A scene on the device. */
@@ -25,6 +26,7 @@ struct clshear_scene {
     cs_scene scene;
     cs_accel *accel;
     cs_device_scene device_scene;
+    cs_wide_scene *wide;
     clshear_scene_info info;
     int is_complete;
 };

@@ -16,6 +16,11 @@ clshear_status cs_scene_new(clshear_context *context, clshear_scene **result, cs
 {
     clshear_scene *scene = calloc(1, sizeof *scene);
     if (scene == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    scene->wide = cs_wide_scene_new();
+    if (scene->wide == NULL) {
+        free(scene);
+        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    }
     scene->context = cs_context_retain(context);
     cs_message_init(&scene->message);
     cs_scene_init(&scene->scene);
@@ -27,6 +32,7 @@ void cs_scene_destroy(clshear_scene *scene)
 {
     if (scene == NULL) return;
     cs_device_scene_free(&scene->device_scene);
+    cs_wide_scene_free(scene->wide);
     cs_accel_free(scene->accel);
     cs_scene_free(&scene->scene);
     cs_message_destroy(&scene->message);
@@ -91,8 +97,8 @@ clshear_status cs_scene_complete(clshear_scene *scene, cs_error *error)
     clshear_context *context = scene->context;
     clshear_scene_info *info = &scene->info;
     cs_flat_bvh bvh = {0};
-    CS_TRY(
-        cs_pass_warm_up(context->device, cs_scene_material_needs(&scene->scene).features, error));
+    const cs_u32 needs = cs_scene_material_needs(&scene->scene).features;
+    CS_TRY(cs_pass_warm_up(context->device, needs | cs_wide_feature(scene, needs), error));
     CS_TRY(cs_self_test(context, error));
     const double compiled_s = cs_now_s();
     CS_TRY(cs_accel_create(&scene->scene, context->threads, &scene->accel, error));

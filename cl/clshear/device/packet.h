@@ -192,6 +192,17 @@ static inline cs_f32 cs_reduce_add(cs_vfloat x)
 }
 
 /* Largest lane. */
+static inline cs_f32 cs_reduce_largest(cs_vfloat x)
+{
+#if CS_PACKET == 1
+    return x;
+#else
+    CS_FOLD(float, cs_max, x, two);
+    return cs_max(two.x, two.y);
+#endif
+}
+
+/* Largest lane. */
 static inline cs_i32 cs_reduce_max(cs_vint x)
 {
 #if CS_PACKET == 1

@@ -4,6 +4,7 @@
 
 #include "kernels/hits.h"
 #include "kernels/path/state.h"
+#include "kernels/wide_walk.h"
 
 /* Where rays to the side of `towards` leave the surface: `origin` is off it on the viewer's side.
  */
@@ -29,7 +30,7 @@ static inline cs_vint cs_is_open(const cs_surface *surface, const cs_vfloat *tow
 static inline cs_vint cs_find_surfaces(const cs_scene_buffers *scene, cs_u32 lights,
                                        const cs_ray *ray, cs_hit *hit, cs_surface *surface)
 {
-    cs_traverse(scene, ray, 0, hit);
+    cs_traverse_either(scene, ray, 0, hit);
 #if CS_HAS(LIGHTS)
     cs_meet_shapes(scene, lights, ray, 0, hit);
 #else

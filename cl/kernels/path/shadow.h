@@ -45,7 +45,7 @@ static inline void cs_trace_shadow(const cs_scene_buffers *scene, const cs_paths
         return;
     }
 #endif
-    cs_traverse(scene, &shadow->ray, 1, hit);
+    cs_traverse_either(scene, &shadow->ray, 1, hit);
 #if CS_HAS(LIGHTS)
     cs_meet_shapes(scene, paths->launch->lights, &shadow->ray, 1, hit);
 #else
