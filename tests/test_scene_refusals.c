@@ -92,7 +92,7 @@ static void pipes_and_folders_are_not_read(void **state)
     clshear_scene_free(scene);
 }
 
-/* A folder where another kind of file names an image or a buffer. */
+/* A folder where another kind of file names an image, or the settings an environment. */
 static void folders_are_called_folders(void **state)
 {
     clshear_context *context = *state;
@@ -113,6 +113,12 @@ static void folders_are_called_folders(void **state)
                  "folder.png: is a folder, not a file");
     clshear_scene_free(scene);
     clshear_settings_free(settings);
+}
+
+static void a_buffer_is_no_folder(void **state)
+{
+    clshear_scene *scene = NULL;
+    mkdir(test_path("folder.png"), 0700);
     const char *gltf = test_file(
         "folder.gltf",
         "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
@@ -120,7 +126,7 @@ static void folders_are_called_folders(void **state)
         "\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\"bufferViews\":[{"
         "\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"folder.png\"}]"
         "}");
-    test_refused(clshear_scene_load(context, gltf, NULL, &scene), CLSHEAR_BAD_FILE,
+    test_refused(clshear_scene_load(*state, gltf, NULL, &scene), CLSHEAR_BAD_FILE,
                  "folder.png: is a folder, not a file");
 }
 
@@ -131,6 +137,7 @@ int main(void)
         cmocka_unit_test(bad_meshes_are_refused),
         cmocka_unit_test(pipes_and_folders_are_not_read),
         cmocka_unit_test(folders_are_called_folders),
+        cmocka_unit_test(a_buffer_is_no_folder),
     };
     return cmocka_run_group_tests(tests, test_open_context, test_close_context);
 }
