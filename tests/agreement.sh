@@ -1,9 +1,14 @@
 #!/bin/bash
-# Agreement with Mitsuba 3, by the Python that MITSUBA_PYTHON names: agreement.sh PROGRAM ROOT [motion].
+# Agreement with Mitsuba 3, by the Python that MITSUBA_PYTHON names: agreement.sh PROGRAM ROOT [motion|lobes].
 # Skipped where there is none, since it takes minutes; scripts/agreement installs one. Of motion, it is
-# agreement with Cycles: skipped where there is no Blender.
+# agreement with Cycles: skipped where there is no Blender. Of lobes that Mitsuba lacks, it is agreement with
+# their formulas, which needs numpy only.
 set -u
 python=${MITSUBA_PYTHON:-}
+if [ "${3:-}" = lobes ]; then
+    "${python:=python3}" -c 'import numpy' || exit 77
+    exec "$python" "$2/bench/compare/lobes.py" --program "$1"
+fi
 if [ -z "$python" ] || ! "$python" -c 'import mitsuba'; then
     echo "MITSUBA_PYTHON names no Python with Mitsuba"
     exit 77

@@ -69,6 +69,8 @@ expect 1 "the name is too long" -- "$cornell" --quiet --spp 1000000000 --out "${
     expect 0 "" -- "$cornell" $small --quiet
     [ -z "$output" ] || wrong "--quiet printed: $output"
     [ -s cornell.exr ] || wrong "no default output"
+    expect 0 "fewer --lens-rays take less" -- "$cornell" --width 64 --height 64 --spp 1 --replicates 1 \
+        --lens-rays 256 --bounces 0 --stats --out b.exr
     expect 0 "rays " -- "$cornell" $small --stats --out b.exr
     for word in "bounds       -3.2,0,-559.2 to 552.8,548.8,0" "size         556 x 548.8 x 559.2, diagonal 960.7" \
         "focus        at depth 930" "lens         radius 25, f/" "px at infinity"; do

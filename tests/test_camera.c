@@ -152,6 +152,39 @@ static void orbits_name_the_side(void **state)
     clshear_scene_free(floor);
 }
 
+/* A camera that only the settings place stands upright: its picture's right is level, and its up
+ * points upward; straight down, the front is at the bottom. */
+static void placed_cameras_stand_upright(void **state)
+{
+    test_fixture *made = *state;
+    static const struct {
+        const char *eye, *target, *z_up;
+        float up[3]; /* of the file */
+        float least; /* of the cosine to the picture's up */
+    } sides[] = {{"0,0,900", NULL, "0", {0, 1, 0}, 0.5f},
+                 {"0,0,900", "0,0,0", "0", {0, 1, 0}, 0.999f},
+                 {NULL, "700,100,-60", "0", {0, 1, 0}, 0.5f},
+                 {"-310,820,77", "100,-40,-200", "0", {0, 1, 0}, 0.1f},
+                 {"-310,-820,77", "100,40,-20", "1", {0, 0, 1}, 0.1f},
+                 {"9,900,8", "9,0,8", "0", {0, 0, -1}, 0.999f},
+                 {"9,-900,8", "9,0,8", "0", {0, 0, 1}, 0.999f},
+                 {"9,8,900", "9,8,0", "1", {0, 1, 0}, 0.999f}};
+    for (size_t k = 0; k < sizeof sides / sizeof *sides; k++) {
+        clshear_settings *settings = test_settings(NULL, 100, 100, 16);
+        cs_error error;
+        cs_camera frame;
+        if (sides[k].eye != NULL) test_set(settings, CLSHEAR_EYE, "%s", sides[k].eye);
+        if (sides[k].target != NULL) test_set(settings, CLSHEAR_TARGET, "%s", sides[k].target);
+        test_set(settings, CLSHEAR_Z_UP, "%s", sides[k].z_up);
+        test_ok(clshear_camera_complete(made->scene, settings));
+        const cs_view view = view_of(settings);
+        assert_int_equal(cs_camera_frame(&view, 100, 100, &frame, &error), CLSHEAR_OK);
+        assert_near(cs_vec_dot(frame.right, sides[k].up), 0.0f, 1e-5f);
+        assert_below(cs_vec_dot(frame.down, sides[k].up), -sides[k].least);
+        clshear_settings_free(settings);
+    }
+}
+
 /* The blur of points at infinity, A / w, is what was asked for; the focus is the point's depth. */
 static void blur_and_focus_point_do_what_they_say(void **state)
 {
@@ -189,6 +222,7 @@ int main(void)
         cmocka_unit_test(f_numbers_become_radii),
         cmocka_unit_test(framing_fits_every_vertex),
         cmocka_unit_test(orbits_name_the_side),
+        cmocka_unit_test(placed_cameras_stand_upright),
         cmocka_unit_test(blur_and_focus_point_do_what_they_say),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);

@@ -2,6 +2,7 @@
 #include "support.h"
 
 #include <fcntl.h>
+#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <sys/stat.h>
@@ -230,6 +231,29 @@ static void environment_files_are_kept(void **state)
     clshear_scene_free(scene);
 }
 
+/* Environments as text, and numbers in messages, have decimal points in a program whose locale has
+ * commas. Skipped where no such locale is installed. */
+static void environments_know_no_locale(void **state)
+{
+    clshear_scene *scene = test_floor(*state, 1.0f, 0.5f);
+    if (setlocale(LC_ALL, "de_DE.UTF-8") == NULL) {
+        clshear_scene_free(scene);
+        skip();
+    }
+    assert_near(sky_of(scene, "0.25,0.25, 0.25", 1.0), 0.25, 1e-6);
+    assert_near(sky_of(scene, "gradient:0.5,0.5,0.5,0.5,0.5,0.5", 1.0), 0.5, 1e-6);
+    clshear_settings *settings = test_looking_down(0.0, 16);
+    clshear_film *film = NULL;
+    test_set(settings, CLSHEAR_ENVIRONMENT, "0,25");
+    test_refused(clshear_render(scene, settings, &film), CLSHEAR_BAD_FILE, "neither R,G,B");
+    test_set(settings, CLSHEAR_ENVIRONMENT, "0.5,0.5,0.5");
+    test_set(settings, CLSHEAR_SHUTTER_RAMPS, "0.75,0.5");
+    test_refused(clshear_render(scene, settings, &film), CLSHEAR_BAD_ARGUMENT, "0.75,0.5");
+    setlocale(LC_ALL, "C");
+    clshear_settings_free(settings);
+    clshear_scene_free(scene);
+}
+
 /* The image as a file around a floor: the reflected radiance is albedo / pi times its irradiance,
  * by quadrature, from the light's samples alone and from both ways. */
 static void image_around_a_floor(void **state)
@@ -275,6 +299,7 @@ int main(void)
         cmocka_unit_test(texels_are_where_they_should_be),
         cmocka_unit_test(directions_follow_their_density),
         cmocka_unit_test(environment_files_are_kept),
+        cmocka_unit_test(environments_know_no_locale),
         cmocka_unit_test(image_around_a_floor),
     };
     return cmocka_run_group_tests(tests, test_open_context, test_close_context);

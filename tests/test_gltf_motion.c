@@ -2,6 +2,7 @@
  * move between two files. */
 #include "support.h"
 
+#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -89,16 +90,20 @@ static void expected_places(double time, double places[9][3])
     memcpy(places, turned, sizeof turned);
 }
 
-/* The places of `count` vertices that a file has at a time. */
-static void expect_places(const char *path, double time_s, const double (*places)[3], size_t count)
+/* The places of `count` vertices that a file has at a time; read in this process, or behind the
+ * wall, as a scene is. */
+static void expect_places(const char *path, double time_s, const double (*places)[3], size_t count,
+                          int behind_wall)
 {
     const cs_log log = {0};
     const cs_import_options options = {.smooth_degrees = -1.0, .is_played = 1, .time_s = time_s};
     cs_error error = {{0}};
     cs_scene scene;
     cs_scene_init(&scene);
-    if (cs_import_here(path, &options, NULL, &scene, &log, &error) != CLSHEAR_OK)
-        fail_msg("%s", error.message);
+    const clshear_status status = behind_wall
+                                      ? cs_scene_import(path, &options, &scene, &log, &error)
+                                      : cs_import_here(path, &options, NULL, &scene, &log, &error);
+    if (status != CLSHEAR_OK) fail_msg("%s", error.message);
     assert_int_equal(scene.positions.count, count);
     for (size_t i = 0; i < count; i++)
         for (int axis = 0; axis < 3; axis++)
@@ -122,9 +127,23 @@ static void vertices_are_where_the_file_has_them(void **state)
             double places[9][3];
             expected_places(fmin(time_s, 1.0), places);
             expect_places(path, time_s, (const double(*)[3])(places + files[f].first),
-                          files[f].count);
+                          files[f].count, 0);
         }
     }
+}
+
+/* The time reaches the reader in a program whose locale has decimal commas, too. Skipped where no
+ * such locale is installed. */
+static void times_know_no_locale(void **state)
+{
+    double places[9][3];
+    (void)state;
+    const char *path = animated_file("0");
+    expected_places(0.625, places);
+    expect_places(path, 0.625, (const double(*)[3])places, 3, 1);
+    if (setlocale(LC_ALL, "de_DE.UTF-8") == NULL) skip();
+    expect_places(path, 0.625, (const double(*)[3])places, 3, 1);
+    setlocale(LC_ALL, "C");
 }
 
 /* A file that moves between two files of the same mesh shows what is between them; another mesh is
@@ -165,6 +184,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(vertices_are_where_the_file_has_them),
+        cmocka_unit_test(times_know_no_locale),
         cmocka_unit_test(two_files_are_two_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -80,14 +80,54 @@ static void pipes_and_folders_are_not_read(void **state)
     clshear_context *context = *state;
     mkfifo(test_path("pipe.png"), 0600);
     mkdir(test_path("folder.mtl"), 0700);
-    test_file("piped.mtl", "newmtl t\nmap_Kd pipe.png\n");
+    mkdir(test_path("folder.png"), 0700);
+    test_file("piped.mtl", "newmtl t\nmap_Kd pipe.png\nmap_Ke folder.png\n");
     clshear_scene *scene =
         test_load(context, test_file("piped.obj", "mtllib piped.mtl folder.mtl\n" SQUARE
                                                   "vt 0 0\nusemtl t\nf 1/1 2/1 3/1 4/1\n"));
     const char *warnings = test_warnings();
-    assert_non_null(strstr(warnings, "folder.mtl not found"));
+    assert_non_null(strstr(warnings, "folder.mtl: is a folder, not a file"));
+    assert_non_null(strstr(warnings, "folder.png: is a folder, not a file; it is mid-grey"));
     assert_non_null(strstr(warnings, "pipe.png: is not a regular file"));
     clshear_scene_free(scene);
+}
+
+/* A folder where another kind of file names an image, or the settings an environment. */
+static void folders_are_called_folders(void **state)
+{
+    clshear_context *context = *state;
+    clshear_settings *settings = test_settings(NULL, 8, 8, 4);
+    clshear_film *film = NULL;
+    char folder[4096];
+    mkdir(test_path("folder.png"), 0700);
+    snprintf(folder, sizeof folder, "%s", test_path("folder.png"));
+    clshear_scene *scene = test_load(
+        context, test_file("folder.ply", "ply\nformat ascii 1.0\ncomment TextureFile folder.png\n"
+                                         "element vertex 3\nproperty float x\nproperty float y\n"
+                                         "property float z\nproperty float u\nproperty float v\n"
+                                         "element face 1\nproperty list uchar int vertex_indices\n"
+                                         "end_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n"));
+    assert_non_null(strstr(test_warnings(), "folder.png: is a folder, not a file; it is mid-grey"));
+    test_set(settings, CLSHEAR_ENVIRONMENT, "%s", folder);
+    test_refused(clshear_render(scene, settings, &film), CLSHEAR_BAD_FILE,
+                 "folder.png: is a folder, not a file");
+    clshear_scene_free(scene);
+    clshear_settings_free(settings);
+}
+
+static void a_buffer_is_no_folder(void **state)
+{
+    clshear_scene *scene = NULL;
+    mkdir(test_path("folder.png"), 0700);
+    const char *gltf = test_file(
+        "folder.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{"
+        "\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\"bufferViews\":[{"
+        "\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"folder.png\"}]"
+        "}");
+    test_refused(clshear_scene_load(*state, gltf, NULL, &scene), CLSHEAR_BAD_FILE,
+                 "folder.png: is a folder, not a file");
 }
 
 int main(void)
@@ -96,6 +136,8 @@ int main(void)
         cmocka_unit_test(bad_files_are_refused),
         cmocka_unit_test(bad_meshes_are_refused),
         cmocka_unit_test(pipes_and_folders_are_not_read),
+        cmocka_unit_test(folders_are_called_folders),
+        cmocka_unit_test(a_buffer_is_no_folder),
     };
     return cmocka_run_group_tests(tests, test_open_context, test_close_context);
 }

@@ -13,6 +13,7 @@ SPHERE_MATERIALS = {
 }
 SPHERE_FLAGS = """--eye 0,5,13
 --target 0,0.4,-0.5
+--up 0,1,0
 --fov 38
 --focal-distance 14
 --lens-radius 0.3

@@ -13,6 +13,13 @@ int cs_is_special_file(const char *path)
     return stat(path, &about) == 0 && !S_ISREG(about.st_mode);
 }
 
+const char *cs_not_a_file(const char *path)
+{
+    struct stat about;
+    if (stat(path, &about) != 0 || S_ISREG(about.st_mode)) return NULL;
+    return S_ISDIR(about.st_mode) ? "is a folder, not a file" : "is not a regular file";
+}
+
 /* Where the link at `path` leads, though nothing is there yet; NULL if it is no link. */
 static char *link_target(const char *path)
 {

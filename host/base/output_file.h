@@ -19,6 +19,10 @@ typedef struct cs_output_file {
 /* Returns 1 if the path is a device, a pipe or a folder, else 0. */
 int cs_is_special_file(const char *path);
 
+/* Why what is at the path cannot be read as a file, for a message that begins with the path; NULL
+ * for a regular file, and where nothing is there. */
+const char *cs_not_a_file(const char *path);
+
 /* Sets the paths without opening a file. Returns 0, or errno. */
 int cs_output_begin(const char *path, cs_output_file *file);
 

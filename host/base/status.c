@@ -1,13 +1,26 @@
 #include "base/status.h"
 
+#include <locale.h>
 #include <stdarg.h>
 #include <stdio.h>
+
+/* Prints a line with decimal points, whatever the locale of the process says: users copy numbers
+ * from messages into flags. */
+static void print_line(char *line, size_t size, const char *format, va_list arguments)
+{
+    const locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    const locale_t own = plain != (locale_t)0 ? uselocale(plain) : (locale_t)0;
+    vsnprintf(line, size, format, arguments);
+    if (plain == (locale_t)0) return;
+    uselocale(own);
+    freelocale(plain);
+}
 
 clshear_status cs_fail(cs_error *error, clshear_status status, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(error->message, sizeof error->message, format, arguments);
+    print_line(error->message, sizeof error->message, format, arguments);
     va_end(arguments);
     return status;
 }
@@ -18,7 +31,7 @@ void cs_warn(const cs_log *log, const char *format, ...)
     va_list arguments;
     if (log->warn == NULL) return;
     va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
+    print_line(line, sizeof line, format, arguments);
     va_end(arguments);
     log->warn(log->user, line);
 }
@@ -29,7 +42,7 @@ void cs_alarm(const cs_log *log, const char *format, ...)
     va_list arguments;
     if (log->alarm == NULL && log->warn == NULL) return;
     va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
+    print_line(line, sizeof line, format, arguments);
     va_end(arguments);
     if (log->alarm != NULL)
         log->alarm(log->alarm_user, line);

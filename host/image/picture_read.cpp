@@ -68,8 +68,8 @@ clshear_status read_picture(const char *path, cs_loaded_picture *loaded, cs_erro
     if (access(path, R_OK) != 0)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: cannot be opened: %s", path,
                        std::strerror(errno));
-    if (cs_is_special_file(path))
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: is not a regular file", path);
+    const char *flaw = cs_not_a_file(path);
+    if (flaw != nullptr) return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path, flaw);
     forget(path);
     ImageBuf source(path);
     if (!source.read(0, 0, true, TypeDesc::FLOAT))

@@ -85,8 +85,8 @@ constexpr uint64_t most_texels = uint64_t(1) << 28;
 /* An image as RGBA, its colours (`is_colour`) linear. */
 clshear_status read_rgba(const Source &from, bool is_colour, ImageBuf &rgba, cs_error *error)
 {
-    if (from.memory == nullptr && cs_is_special_file(from.path))
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: is not a regular file", from.label);
+    const char *flaw = from.memory == nullptr ? cs_not_a_file(from.path) : nullptr;
+    if (flaw != nullptr) return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label, flaw);
     std::string path = from.path;
     if (from.memory != nullptr)
         path = std::string("embedded.") + extension_for(from.memory, from.size);

@@ -14,11 +14,15 @@ void cs_folder_of(const char *path, char *folder, size_t size)
     snprintf(folder, size, "%.*s", slash != NULL ? (int)(slash - path) + 1 : 0, path);
 }
 
-/* Whether it is there and no folder. What cannot be read either is found out by who opens it. */
-static int is_file(const char *path)
+enum {
+    A_FILE, /* or a pipe or device. What cannot be read is found out by who opens it */
+    A_FOLDER
+};
+
+static int is_there(const char *path, int wanted)
 {
     struct stat about;
-    return stat(path, &about) == 0 && !S_ISDIR(about.st_mode);
+    return stat(path, &about) == 0 && S_ISDIR(about.st_mode) == (wanted == A_FOLDER);
 }
 
 /* Joins without overflow; 0 where the path is too long. */
@@ -44,7 +48,7 @@ static int entry_in_any_case(const char *folder, const char *name, size_t length
 }
 
 /* Follows `name` part by part from `folder`. */
-static int find_in_any_case(const char *folder, const char *name, char *path)
+static int find_in_any_case(const char *folder, const char *name, int kind, char *path)
 {
     if (!join(folder, "", path)) return 0;
     while (*name != '\0') {
@@ -64,7 +68,7 @@ static int find_in_any_case(const char *folder, const char *name, char *path)
             name++;
         }
     }
-    return is_file(path);
+    return is_there(path, kind);
 }
 
 static int has_drive(const char *name)
@@ -72,7 +76,8 @@ static int has_drive(const char *name)
     return isalpha((unsigned char)name[0]) && name[1] == ':' && name[2] == '/';
 }
 
-static int find_as_written(const char *name, const char *const *folders, size_t count, char *found)
+static int find_as_written(const char *name, const char *const *folders, size_t count, int kind,
+                           char *found)
 {
     char slashed[CS_FILE_PATH], first[CS_FILE_PATH];
     const char *wanted = slashed;
@@ -81,17 +86,17 @@ static int find_as_written(const char *name, const char *const *folders, size_t 
         if (*letter == '\\') *letter = '/';
     snprintf(first, sizeof first, "%.*s", CS_FILE_PATH - 1, slashed);
     const char *last_part = strrchr(slashed, '/');
-    if (slashed[0] == '/' && is_file(slashed)) {
+    if (slashed[0] == '/' && is_there(slashed, kind)) {
         memcpy(found, slashed, sizeof slashed);
         return 1;
     }
     if ((slashed[0] == '/' || has_drive(slashed)) && last_part != NULL) wanted = last_part + 1;
     for (size_t i = 0; i < count && *wanted != '\0'; i++)
-        if (join(folders[i], wanted, found) && is_file(found)) return 1;
+        if (join(folders[i], wanted, found) && is_there(found, kind)) return 1;
     for (size_t i = 0; i < count && *wanted != '\0'; i++) /* names with backslashes in them */
-        if (join(folders[i], name, found) && is_file(found)) return 1;
+        if (join(folders[i], name, found) && is_there(found, kind)) return 1;
     for (size_t i = 0; i < count && *wanted != '\0'; i++)
-        if (find_in_any_case(folders[i], wanted, found)) return 1;
+        if (find_in_any_case(folders[i], wanted, kind, found)) return 1;
     memcpy(found, first, sizeof first);
     return 0;
 }
@@ -114,14 +119,25 @@ void cs_decode_percent(char *name)
     *target = '\0';
 }
 
-int cs_find_file(const char *name, const char *const *folders, size_t count, char *found)
+static int find_kind(const char *name, const char *const *folders, size_t count, int kind,
+                     char *found)
 {
     char decoded[CS_FILE_PATH], ignored[CS_FILE_PATH];
-    if (find_as_written(name, folders, count, found)) return 1;
+    if (find_as_written(name, folders, count, kind, found)) return 1;
     if (strchr(name, '%') == NULL || strlen(name) >= sizeof decoded) return 0;
     snprintf(decoded, sizeof decoded, "%s", name);
     cs_decode_percent(decoded);
-    if (!find_as_written(decoded, folders, count, ignored)) return 0;
+    if (!find_as_written(decoded, folders, count, kind, ignored)) return 0;
     memcpy(found, ignored, sizeof ignored);
     return 1;
+}
+
+int cs_find_file(const char *name, const char *const *folders, size_t count, char *found)
+{
+    char tried[CS_FILE_PATH];
+    if (find_kind(name, folders, count, A_FILE, found)) return 1;
+    memcpy(tried, found, sizeof tried);
+    if (find_kind(name, folders, count, A_FOLDER, found)) return 1;
+    memcpy(found, tried, sizeof tried);
+    return 0;
 }

@@ -14,7 +14,8 @@ void cs_folder_of(const char *path, char *folder, size_t size);
 /* Finds the file that a scene calls `name`, in one of `count` folders: as it is written, with
  * slashes for backslashes, by its last part alone where the rest is a path of another machine, in
  * whatever case, and at last with the %XX of a URI decoded. Returns 1 and its path in `found`
- * (CS_FILE_PATH bytes). Else returns 0, with the path that was tried first. */
+ * (CS_FILE_PATH bytes). Where only a folder is called so it is found, so that who opens it can say
+ * so. Else returns 0, with the path that was tried first. */
 int cs_find_file(const char *name, const char *const *folders, size_t count, char *found);
 
 /* Replaces %XX by the bytes they stand for: URIs name files so. */

@@ -7,6 +7,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/output_file.h"
+
 static clshear_status read_stream(FILE *stream, size_t expected, const char *path, cs_bytes *bytes,
                                   cs_error *error)
 {
@@ -26,10 +28,8 @@ clshear_status cs_bytes_read(const char *path, cs_bytes *bytes, cs_error *error)
     struct stat about;
     if (stat(path, &about) != 0)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: cannot be opened: %s", path, strerror(errno));
-    if (S_ISDIR(about.st_mode))
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: is a folder, not a scene file", path);
-    if (!S_ISREG(about.st_mode))
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: is not a regular file", path);
+    const char *flaw = cs_not_a_file(path);
+    if (flaw != NULL) return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path, flaw);
     FILE *stream = fopen(path, "rb");
     if (stream == NULL)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: cannot be opened: %s", path, strerror(errno));

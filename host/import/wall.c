@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/number.h"
 #include "import/transfer.h"
 
 extern char **environ;
@@ -36,7 +37,8 @@ static clshear_status start(const char *helper, const cs_import_options *options
     int ends[2];
     char smooth[32], time[48];
     snprintf(smooth, sizeof smooth, "%d", (int)(options->smooth_degrees * 1000.0));
-    snprintf(time, sizeof time, options->is_played ? "%a" : "-", options->time_s);
+    snprintf(time, sizeof time, "-");
+    if (options->is_played) cs_format_number(time, sizeof time, options->time_s, 17);
     char *arguments[] = {(char *)helper, (char *)made->path, smooth, time, NULL};
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;

@@ -124,14 +124,24 @@ static clshear_status follow_camera(const cs_scene_camera *camera, const double 
     return cs_settings_set(settings, CLSHEAR_CAMERA_TO, numbers, 6, error);
 }
 
+/* What is up in the picture of a camera that the settings place, as far as they do not say it: what
+ * the scene holds for up. The up of the view that it replaces would tilt it. */
+static void set_upright(const clshear_scene *scene, const clshear_settings *settings, float *up)
+{
+    float line[3];
+    for (int axis = 0; axis < 3; axis++)
+        line[axis] = (float)(cs_numbers(settings, TARGET)[axis] - cs_numbers(settings, EYE)[axis]);
+    cs_framing_upright(z_is_up(&scene->scene, settings), line, up);
+}
+
 clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *settings,
                               cs_error *error)
 {
-    static const double nowhere[3] = {0, 0, 0};
     const double *origin = scene->scene.origin;
     clshear_status status = CLSHEAR_OK;
     int number = -1;
     cs_view view;
+    const int is_placed = cs_is_set(settings, EYE) || cs_is_set(settings, TARGET);
     CS_TRY(choose_camera(scene, settings, &number, error));
     if (number < 0)
         CS_TRY(default_view(scene, settings, &view, error));
@@ -145,7 +155,9 @@ clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *sett
         CS_TRY(set_vector(settings, CLSHEAR_EYE, view.eye, origin, error));
     if (!cs_is_set(settings, TARGET))
         CS_TRY(set_vector(settings, CLSHEAR_TARGET, view.target, origin, error));
-    if (!cs_is_set(settings, UP)) CS_TRY(set_vector(settings, CLSHEAR_UP, view.up, nowhere, error));
+    if (is_placed) set_upright(scene, settings, view.up);
+    if (!cs_is_set(settings, UP))
+        CS_TRY(set_vector(settings, CLSHEAR_UP, view.up, (const double[3]){0.0}, error));
     CS_TRY(choose_extent(scene, settings, &view, error));
 done:
     return status;

@@ -1,6 +1,7 @@
 #include "render/checkpoint.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -97,6 +98,19 @@ static state state_of(const cs_job *job, const cs_pass *pass)
                    .plan = fingerprint_of_plan(job)};
 }
 
+static int is_duration(double seconds)
+{
+    return seconds >= 0.0 && isfinite(seconds);
+}
+
+/* Whether what was read of the rules can be theirs. */
+static int stop_fits(const cs_stop *stop)
+{
+    return (unsigned)stop->reason <= (unsigned)CS_STOP_TIME && stop->noise >= 0.0 &&
+           stop->pixels >= 0.0 && stop->time_s >= 0.0 && stop->last.samples >= 0.0 &&
+           stop->before.samples >= 0.0;
+}
+
 /* Whether a state that was read can be one of the job. */
 static int fits(const cs_job *job, const state *read)
 {
@@ -105,7 +119,9 @@ static int fits(const cs_job *job, const state *read)
     return read->pixel_count == job->pixel_count && read->planes == job->pixels.planes &&
            read->from <= read->to && read->to <= most && read->replicate <= job->replicates &&
            read->replicates_begun <= job->replicates && read->patterns_kept <= job->replicates &&
-           read->place.part >= 0.0 && read->place.next <= 1.0;
+           read->place.part >= 0.0 && read->place.next <= 1.0 && stop_fits(&read->stop) &&
+           is_duration(read->elapsed_s) && is_duration(read->pass_s) &&
+           is_duration(read->kernel_s) && read->done >= 0.0;
 }
 
 static void apply(const state *read, cs_job *job, cs_pass *pass)

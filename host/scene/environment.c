@@ -2,11 +2,11 @@
 
 #include <errno.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/number.h"
 #include "image/image_io.h"
 #include "scene/scene.h"
 
@@ -133,11 +133,20 @@ done:
     return status;
 }
 
-/* Whether the text is three numbers. */
-static int read_colour(const char *text, float *colour)
+/* Whether the text is so many numbers with commas between them, and nothing else. */
+static int read_numbers(const char *text, int count, float *numbers)
 {
-    char end;
-    return sscanf(text, "%f,%f,%f%c", &colour[0], &colour[1], &colour[2], &end) == 3;
+    const char *end = text + strlen(text);
+    for (int i = 0; i < count; i++) {
+        double number = 0.0;
+        if (i > 0 && *text++ != ',') return 0;
+        text += strspn(text, " \t");
+        const char *behind = cs_parse_number(text, end, &number);
+        if (behind == text) return 0;
+        numbers[i] = (float)number;
+        text = behind;
+    }
+    return text == end;
 }
 
 /* A sky: `colours` has its zenith and its horizon, which the ground continues. In between, radiance
@@ -156,18 +165,18 @@ static clshear_status make_gradient(const float *colours, cs_environment *enviro
 }
 
 /* Whether the text is a gradient: this word and six numbers. */
-static int read_gradient(const char *text, float *c)
+static int read_gradient(const char *text, float *colours)
 {
-    char end;
-    return sscanf(text, "gradient:%f,%f,%f,%f,%f,%f%c", &c[0], &c[1], &c[2], &c[3], &c[4], &c[5],
-                  &end) == 6;
+    static const char word[] = "gradient:";
+    return strncmp(text, word, sizeof word - 1) == 0 &&
+           read_numbers(text + sizeof word - 1, 6, colours);
 }
 
 clshear_status cs_environment_read(const char *text, cs_environment *environment, cs_error *error)
 {
     float colour[3], sky[6], *texels = NULL;
     size_t width = 0, height = 0;
-    if (read_colour(text, colour)) {
+    if (read_numbers(text, 3, colour)) {
         if (!cs_is_colour(colour))
             return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                            "environment %.60s: must be three numbers, 0 to 1e15", text);

@@ -128,6 +128,17 @@ static float find_touches(const cs_scene *scene, float frame[3][3], const float 
     return nearest;
 }
 
+void cs_framing_upright(int z_up, const float *line, float *up)
+{
+    const box_axes axes = axes_of(z_up);
+    const float rise = axes.sign[1] * line[axes.axis[1]];
+    const float level = hypotf(line[axes.axis[0]], line[axes.axis[2]]);
+    const int is_vertical = level <= 1e-3f * fabsf(rise);
+    const int axis = is_vertical ? 2 : 1;
+    up[0] = up[1] = up[2] = 0.0f;
+    up[axes.axis[axis]] = axes.sign[axis] * (is_vertical && rise < 0.0f ? -1.0f : 1.0f);
+}
+
 static const float parallel[2] = {0.0f, 0.0f}; /* tangents of parallel lines of sight */
 
 cs_view cs_framing_view(const cs_scene *scene, const cs_framing *framing, int width, int height)

@@ -27,6 +27,11 @@ int cs_framing_stands_on_z(const cs_scene *scene);
  * margin. Eye and target are relative to the scene's origin. The lens is not chosen. */
 cs_view cs_framing_view(const cs_scene *scene, const cs_framing *framing, int width, int height);
 
+/* What is up in the picture of a camera that looks along `line` (any length, in coordinates of the
+ * file) and stands upright: the unit vector of the file's up, +Y or with z_up +Z. Straight down
+ * (within a thousandth) the front is at the bottom of the picture, straight up at its top. */
+void cs_framing_upright(int z_up, const float *line, float *up);
+
 /* What the shorter image axis has to show of the scene (cs_view.orthographic) around the axis of a
  * camera, for a picture of this size. */
 float cs_framing_width(const cs_scene *scene, const cs_view *view, int width, int height);

@@ -25,8 +25,8 @@ trap 'rm -rf "$TMPDIR"' EXIT
 # Sets `spent` to the processor time, in whole seconds, of the ended children of this shell. (A
 # subshell would have none.)
 count_seconds() {
-    times >times
-    spent=$(tail -n 1 times | tr 'ms' '  ' | awk '{ print int($1 * 60 + $2 + $3 * 60 + $4) }')
+    times >"$TMPDIR/times"
+    spent=$(tail -n 1 "$TMPDIR/times" | tr 'ms' '  ' | awk '{ print int($1 * 60 + $2 + $3 * 60 + $4) }')
 }
 
 for name in "$@"; do

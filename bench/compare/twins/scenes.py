@@ -1,7 +1,8 @@
 """The scenes that both renderers have."""
 from lights import directional, environment, panel, point, sphere, spot, sun
 from shapes import ball, card, ground, lamp
-from surfaces import diffuse, foil, glass, shining, textured, tinted_metal, white_metal
+from surfaces import (black_coat, black_dielectric, diffuse, foil, glass, shining, textured,
+                      tinted_metal, white_metal)
 
 
 def scenes(folder):
@@ -28,6 +29,8 @@ def scenes(folder):
         "metal-polished": (with_ball(white_metal(0.25)), [sky], 2),
         "metal-rough": (with_ball(white_metal(0.7)), [sky, lit], 2),
         "metal-tinted": (with_ball(tinted_metal(0.5, 0.9, 0.5, 0.2)), [sky, lit], 2),
+        "dielectric-facets": (with_ball(black_dielectric(0.4)), [sky, lit], 2),
+        "coat-facets": (with_ball(black_coat(0.3)), [sky, lit], 2),
         "glass-smooth": (with_ball(glass(0.0)), [sky], 12),
         "glass-rough": (with_ball(glass(0.5)), [sky], 12),
         "foil": ([grey, (card(), foil(0.9, 0.5, 0.2))], [sky], 8),

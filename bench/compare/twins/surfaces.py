@@ -34,6 +34,20 @@ def tinted_metal(roughness, *colour):
                        "roughness": roughness}))
 
 
+def black_dielectric(roughness):
+    """Its facets alone: Schlick's term from 0.04 to 1, as those of a metal of that colour."""
+    _, twin = tinted_metal(roughness, 0.04, 0.04, 0.04)
+    return surface((0, 0, 0), 0.0, roughness), twin
+
+
+def black_coat(roughness):
+    """A clear coat over black that reflects nothing."""
+    _, twin = tinted_metal(roughness, 0.04, 0.04, 0.04)
+    return (surface((0, 0, 0), specular={"specularFactor": 0.0},
+                    clearcoat={"clearcoatFactor": 1.0, "clearcoatRoughnessFactor": roughness}),
+            twin)
+
+
 def glass(roughness, index=1.5):
     twin = {"type": "dielectric", "int_ior": index, "ext_ior": 1.0}
     if roughness > 0.0:

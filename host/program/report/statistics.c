@@ -101,7 +101,9 @@ void report_statistics(const clshear_context *context, const clshear_scene *scen
     report_scene(scene);
     report_lens(settings);
     report_blur(settings, film, (size_t)info.width * (size_t)info.height);
-    printf("prepass      %.3f s\n", info.prepass_s);
+    printf("prepass      %.3f s%s\n", info.prepass_s,
+           info.prepass_s > info.kernel_s ? ", longer than the kernels; fewer --lens-rays take less"
+                                          : "");
     printf("pilot        %.3f s, %.1f %% more samples\n", info.pilot_s,
            100.0 * (double)info.pilot_samples / (double)info.samples);
     printf("kernels      %.3f s\n", info.kernel_s);
