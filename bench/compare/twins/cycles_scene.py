@@ -143,10 +143,10 @@ def add_sun(numbers):
 
 
 def add_quad(numbers):
-    """A corner, the edges from it, radiance. Power is pi times area times radiance."""
+    """A corner, the edges from it, radiance. Blender takes a fourth of the power over the area."""
     corner, across, along = (Vector(numbers[i:i + 3]) for i in (0, 3, 6))
     area = across.cross(along)
-    light = new_light("AREA", numbers[9:], math.pi * area.length * max(numbers[9:]))
+    light = new_light("AREA", numbers[9:], 4.0 * area.length * max(numbers[9:]))
     light.shape = "RECTANGLE"
     light.size, light.size_y = across.length, along.length
     right, back = across.normalized(), -area.normalized()

@@ -90,17 +90,16 @@ def spread(pictures):
 
 
 def samples_wanted(renderer, error):
-    """Samples with which a picture has about the error."""
+    """Samples with which a picture has about the error: doubled until it has twice the error, and from
+    there by the slope."""
     samples, last = FEWEST, math.inf
     while True:
         pictures, _ = renderer.several(samples)
         now = math.sqrt(spread(pictures)) / np.mean(pictures)
         print("pair", samples, now, flush=True)
-        if now <= error:
-            if math.isinf(last):
-                return samples
-            slope = math.log(last / now) / math.log(2.0)
-            return int(samples * (now / error) ** (1.0 / max(slope, 0.25)))
+        if now <= 2.0 * error:
+            slope = 0.5 if math.isinf(last) else math.log(last / now) / math.log(2.0)
+            return int(samples * (now / error) ** (1.0 / min(max(slope, 0.4), 1.0)))
         samples, last = 2 * samples, now
 
 
@@ -145,8 +144,8 @@ def main():
     samples = samples_wanted(renderer, error)
     reference, own = make_reference(renderer, samples)
     show(reference, job["picture"])
-    fixed = ladder(renderer, error, reference, own, (max(samples // 2, 1), None),
-                   lambda setting: (2 * setting[0], None))
+    fixed = ladder(renderer, error, reference, own, (max(3 * samples // 4, 1), None),
+                   lambda setting: (math.ceil(1.5 * setting[0]), None))
     adaptive = ladder(renderer, error, reference, own, (REFERENCE * samples, COARSEST),
                       lambda setting: (setting[0], setting[1] / 2.0))
     result = {"mean": reference.mean(axis=(0, 1)).tolist(), "samples": REFERENCE * samples,
