@@ -1,7 +1,8 @@
 """Measures which CPU time Cycles needs for a true error, in Blender:
 blender -b --factory-startup --python cycles_time.py -- JOB.json
 
-JOB: importer, model, flags, width, height, error (relative, to be reached), seeds, folder, picture.
+JOB: importer, model, flags, width, height, error (relative, to be reached), seeds, reference (its
+samples over those of a picture with the error), folder, picture.
 Writes FOLDER/cycles.json: the reference's samples and error, and a list of rungs for fixed samples
 and for adaptive sampling, each with its threshold or samples, true error and CPU seconds. PICTURE is
 the reference as PNG.
@@ -23,7 +24,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import cycles_scene
 
 PARTS = 4  # renders of other seeds that a reference is the mean of
-REFERENCE = 16  # its samples over those of a picture with the error
+MOST = 16  # samples in a pixel of adaptive sampling, over those of a picture with the error
 FEWEST = 64  # samples of the first rung
 COARSEST = 0.2  # threshold of the first rung
 
@@ -104,7 +105,7 @@ def samples_wanted(renderer, error):
 
 
 def make_reference(renderer, samples):
-    parts = [renderer.render(REFERENCE * samples // PARTS, 1000 + part)[0] for part in range(PARTS)]
+    parts = [renderer.render(samples // PARTS, 1000 + part)[0] for part in range(PARTS)]
     return np.mean(parts, axis=0), spread(parts) / PARTS
 
 
@@ -142,13 +143,13 @@ def main():
     set_up(job)
     renderer, error = Renderer(job), job["error"]
     samples = samples_wanted(renderer, error)
-    reference, own = make_reference(renderer, samples)
+    reference, own = make_reference(renderer, job.get("reference", 4) * samples)
     show(reference, job["picture"])
     fixed = ladder(renderer, error, reference, own, (max(3 * samples // 4, 1), None),
                    lambda setting: (math.ceil(1.5 * setting[0]), None))
-    adaptive = ladder(renderer, error, reference, own, (REFERENCE * samples, COARSEST),
+    adaptive = ladder(renderer, error, reference, own, (MOST * samples, COARSEST),
                       lambda setting: (setting[0], setting[1] / 2.0))
-    result = {"mean": reference.mean(axis=(0, 1)).tolist(), "samples": REFERENCE * samples,
+    result = {"mean": reference.mean(axis=(0, 1)).tolist(), "samples": job.get("reference", 4) * samples,
               "own": math.sqrt(own) / reference.mean(), "overhead": renderer.overhead_s,
               "fixed": fixed, "adaptive": adaptive}
     (pathlib.Path(job["folder"]) / "cycles.json").write_text(json.dumps(result))

@@ -3,7 +3,7 @@ same: a row of a table for each scene of DoF-20 that is named. scripts/promise-c
 
 Both render the twin of the scene (cycles_scene.py) with two threads, the same size and bounces and a
 box filter. Each is judged by a reference of its own with sixteen times the samples, whose own error
-is taken off. CPU time is that of all threads, less that of loading: the median of a render of
+is taken off (so that --reference 4 is enough for Cycles'). CPU time is that of all threads, less that of loading: the median of a render of
 4 x 3 pixels with clshear, so that the depth prepass and the pilot count; one sample per pixel with
 Cycles, which keeps its scene in memory.
 """
@@ -134,7 +134,7 @@ def of_cycles(options, name, folder, error):
     job = {"importer": str(pathlib.Path(options.program).with_name("clshear-import")),
            "model": str(model_of(name)), "flags": read_flags(settings_of(name)),
            "width": options.width, "height": options.height, "error": error,
-           "seeds": max(options.seeds, 2), "folder": str(folder),
+           "seeds": max(options.seeds, 2), "reference": options.reference, "folder": str(folder),
            "picture": str(folder / "cycles.png")}
     (folder / "job.json").write_text(json.dumps(job))
     with open(folder / "blender.log", "w", encoding="utf-8") as log:
@@ -167,6 +167,8 @@ def main():
     parser.add_argument("--width", type=int, default=80)
     parser.add_argument("--height", type=int, default=60)
     parser.add_argument("--seeds", type=int, default=2)
+    parser.add_argument("--reference", type=int, default=16,
+                        help="samples of Cycles' reference over those of a picture with the error")
     parser.add_argument("--keep", help="folder for pictures, rungs and logs of both")
     parser.add_argument("--blender", default="blender")
     parser.add_argument("--program", default=str(ROOT / "build" / "clshear"))
