@@ -145,7 +145,7 @@ def main():
     samples = samples_wanted(renderer, error)
     reference, own = make_reference(renderer, job.get("reference", 4) * samples)
     show(reference, job["picture"])
-    fixed = ladder(renderer, error, reference, own, (max(3 * samples // 4, 1), None),
+    fixed = ladder(renderer, error, reference, own, (max(samples // 2, 1), None),
                    lambda setting: (math.ceil(1.5 * setting[0]), None))
     adaptive = ladder(renderer, error, reference, own, (MOST * samples, COARSEST),
                       lambda setting: (setting[0], setting[1] / 2.0))
