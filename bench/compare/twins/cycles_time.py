@@ -143,13 +143,13 @@ def main():
     set_up(job)
     renderer, error = Renderer(job), job["error"]
     samples = samples_wanted(renderer, error)
-    reference, own = make_reference(renderer, job.get("reference", 4) * samples)
+    reference, own = make_reference(renderer, job["reference"] * samples)
     show(reference, job["picture"])
     fixed = ladder(renderer, error, reference, own, (max(samples // 2, 1), None),
                    lambda setting: (math.ceil(1.5 * setting[0]), None))
     adaptive = ladder(renderer, error, reference, own, (MOST * samples, COARSEST),
                       lambda setting: (setting[0], setting[1] / 2.0))
-    result = {"mean": reference.mean(axis=(0, 1)).tolist(), "samples": job.get("reference", 4) * samples,
+    result = {"mean": reference.mean(axis=(0, 1)).tolist(), "samples": job["reference"] * samples,
               "own": math.sqrt(own) / reference.mean(), "overhead": renderer.overhead_s,
               "fixed": fixed, "adaptive": adaptive}
     (pathlib.Path(job["folder"]) / "cycles.json").write_text(json.dumps(result))
