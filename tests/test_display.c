@@ -178,10 +178,48 @@ static void addresses_are_checked(void **state)
         test_refused(clshear_render(made->scene, settings, &film), CLSHEAR_BAD_ARGUMENT,
                      "is not HOST:PORT");
     }
+    clshear_settings_free(settings);
+}
+
+/* What the fixture's context has been alarmed of. */
+typedef struct alarms {
+    int count;
+    char last[512];
+} alarms;
+
+static void note_alarm(void *user, const char *line)
+{
+    alarms *told = user;
+    told->count++;
+    snprintf(told->last, sizeof told->last, "%s", line);
+}
+
+/* Renders with a viewer or a preview that is lost, which is told once, as an alarm and not as a
+ * warning. */
+static void expect_alarm(test_fixture *made, const clshear_settings *settings, const char *words)
+{
+    alarms told = {0};
     test_warnings();
-    test_set(settings, CLSHEAR_DISPLAY, "[::1]:1"); /* right, and nobody is there */
+    clshear_context_set_alarm(made->context, note_alarm, &told);
     clshear_film_free(test_render(made->scene, settings));
-    assert_non_null(strstr(test_warnings(), "display ::1:1: no viewer"));
+    clshear_context_set_alarm(made->context, NULL, NULL);
+    assert_int_equal(told.count, 1);
+    assert_non_null(strstr(told.last, words));
+    assert_string_equal(test_warnings(), "");
+}
+
+/* Those who want to hear nothing hear of it: the program prints alarms even with --quiet. */
+static void what_is_lost_is_an_alarm(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = settings_of(made, 1);
+    test_set(settings, CLSHEAR_DISPLAY, "[::1]:1"); /* right, and nobody is there */
+    expect_alarm(made, settings, "display ::1:1: no viewer");
+    clshear_settings_free(settings);
+    settings = settings_of(made, 64);
+    test_set(settings, CLSHEAR_PREVIEW, "%s", test_path("no/such/folder.png"));
+    test_set(settings, CLSHEAR_EVERY, "0"); /* each try fails, and one line is told */
+    expect_alarm(made, settings, "preview: ");
     clshear_settings_free(settings);
 }
 
@@ -248,6 +286,7 @@ int main(void)
         cmocka_unit_test(a_lost_viewer_stops_nothing),
         cmocka_unit_test(a_frozen_viewer_stops_nothing),
         cmocka_unit_test(addresses_are_checked),
+        cmocka_unit_test(what_is_lost_is_an_alarm),
         cmocka_unit_test(a_file_is_rewritten),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);

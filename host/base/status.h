@@ -43,8 +43,8 @@ cs_error *cs_thread_error(void);
         }                                                    \
     } while (0)
 
-/* The receiver of warnings; NULL `warn`: none. `alarm` receives those of work that may be lost;
- * NULL: `warn` does. */
+/* The receiver of warnings; NULL `warn`: none. `alarm` receives those of what was asked for and is
+ * lost; NULL: `warn` does. */
 typedef struct cs_log {
     void (*warn)(void *user, const char *line);
     void *user;

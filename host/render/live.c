@@ -21,7 +21,7 @@ static void name_picture(const cs_job *job, char *name, size_t size)
 
 static void lose_viewer(cs_job *job, const cs_error *reason)
 {
-    cs_warn(&job->scene->context->log, "%s; the render goes on without it", reason->message);
+    cs_alarm(&job->scene->context->log, "%s; the render goes on without it", reason->message);
     cs_viewer_close(job->live.viewer);
     job->live.viewer = NULL;
 }
@@ -65,8 +65,8 @@ static void keep(cs_job *job, clshear_film *film)
     cs_live *live = &job->live;
     const int fails = cs_film_write(film, cs_text(&job->settings, PREVIEW)) != CLSHEAR_OK;
     if (fails && !live->file_fails)
-        cs_warn(&job->scene->context->log, "preview: %s; the render goes on",
-                cs_thread_error()->message);
+        cs_alarm(&job->scene->context->log, "preview: %s; the render goes on",
+                 cs_thread_error()->message);
     live->file_fails = fails;
     live->kept_s = cs_now_s();
 }

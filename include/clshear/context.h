@@ -24,8 +24,9 @@ CLSHEAR_API void clshear_context_set_warning(clshear_context *context,
                                              void (*warn)(void *user, const char *line),
                                              void *user);
 
-/* Calls `alarm`, not the warning callback, with one line where a render goes on although its work
- * may be lost: its checkpoint cannot be written. NULL: the warning callback gets such lines. */
+/* Calls `alarm`, not the warning callback, with one line where a render goes on although something
+ * that was asked for is lost: its checkpoint or its preview cannot be written, or its viewer is not
+ * there or no more. NULL: the warning callback gets such lines. */
 CLSHEAR_API void clshear_context_set_alarm(clshear_context *context,
                                            void (*alarm)(void *user, const char *line), void *user);
 
