@@ -15,6 +15,7 @@
 
 #include "boxes.h"
 #include "shear.h"
+#include "stretch.h"
 
 #include "fp_contract_off.h"
 
@@ -23,6 +24,9 @@
 
 /* Circle of confusion, as a part of the motion, below which it is the motion that counts. */
 #define CS_LEAST_CONFUSION 0.015625f
+
+/* Part of the widest box below which another is left out of the fibre. */
+#define CS_LEAST_PART (1.0f / 64.0f)
 
 /* A point of pixel and lens, and a time of the shutter, 0 where it opens and 1 where it closes. */
 typedef struct cs_moving_sample {
@@ -151,6 +155,140 @@ static inline cs_moving_sample cs_moving_boxes(cs_moving_tuple z, cs_blur blur,
     return sample;
 }
 
+/* One line of the film, along which pixel, lens and time are three boxes whose sum is the fibre.
+ *
+ * across, narrow, tau: in [0, 1). `across` chooses the fibre, `narrow` the narrower of film and
+ * lens, `tau` the time. film_px, lens_px: widths of the chords, pixels; speed_px: above 0. */
+static inline cs_moving_axis cs_chain_line(cs_vfloat across, cs_vfloat narrow, cs_vfloat tau,
+                                           cs_vfloat film_px, cs_vfloat lens_px, cs_f32 speed_px)
+{
+    cs_vfloat speed = (cs_vfloat)(speed_px);
+    cs_vfloat thick = cs_max(film_px, lens_px);
+    cs_vfloat least = CS_LEAST_PART * cs_max(thick, speed);
+    cs_vfloat thin = cs_min(film_px, lens_px);
+    cs_vint alone = thin < least; /* so narrow that it may as well be left out of the fibre */
+    cs_vfloat safe = cs_max(thin, least);
+    cs_two_boxes others = cs_two_boxes_of(thick, speed);
+    cs_vfloat t = cs_three_boxes_quantile(safe, thick, speed, across);
+    cs_vfloat part = cs_box_given(t, safe, others, narrow);
+    cs_vfloat rest = alone ? cs_two_boxes_quantile(others, across) : t - safe * part;
+    part = alone ? narrow : part;
+    cs_vfloat low = cs_clamp((rest - thick) / speed, (cs_vfloat)(0.0f), (cs_vfloat)(1.0f));
+    cs_vfloat high = cs_clamp(rest / speed, low, (cs_vfloat)(1.0f));
+    cs_moving_axis axis;
+    axis.time = low + (high - low) * tau;
+    cs_vfloat other =
+        cs_clamp((rest - speed * axis.time) / thick, (cs_vfloat)(0.0f), (cs_vfloat)(1.0f));
+    axis.film = lens_px < film_px ? other : part;
+    axis.lens = lens_px < film_px ? part : other;
+    return axis;
+}
+
+/* A point of film and lens on its way through the map. */
+typedef struct cs_moving_point {
+    cs_vfloat width; /* of the rectangle of the film that it is in, pixels */
+    cs_vfloat height;
+    cs_vfloat x; /* pixels from the pixel's centre */
+    cs_vfloat y;
+    cs_vfloat u; /* lens units */
+    cs_vfloat v;
+} cs_moving_point;
+
+/* Moves a point by these distances along a heading. */
+static inline void cs_move(cs_moving_point *point, cs_heading to, cs_vfloat film_px, cs_vfloat lens)
+{
+    point->x += film_px * to.x;
+    point->y += film_px * to.y;
+    point->u += lens * to.u;
+    point->v += lens * to.v;
+}
+
+/* Its chords along a heading. */
+typedef struct cs_chords {
+    cs_stretch film;  /* pixels */
+    cs_stretch lens;  /* lens units */
+    cs_film_box box;  /* the film's, and the place in it */
+    cs_vfloat length; /* of the lens's */
+} cs_chords;
+
+static inline cs_chords cs_chords_of(const cs_moving_point *point, const cs_optics *optics,
+                                     cs_optics_table table, cs_heading to)
+{
+    cs_vfloat least = (cs_vfloat)(1e-6f);
+    cs_chords chords;
+    chords.film = cs_film_stretch(point->width, point->height, point->x, point->y, to);
+    chords.lens = cs_lens_stretch(optics, table, point->u, point->v, to);
+    chords.box.width = cs_max(chords.film.high - chords.film.low, least);
+    chords.box.place = cs_min(-chords.film.low / chords.box.width, (cs_vfloat)(1.0f));
+    chords.length = cs_max(chords.lens.high - chords.lens.low, least);
+    return chords;
+}
+
+/* The map along the motion. */
+static inline cs_vfloat cs_slide_along(cs_moving_point *point, cs_vfloat time,
+                                       const cs_optics *optics, cs_optics_table table,
+                                       cs_heading to, int film_first, cs_f32 speed_px)
+{
+    cs_chords at = cs_chords_of(point, optics, table, to);
+    cs_vfloat place = cs_min(-at.lens.low / at.length, (cs_vfloat)(1.0f));
+    cs_moving_axis axis =
+        cs_chain_line(film_first ? at.box.place : place, film_first ? place : at.box.place, time,
+                      at.box.width, at.length * to.blur, speed_px);
+    cs_move(point, to, at.film.low + at.box.width * axis.film, at.lens.low + at.length * axis.lens);
+    return axis.time;
+}
+
+/* The map across the motion, where time has no part. */
+static inline void cs_slide_across(cs_moving_point *point, const cs_optics *optics,
+                                   cs_optics_table table, cs_heading to, int film_first)
+{
+    cs_chords at = cs_chords_of(point, optics, table, to);
+    cs_vfloat middle = 0.5f * (at.lens.low + at.lens.high), lens = -middle;
+    cs_span span;
+    span.centre = (cs_vfloat)(0.0f);
+    span.length = at.length;
+    cs_vfloat film = cs_slide(at.box, span, to.blur, film_first, &lens);
+    cs_vfloat reach = 0.5f * at.length; /* which rounding may leave in focus */
+    cs_move(point, to, 0.5f * (at.film.low + at.film.high) + film,
+            middle + cs_clamp(lens, -reach, reach));
+}
+
+/* For all apertures with chords, and any filter. */
+static inline cs_moving_sample cs_moving_chords(cs_camera_sample tuple, cs_vfloat time,
+                                                const cs_optics *optics, cs_optics_table table,
+                                                cs_blur blur, cs_velocity velocity)
+{
+    cs_f32 speed = cs_sqrt(velocity.x * velocity.x + velocity.y * velocity.y);
+    cs_heading along = cs_heading_of(-velocity.x / speed, -velocity.y / speed, blur);
+    cs_heading across = cs_heading_of(-along.y, along.x, blur);
+    cs_f32 least = CS_FILM_FIRST * optics->filter_deviation;
+    int film_first = blur.x * blur.y < least * least;
+    cs_vuint first =
+        cs_hash_lanes(cs_as_vuint(tuple.x) + 0x9e3779b9u * cs_as_vuint(tuple.y) +
+                      0x85ebca6bu * cs_as_vuint(tuple.u) + 0xc2b2ae35u * cs_as_vuint(tuple.v));
+    cs_vuint second = cs_hash_lanes(first);
+    cs_film_box box =
+        cs_film_box_of(optics, table, film_first ? tuple.x : tuple.u, cs_level_of(first));
+    cs_film_box below =
+        cs_film_box_of(optics, table, film_first ? tuple.y : tuple.v, cs_level_of(second));
+    cs_moving_point at;
+    at.width = box.width;
+    at.height = below.width;
+    at.x = (box.place - 0.5f) * box.width;
+    at.y = (below.place - 0.5f) * below.width;
+    cs_lens_point(film_first ? tuple.u : tuple.x, film_first ? tuple.v : tuple.y, optics, table,
+                  &at.u, &at.v);
+    cs_moving_sample sample;
+    sample.time = cs_slide_along(&at, time, optics, table, along, film_first, speed);
+    cs_slide_across(&at, optics, table, across, film_first);
+    sample.point.x = at.x + 0.5f;
+    sample.point.y = at.y + 0.5f;
+    sample.point.u = at.u;
+    sample.point.v = at.v;
+    cs_clamp_to_filter(optics, &sample.point);
+    return sample;
+}
+
 /* Maps a packet of five numbers. tuple: film and lens, as for cs_shear. time: the fifth, in [0, 1).
  * velocity: of the surface on the film. The others as for cs_shear. */
 static inline cs_moving_sample cs_shear_moving(cs_camera_sample tuple, cs_vfloat time, cs_u32 mode,
@@ -163,6 +301,8 @@ static inline cs_moving_sample cs_shear_moving(cs_camera_sample tuple, cs_vfloat
     int sharp = cs_max(blur.x, blur.y) < CS_LEAST_CONFUSION * cs_max(speed, 1.0f);
     int square = optics->marginal == CS_MARGINAL_UNIFORM;
     cs_moving_sample sample;
+    if (mode == CS_SHEAR_EQUAL_AREA && cs_has_chord_map(optics) && speed >= CS_LEAST_MOTION)
+        return cs_moving_chords(tuple, time, optics, table, blur, velocity);
     if (mode != CS_SHEAR_EQUAL_AREA || !optics->has_closed_form || speed < CS_LEAST_MOTION ||
         (!sharp && !square)) {
         sample.point = cs_shear(tuple.x, tuple.y, tuple.u, tuple.v, mode, optics, table, shear);
