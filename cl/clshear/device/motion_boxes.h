@@ -14,7 +14,7 @@
 
 /* Part of the widest box below which another is left out of the fibre: it moves the fibre by little
  * and its place in the fibre would lose its digits. */
-#define CS_LEAST_PART 0.015625f
+#define CS_LEAST_PART 0.00390625f
 
 /* The five numbers in [0, 1) that a map starts from. a and b choose the fibre; c, d and tau choose
  * a place on it. */

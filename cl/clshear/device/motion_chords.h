@@ -8,9 +8,9 @@
  * hardly depends on that chord. The film's filter is a mixture of boxes as in chord_map.h.
  *
  * Each step keeps measure to rounding, because it keeps it while the rest is fixed. The second pair
- * and the time move the fibre by a mean square of at most 0.05 square pixels with a box filter, for
- * any blur and motion (tests/test_motion_map.c); with the time free it is a twelfth of the square
- * of the motion. */
+ * and the time move the fibre by a mean square of at most 0.02 square pixels with a box filter and
+ * 0.25 with a gaussian, for any blur and motion (tests/test_motion_map.c); with the time free it is
+ * a twelfth of the square of the motion. */
 #ifndef CLSHEAR_DEVICE_MOTION_CHORDS_H
 #define CLSHEAR_DEVICE_MOTION_CHORDS_H
 
@@ -91,8 +91,16 @@ static inline void cs_slide_across(cs_moving_point *point, const cs_optics *opti
             middle + cs_clamp(lens, -most, most));
 }
 
-/* The point that a tuple stands for before it slides. Up to a blur of CS_FILM_FIRST the first pair
- * is a point of the film, beyond it one of the lens. */
+/* Whether the first pair is a point of the film, not of the lens. It is where the film is the wider
+ * of the two; but where a filter's boxes differ in width and time is wider than they are, a place
+ * in a box of the film would not fix the fibre. */
+static inline int cs_begins_with_film(const cs_optics *optics, cs_blur blur, cs_f32 speed_px)
+{
+    cs_f32 least = CS_FILM_FIRST * optics->filter_deviation;
+    return blur.x * blur.y < least * least && (optics->filter_steps == 1u || speed_px < least);
+}
+
+/* The point that a tuple stands for before it slides. */
 static inline cs_moving_point cs_moving_point_of(const cs_camera_sample *tuple, int film_first,
                                                  const cs_optics *optics, cs_optics_table table)
 {
@@ -124,8 +132,7 @@ static inline cs_moving_sample cs_moving_chords(cs_camera_sample tuple, cs_vfloa
     cs_f32 speed_px = cs_sqrt(velocity.x * velocity.x + velocity.y * velocity.y);
     cs_heading along = cs_heading_of(-velocity.x / speed_px, -velocity.y / speed_px, blur);
     cs_heading across = cs_heading_of(-along.y, along.x, blur);
-    cs_f32 least = CS_FILM_FIRST * optics->filter_deviation;
-    int film_first = blur.x * blur.y < least * least;
+    int film_first = cs_begins_with_film(optics, blur, speed_px);
     cs_moving_point at = cs_moving_point_of(&tuple, film_first, optics, table);
     cs_moving_sample sample;
     sample.time = cs_slide_along(&at, time, optics, table, along, film_first, speed_px);
