@@ -15,6 +15,7 @@
 #define CLSHEAR_DEVICE_MOTION_CHORDS_H
 
 #include "chord_map.h"
+#include "disk_time.h"
 #include "motion_boxes.h"
 #include "stretch.h"
 
@@ -28,6 +29,9 @@ typedef struct cs_moving_point {
     cs_vfloat y;
     cs_vfloat u; /* lens units */
     cs_vfloat v;
+    cs_vfloat time;  /* in [0, 1] */
+    int film_first;  /* whether the first pair has chosen the film's place, not the lens's */
+    int is_on_fibre; /* whether it has chosen the fibre of that place and the time */
 } cs_moving_point;
 
 /* The point's chords along a heading. */
@@ -62,30 +66,35 @@ static inline void cs_move(cs_moving_point *point, cs_heading to, cs_vfloat film
     point->v += lens * to.v;
 }
 
-/* Slides film, lens and time along the motion. time: a number in [0, 1). Returns the time. */
-static inline cs_vfloat cs_slide_along(cs_moving_point *point, cs_vfloat time,
-                                       const cs_optics *optics, cs_optics_table table,
-                                       cs_heading to, int film_first, cs_f32 speed_px)
+/* Slides film, lens and time along the motion. along: the number in [0, 1) that has chosen the time
+ * on the fibre. */
+static inline void cs_slide_along(cs_moving_point *point, cs_vfloat along, const cs_optics *optics,
+                                  cs_optics_table table, cs_heading to, cs_f32 speed_px)
 {
     cs_chords at = cs_chords_of(point, optics, table, to);
-    cs_vfloat low, high;
-    cs_moving_axis axis =
-        cs_chain_axis(film_first ? at.box.place : at.place, film_first ? at.place : at.box.place,
-                      time, at.box.width, at.length * to.blur, (cs_vfloat)(speed_px), &low, &high);
+    cs_vfloat film_px = at.box.width, lens_px = at.length * to.blur;
+    cs_vfloat speed = (cs_vfloat)(speed_px), low, high;
+    cs_vfloat wide = point->film_first ? film_px : lens_px;
+    cs_vfloat place = point->film_first ? at.box.place : at.place;
+    cs_vfloat rank =
+        cs_two_boxes_below(cs_two_boxes_of(wide, speed), wide * place + speed * point->time);
+    rank = point->is_on_fibre ? rank : place;
+    cs_moving_axis axis = cs_chain_axis(rank, point->film_first ? at.place : at.box.place, along,
+                                        film_px, lens_px, speed, &low, &high);
     cs_move(point, to, at.film.low + at.box.width * axis.film, at.lens.low + at.length * axis.lens);
-    return axis.time;
+    point->time = axis.time;
 }
 
 /* Slides film and lens across the motion. */
 static inline void cs_slide_across(cs_moving_point *point, const cs_optics *optics,
-                                   cs_optics_table table, cs_heading to, int film_first)
+                                   cs_optics_table table, cs_heading to)
 {
     cs_chords at = cs_chords_of(point, optics, table, to);
     cs_vfloat middle = 0.5f * (at.lens.low + at.lens.high), lens = -middle;
     cs_span span;
     span.centre = (cs_vfloat)(0.0f);
     span.length = at.length;
-    cs_vfloat film = cs_slide(at.box, span, to.blur, film_first, &lens);
+    cs_vfloat film = cs_slide(at.box, span, to.blur, point->film_first, &lens);
     cs_vfloat most = 0.5f * at.length; /* which rounding may leave where the blur is tiny */
     cs_move(point, to, 0.5f * (at.film.low + at.film.high) + film,
             middle + cs_clamp(lens, -most, most));
@@ -100,9 +109,64 @@ static inline int cs_begins_with_film(const cs_optics *optics, cs_blur blur, cs_
     return blur.x * blur.y < least * least && (optics->filter_steps == 1u || speed_px < least);
 }
 
-/* The point that a tuple stands for before it slides. */
-static inline cs_moving_point cs_moving_point_of(const cs_camera_sample *tuple, int film_first,
-                                                 const cs_optics *optics, cs_optics_table table)
+/* Slowest motion, in parts of the lens while the shutter is open, for which the map of disk and
+ * time keeps its digits; a slower one hardly moves the fibre. */
+#define CS_LEAST_RATE 0.015625f
+
+/* The place and time of the fibre that (a, b) chooses, `along` on it, of a shape of these widths in
+ * pixels: a disk or else a square, stretched. Mirrors turn both signs of the motion, and the axis
+ * of the larger rate comes first. */
+static inline cs_timed_place cs_timed_place_of(cs_vfloat a, cs_vfloat b, cs_vfloat along,
+                                               int is_disk, cs_f32 width, cs_f32 height,
+                                               cs_velocity velocity)
+{
+    int mirror_x = velocity.x > 0.0f, mirror_y = velocity.y > 0.0f;
+    cs_f32 rate_x = (mirror_x ? velocity.x : -velocity.x) / width;
+    cs_f32 rate_y = (mirror_y ? velocity.y : -velocity.y) / height;
+    int swap = rate_y > rate_x;
+    a = mirror_x ? 1.0f - a : a;
+    b = mirror_y ? 1.0f - b : b;
+    cs_swap_if(swap, &a, &b);
+    cs_f32 larger = cs_max(rate_x, rate_y), smaller = cs_min(rate_x, rate_y);
+    cs_timed_place place = is_disk ? cs_disk_and_time(a, b, along, larger, smaller)
+                                   : cs_square_and_time(a, b, along, larger, smaller);
+    cs_swap_if(swap, &place.x, &place.y);
+    place.x *= mirror_x ? -width : width;
+    place.y *= mirror_y ? -height : height;
+    return place;
+}
+
+/* Puts the first pair's place, and the time, on the fibre that the pair chooses, where there is a
+ * map for it. along: in [0, 1). */
+static inline void cs_put_on_fibre(const cs_camera_sample *tuple, cs_vfloat along,
+                                   const cs_optics *optics, cs_blur blur, cs_velocity velocity,
+                                   cs_moving_point *point)
+{
+    int is_disk = optics->marginal == (cs_u32)CS_MARGINAL_DISK && !point->film_first;
+    cs_f32 width = point->film_first ? optics->filter_width : blur.x;
+    cs_f32 height = point->film_first ? optics->filter_width : blur.y;
+    cs_f32 rate =
+        cs_max(cs_max(velocity.x, -velocity.x) / width, cs_max(velocity.y, -velocity.y) / height);
+    int is_square = point->film_first ? optics->filter_steps == 1u
+                                      : optics->marginal == (cs_u32)CS_MARGINAL_UNIFORM;
+    if (!is_square && !(is_disk && rate > CS_LEAST_RATE)) return;
+    cs_timed_place place =
+        cs_timed_place_of(tuple->x, tuple->y, along, is_disk, width, height, velocity);
+    point->is_on_fibre = 1;
+    point->time = place.time;
+    if (point->film_first) {
+        point->x = place.x;
+        point->y = place.y;
+    } else {
+        point->u = blur.sign / blur.x * place.x;
+        point->v = blur.sign / blur.y * place.y;
+    }
+}
+
+/* The point that a tuple stands for before it slides. along: in [0, 1). */
+static inline cs_moving_point cs_moving_point_of(const cs_camera_sample *tuple, cs_vfloat along,
+                                                 const cs_optics *optics, cs_optics_table table,
+                                                 int film_first)
 {
     cs_vuint first =
         cs_hash_lanes(cs_as_vuint(tuple->x) + 0x9e3779b9u * cs_as_vuint(tuple->y) +
@@ -120,6 +184,9 @@ static inline cs_moving_point cs_moving_point_of(const cs_camera_sample *tuple, 
     point.u = cs_marginal_quantile(&across, film_first ? tuple->u : tuple->x);
     cs_chord chord = cs_chord_at(optics, table, &across, point.u);
     point.v = chord.centre + chord.length * ((film_first ? tuple->v : tuple->y) - 0.5f);
+    point.time = along;
+    point.film_first = film_first;
+    point.is_on_fibre = 0;
     return point;
 }
 
@@ -133,10 +200,12 @@ static inline cs_moving_sample cs_moving_chords(cs_camera_sample tuple, cs_vfloa
     cs_heading along = cs_heading_of(-velocity.x / speed_px, -velocity.y / speed_px, blur);
     cs_heading across = cs_heading_of(-along.y, along.x, blur);
     int film_first = cs_begins_with_film(optics, blur, speed_px);
-    cs_moving_point at = cs_moving_point_of(&tuple, film_first, optics, table);
+    cs_moving_point at = cs_moving_point_of(&tuple, time, optics, table, film_first);
+    cs_put_on_fibre(&tuple, time, optics, blur, velocity, &at);
+    cs_slide_along(&at, time, optics, table, along, speed_px);
+    cs_slide_across(&at, optics, table, across);
     cs_moving_sample sample;
-    sample.time = cs_slide_along(&at, time, optics, table, along, film_first, speed_px);
-    cs_slide_across(&at, optics, table, across, film_first);
+    sample.time = at.time;
     sample.point.x = at.x + 0.5f;
     sample.point.y = at.y + 0.5f;
     sample.point.u = at.u;
