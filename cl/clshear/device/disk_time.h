@@ -15,7 +15,8 @@
 #include "fp_contract_off.h"
 
 enum {
-    CS_SLANT_STEPS = 3 /* Halley's steps towards the line */
+    CS_FIBRE_STEPS = 2, /* Halley's steps towards p, at most */
+    CS_SLANT_STEPS = 3  /* towards q, at most */
 };
 
 /* The part of the disk between two values of u. */
@@ -77,11 +78,16 @@ CS_INLINED cs_slant cs_slant_of(const cs_slab_of_times *slab, cs_vfloat slope, c
     cs_two_boxes boxes = cs_two_boxes_of(height, cs_max(rise, (cs_vfloat)(1e-6f)));
     *offset = cs_two_boxes_quantile(boxes, mass) - 0.5f * (height + rise) - slope * middle;
     *offset = cs_max(*offset, least + 0.02f * height);
-    for (int step = 0; step < CS_SLANT_STEPS; step++) {
+    cs_vint rough = mass >= 0.0f;
+    for (int step = 0; step < CS_SLANT_STEPS && cs_any(rough); step++) {
         cs_slant at = cs_slant_at(slab, slope, *offset);
         cs_root_step move = cs_root_step_of(root, scale * at.below, scale * (at.last - at.first),
                                             scale * at.change);
-        *offset = cs_clamp(*offset - move.back, least, cs_abs(slope) + CS_DISK_RADIUS);
+        /* Never all the way to the end, where the slope says nothing. */
+        cs_vfloat end = least + 0.1f * (*offset - least);
+        cs_vfloat next = cs_clamp(*offset - move.back, end, (cs_vfloat)(4.0f));
+        *offset = rough ? next : *offset;
+        rough = move.rough;
     }
     return cs_slant_at(slab, slope, *offset);
 }
@@ -93,9 +99,12 @@ static inline cs_timed_place cs_disk_and_time(cs_vfloat across, cs_vfloat beside
     cs_f32 blur = 1.0f / rate_u, slope = rate_v / rate_u;
     cs_vfloat mass = cs_disk_fibre_mass(across), root = cs_sqrt(mass);
     cs_vfloat t = cs_disk_fibre_guess(mass, blur);
-    for (int step = 0; step < 2; step++) {
-        cs_vint rough;
-        t = cs_disk_fibre_step(t, root, blur, &rough);
+    cs_vint rough = mass >= 0.0f;
+    for (int step = 0; step < CS_FIBRE_STEPS && cs_any(rough); step++) {
+        cs_vint again;
+        cs_vfloat next = cs_disk_fibre_step(t, root, blur, &again);
+        t = rough ? next : t;
+        rough = again;
     }
     t = across > 0.5f ? -t : t; /* p = rate_u * (t + 1/2) */
     cs_slab_of_times slab;

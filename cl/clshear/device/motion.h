@@ -40,7 +40,7 @@ static inline cs_moving_sample cs_shear_moving(cs_camera_sample tuple, cs_vfloat
         sample.time = time;
         return sample;
     }
-    if (0 && cs_has_chain(optics, blur, speed_px)) {
+    if (cs_has_chain(optics, blur, speed_px)) {
         sample = cs_moving_boxes(tuple, time, blur, velocity);
         if (optics->marginal == (cs_u32)CS_MARGINAL_DISK)
             cs_disk_from_square(&sample.point.u, &sample.point.v);
