@@ -6,10 +6,9 @@
  *
  * Crops all over a picture of PX x PX pixels, focus 900. Columns: variance of the mean of one
  * pattern of N samples, averaged over the colours of the darker 95 % of the pixels (the others lie
- * next to the light); for N = --least (64) and fourfold up
- * to --most; and its slope. Below: the gain of the
- * sheared `sobol` over `mj` and over the best unsheared sampler, mean and standard error over K
- * seeds with 8 patterns a pixel each. */
+ * next to the light); for N = --least and fourfold up to --most (64 to 1024); and its slope. Below:
+ * the gain of the sheared `sobol` over `mj` and over the best unsheared sampler, mean and standard
+ * error over K seeds with 8 patterns a pixel each. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

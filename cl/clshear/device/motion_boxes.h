@@ -1,4 +1,5 @@
-/* The chain: the shear of lens and time for a square lens and a box filter one pixel wide.
+/* The chain: the shear of lens and time for a square lens, or for none, and a box filter one pixel
+ * wide.
  *
  * Along an axis of the film, pixel, lens and time are three boxes, and their sum is the fibre. The
  * x axis draws its fibre and leaves an interval of times, the y axis draws its own from the motion

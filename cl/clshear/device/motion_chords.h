@@ -1,16 +1,21 @@
-/* The shear of lens and time for disks, polygons and squares, with any filter, without any equation
- * to solve.
+/* The shear of lens and time for disks, polygons and squares, with any filter.
  *
- * Where all but their places along one line is fixed, film, lens and time are uniform on chords of
- * that line. Along the motion these are three boxes, whose sum the chain draws (motion_boxes.h);
- * across it the time has no part, and two boxes slide as at rest (chord_map.h). Along comes first:
- * the lens's place there depends on the time, and its chord across with it, but what slides across
- * hardly depends on that chord. The film's filter is a mixture of boxes as in chord_map.h.
+ * First the wider of film and lens is put on the fibre that the first pair chooses, with the time
+ * (timed_place.h, disk_time.h). Then the narrower joins by sliding. Where all but their places
+ * along one line is fixed, film, lens and time are uniform on chords of that line. Along the motion
+ * these are three boxes: the fibre goes to where their sum has the rank that the sum of the first
+ * two had (cs_chain_axis). Across it the time has no part, and two boxes slide as at rest
+ * (chord_map.h). Along comes first: the lens's place there depends on the time, and its chord
+ * across with it, but what slides across hardly depends on that chord. The filter is a mixture of
+ * boxes as in chord_map.h.
  *
- * Each step keeps measure to rounding, because it keeps it while the rest is fixed. The second pair
- * and the time move the fibre by a mean square of at most 0.02 square pixels with a box filter and
- * 0.25 with a gaussian, for any blur and motion (tests/test_motion_map.c); with the time free it is
- * a twelfth of the square of the motion. */
+ * A polygon, a box of such a mixture, and a disk that hardly moves have no map to their fibre with
+ * the time: their place in the chord along the motion takes the place of the rank.
+ *
+ * Each step keeps measure to rounding, because it keeps it while the rest is fixed. The other three
+ * numbers move the fibre by a mean square of at most 0.02 square pixels with a box filter and 0.25
+ * with a gaussian, for any blur and motion (tests/test_motion_map.c); with the time free it is a
+ * twelfth of the square of the motion. */
 #ifndef CLSHEAR_DEVICE_MOTION_CHORDS_H
 #define CLSHEAR_DEVICE_MOTION_CHORDS_H
 
@@ -20,6 +25,10 @@
 #include "stretch.h"
 
 #include "fp_contract_off.h"
+
+/* Slowest motion, in parts of the lens while the shutter is open, for which the map of disk and
+ * time keeps its digits; a slower one hardly moves the fibre. */
+#define CS_LEAST_RATE 0.015625f
 
 /* A point of film and lens on its way through the map. */
 typedef struct cs_moving_point {
@@ -108,10 +117,6 @@ static inline int cs_begins_with_film(const cs_optics *optics, cs_blur blur, cs_
     cs_f32 least = CS_FILM_FIRST * optics->filter_deviation;
     return blur.x * blur.y < least * least && (optics->filter_steps == 1u || speed_px < least);
 }
-
-/* Slowest motion, in parts of the lens while the shutter is open, for which the map of disk and
- * time keeps its digits; a slower one hardly moves the fibre. */
-#define CS_LEAST_RATE 0.015625f
 
 /* The place and time of the fibre that (a, b) chooses, `along` on it, of a shape of these widths in
  * pixels: a disk or else a square, stretched. Mirrors turn both signs of the motion, and the axis
