@@ -1,15 +1,14 @@
 /* Prints a Markdown table of variances, with and without the shear of lens and time. The scene is a
  * Cornell box with a checkered wall, whose camera moves while the shutter is open.
  *
- *   bench_motion [--scene FILE] [--aperture square|disk] [--lens-radius R] [--move-x X] [--move-y
- * Y]
- *                [--most N] [--seeds K] [--oracle RULE] [--size PX]
+ *   bench_motion [--scene FILE] [--aperture KIND] [--lens-radius R] [--move-x X] [--move-y Y]
+ *                [--least N] [--most N] [--seeds K] [--oracle RULE] [--size PX]
  *
  * Crops all over a picture of PX x PX pixels, focus 900. Columns: variance of the mean of one
  * pattern of N samples, averaged over the colours of the darker 95 % of the pixels (the others lie
- * next to the light); for N = 64, 256 ... up to --most; and its slope. Below: the gain of the
- * sheared `sobol` over `mj` and over the best unsheared sampler, mean and standard error over K
- * seeds with 8 patterns a pixel each. */
+ * next to the light); for N = --least and fourfold up to --most (64 to 1024); and its slope. Below:
+ * the gain of the sheared `sobol` over `mj` and over the best unsheared sampler, mean and standard
+ * error over K seeds with 8 patterns a pixel each. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -83,9 +82,15 @@ static void render_crop(clshear_scene *scene, clshear_settings *settings, int cr
 typedef struct table {
     double variance[WAYS][MOST_SIZES][MOST_SEEDS];
     double speed_px[PIXELS];
+    int least; /* samples of the first size; each has four times as many as the one before it */
     int sizes;
     int seeds;
 } table;
+
+static double samples_of(const table *t, int index)
+{
+    return t->least * pow(4.0, index);
+}
 
 /* Fills the table. A pixel is left out by its mean over all renders so far, so the first render
  * runs twice, and only its second run counts. */
@@ -99,7 +104,7 @@ static void measure(clshear_scene *scene, clshear_settings *settings, int size, 
         bench_set_text(settings, CLSHEAR_SAMPLER, ways[way][0]);
         bench_set_text(settings, CLSHEAR_SHEAR, ways[way][1]);
         bench_set(settings, CLSHEAR_SEED, 100.0 + seed);
-        bench_set(settings, CLSHEAR_SPP, PATTERNS * pow(4.0, 3.0 + index));
+        bench_set(settings, CLSHEAR_SPP, PATTERNS * samples_of(t, index));
         for (int crop = 0; crop < CROPS; crop++)
             render_crop(scene, settings, crop, size, &p, t->speed_px);
         const double limit = limit_of(&p);
@@ -133,7 +138,7 @@ static void print(const table *t)
 {
     printf("| |");
     for (int i = 0; i < t->sizes; i++)
-        printf(" N = %.0f |", pow(4.0, 3 + i));
+        printf(" N = %.0f |", samples_of(t, i));
     printf(" slope |\n|---|");
     for (int i = 0; i <= t->sizes; i++)
         printf("---|");
@@ -163,22 +168,23 @@ int main(int argc, char **argv)
 {
     const char *path = "scenes/cornell.obj", *aperture = "square", *oracle = NULL;
     double radius = 30.0, move[2] = {11.0, 5.5};
-    int most = 1024, seeds = 6, size = 512;
+    int least = 64, most = 1024, seeds = 6, size = 512;
     const bench_flag flags[] = {
         {"scene", &path, NULL, NULL, NULL},     {"aperture", &aperture, NULL, NULL, NULL},
         {"oracle", &oracle, NULL, NULL, NULL},  {"lens-radius", NULL, NULL, NULL, &radius},
         {"move-x", NULL, NULL, NULL, &move[0]}, {"move-y", NULL, NULL, NULL, &move[1]},
         {"most", NULL, NULL, &most, NULL},      {"seeds", NULL, NULL, &seeds, NULL},
-        {"size", NULL, NULL, &size, NULL}};
+        {"size", NULL, NULL, &size, NULL},      {"least", NULL, NULL, &least, NULL}};
     static table t;
     clshear_context *context = NULL;
     clshear_scene *scene = NULL;
     bench_read_flags(argc, argv, flags, sizeof flags / sizeof *flags);
     t.seeds = seeds < 2 ? 2 : seeds > MOST_SEEDS ? MOST_SEEDS : seeds;
-    for (int n = 64; n <= most && t.sizes < MOST_SIZES; n *= 4)
+    t.least = least < 1 ? 1 : least;
+    for (int n = t.least; n <= most && t.sizes < MOST_SIZES; n *= 4)
         t.sizes++;
     if (t.sizes == 0 || size < ACROSS * CROP) {
-        fprintf(stderr, "bench_motion: --most must be 64 or more, --size %d or more\n",
+        fprintf(stderr, "bench_motion: --most must be --least or more, --size %d or more\n",
                 ACROSS * CROP);
         return 2;
     }

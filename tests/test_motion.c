@@ -308,15 +308,17 @@ static double dark_variance(const clshear_film *film)
 }
 
 /* The shear of lens and time takes more than half of the variance off that of unsheared
- * multi-jittered samples at N = 64; measured 3 or more times. Each mean is over 547 pixels with 7
- * degrees of freedom, so its relative error is below 10 %. */
+ * multi-jittered samples at N = 64, with a square lens and a round one; measured 2.6 times and
+ * more. Each mean is over 547 pixels with 7 degrees of freedom, so its relative error is below 10
+ * %. */
 static void the_shear_of_time_lowers_the_variance(void **state)
 {
     test_fixture *made = *state;
     double variance[2];
-    for (int sheared = 0; sheared < 2; sheared++) {
+    for (int way = 0; way < 4; way++) {
+        const int sheared = way % 2;
         clshear_settings *settings = test_settings(made->settings, SIDE, SIDE, 8 * 64);
-        test_set(settings, CLSHEAR_APERTURE, "square");
+        test_set(settings, CLSHEAR_APERTURE, way < 2 ? "square" : "disk");
         test_set(settings, CLSHEAR_REPLICATES, "8");
         test_set(settings, CLSHEAR_SAMPLER, sheared ? "sz" : "mj");
         test_set(settings, CLSHEAR_SHEAR, sheared ? "equal-area" : "none");
@@ -326,9 +328,10 @@ static void the_shear_of_time_lowers_the_variance(void **state)
         variance[sheared] = dark_variance(film);
         clshear_film_free(film);
         clshear_settings_free(settings);
+        if (!sheared) continue;
+        print_message("gain over mj: %.2f\n", variance[0] / variance[1]);
+        assert_above(variance[0], 2.0 * variance[1]);
     }
-    print_message("gain over mj: %.2f\n", variance[0] / variance[1]);
-    assert_above(variance[0], 2.0 * variance[1]);
 }
 
 /* Ramps that take more than all of the time are refused. */

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "clshear/analysis.h"
+#include "clshear/device/motion.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -205,12 +206,53 @@ static void pixels_are_predicted(void **state)
     free(p.rgb);
 }
 
+/* With ramps the shear follows the velocity of the middle of the exposure: samples go where the map
+ * takes them with 3/4 of the velocity, for ramps of a quarter. */
+static void ramps_shear_by_the_velocity_of_the_middle(void **state)
+{
+    test_fixture *made = *state;
+    enum {
+        SAMPLES = 64
+    };
+    const float velocity[2] = {-9.0f, 4.0f};
+    const cs_velocity middle = {0.75f * velocity[0], 0.75f * velocity[1]};
+    clshear_settings *settings = test_settings(made->settings, 24, 24, 4);
+    const cs_view view = {.aperture = CLSHEAR_APERTURE_DISK};
+    cs_optics_tables optics = test_optics(&view, CLSHEAR_FILTER_BOX, 0.0f);
+    float samples[SAMPLES][5], places[SAMPLES][5] = {{0}}, rgb[2][3 * SAMPLES];
+    int equal = 0;
+    test_set(settings, CLSHEAR_LENS_RADIUS, "0");
+    test_set(settings, CLSHEAR_CAMERA_TO, "330,250,780,340,290,0");
+    test_set(settings, CLSHEAR_SHUTTER_RAMPS, "0.25,0.25");
+    for (int i = 0; i < SAMPLES; i++) {
+        for (int d = 0; d < 5; d++)
+            samples[i][d] = (float)((i * (2 * d + 3) + 11 * d) % SAMPLES) / SAMPLES;
+        const float *s = samples[i];
+        const cs_camera_sample tuple = {s[0], s[1], s[2], s[3]};
+        const cs_moving_sample at = cs_shear_moving(
+            tuple, s[4], CS_SHEAR_EQUAL_AREA, &optics.optics, optics.table.items, 0.0f, middle);
+        places[i][0] = at.point.x;
+        places[i][1] = at.point.y;
+        places[i][4] = at.time;
+    }
+    test_ok(clshear_moving_radiance_of_samples(made->scene, settings, 9, 13, 0.0f, velocity,
+                                               samples[0], SAMPLES, rgb[0]));
+    test_ok(clshear_moving_radiance(made->scene, settings, 9, 13, places[0], SAMPLES, rgb[1]));
+    for (int i = 0; i < SAMPLES; i++)
+        equal += fabsf(rgb[0][3 * i] - rgb[1][3 * i]) <= 1e-4f * rgb[1][3 * i];
+    assert_at_least(equal, SAMPLES - 2); /* rounding may move two of them over an edge */
+    cs_optics_free(&optics);
+    clshear_settings_free(settings);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(energies_are_in_their_parts),
         cmocka_unit_test(wrong_arguments_are_refused),
         cmocka_unit_test_setup_teardown(pixels_are_predicted, test_open_cornell, test_close),
+        cmocka_unit_test_setup_teardown(ramps_shear_by_the_velocity_of_the_middle,
+                                        test_open_cornell, test_close),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -129,13 +129,12 @@ static cs_velocity velocity_of_rule(const cs_job *job, size_t index, cs_rule rul
     return velocity_at_rest(job, index, seen);
 }
 
-/* The same for the shear, which takes the exposure to be even: while the shutter is open, as it is
- * in the middle of a trapezoid, so much of the motion comes with a part of the exposure. */
-static cs_velocity velocity_while_open(const cs_job *job, size_t index, cs_rule rule)
+/* While the shutter is open, as it is in the middle of a trapezoid, so much of the motion comes
+ * with a part of the exposure. */
+cs_velocity cs_motion_exposed(const cs_job *job, cs_velocity velocity)
 {
     const cs_shutter shutter = cs_motion_shutter(job);
     const cs_f32 whole = 1.0f - 0.5f * (shutter.opening + shutter.closing);
-    cs_velocity velocity = velocity_of_rule(job, index, rule);
     velocity.x *= whole;
     velocity.y *= whole;
     return velocity;
@@ -151,7 +150,7 @@ clshear_status cs_motion_upload(const cs_job *job, const uint8_t *rules, cs_buff
     CS_REQUIRE(used != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
                job->pixel_count);
     for (size_t i = 0; i < job->pixel_count; i++)
-        used[i] = velocity_while_open(job, i, (cs_rule)rules[i]);
+        used[i] = cs_motion_exposed(job, velocity_of_rule(job, i, (cs_rule)rules[i]));
     CS_TRY(cs_buffer_create(job->scene->context->device, job->pixel_count * sizeof *used, used,
                             buffer, error));
 done:

@@ -7,6 +7,10 @@
 /* The shutter of the settings. */
 cs_shutter cs_motion_shutter(const cs_job *job);
 
+/* The velocity for a shear, whose time is a part of the exposure and even, from one in pixels while
+ * the shutter is open: as in the middle of a trapezoid. */
+cs_velocity cs_motion_exposed(const cs_job *job, cs_velocity velocity);
+
 /* Makes the cameras of the shutter from `view`, the camera where it opens. The job's camera must be
  * complete. Sets job->moves. */
 clshear_status cs_motion_begin(cs_job *job, const cs_view *view, cs_error *error);

@@ -5,6 +5,7 @@
 
 #include "kernels/launch.h"
 #include "oracle/oracle.h"
+#include "render/motion.h"
 #include "render/radiance.h"
 #include "render/render_job.h"
 
@@ -157,7 +158,10 @@ clshear_status cs_radiance_of_samples(clshear_scene *scene, const clshear_settin
                     .lens_scale = 1.0f,
                     .dimensions = dimensions};
     clshear_status status = prepare(&e, scene, settings, x, y, count, error);
-    if (status == CLSHEAR_OK) status = evaluate_all(&e, samples, count, rgb, error);
+    if (status == CLSHEAR_OK) {
+        e.velocity_px = cs_motion_exposed(&e.job, e.velocity_px);
+        status = evaluate_all(&e, samples, count, rgb, error);
+    }
     release(&e);
     return status;
 }

@@ -218,7 +218,8 @@ CLSHEAR_API clshear_status clshear_moving_radiance(clshear_scene *scene,
                                                    const float *points, size_t count, float *rgb);
 
 /* The same at samples of five coordinates, after the shear of pixel, lens and time by `shear_px`
- * and a velocity on the film, in pixels while the shutter is open. */
+ * and a velocity on the film, in pixels while the shutter is open. With ramps the shear follows the
+ * velocity in the middle of the exposure, as that of a render does. */
 CLSHEAR_API clshear_status clshear_moving_radiance_of_samples(
     clshear_scene *scene, const clshear_settings *settings, int x, int y, float shear_px,
     const float velocity_px[2], const float *samples, size_t count, float *rgb);

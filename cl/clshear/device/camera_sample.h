@@ -1,4 +1,4 @@
-/* A point of the pixel and the lens, and the blur that a shear stands for. */
+/* A point of the pixel and the lens, a time with it, and the blur that a shear stands for. */
 #ifndef CLSHEAR_DEVICE_CAMERA_SAMPLE_H
 #define CLSHEAR_DEVICE_CAMERA_SAMPLE_H
 
@@ -19,6 +19,15 @@ typedef struct cs_velocity {
     cs_f32 x;
     cs_f32 y;
 } cs_velocity;
+
+/* A point of pixel and lens, and a time of the shutter, 0 where it opens and 1 where it closes. */
+typedef struct cs_moving_sample {
+    cs_camera_sample point;
+    cs_vfloat time;
+} cs_moving_sample;
+
+/* Motion, in pixels while the shutter is open, below which a surface counts as at rest. */
+#define CS_LEAST_MOTION 1e-3f
 
 /* Blur, in pixels, below which a surface counts as in focus: the pixel's own width hides it, and
  * the maps divide by it. */

@@ -92,7 +92,8 @@ static clshear_status find_slope(const slice_job *job, clshear_scene *scene, sli
     const double *pixel = job->pixel.items;
     const char *projection = job->projection.items[0];
     float shear = 0.0f, velocity[2] = {0.0f, 0.0f};
-    double anamorphic = 1.0;
+    double anamorphic = 1.0, ramps[2] = {0.0, 0.0};
+    size_t count = 0;
     int moves = 0;
     if (job->no_line) return CLSHEAR_OK;
     clshear_status status =
@@ -102,6 +103,11 @@ static clshear_status find_slope(const slice_job *job, clshear_scene *scene, sli
             clshear_pixel_motion(scene, settings, (int)pixel[0], (int)pixel[1], &moves, velocity);
     if (status == CLSHEAR_OK)
         status = clshear_settings_get_number(settings, CLSHEAR_ANAMORPHIC, &anamorphic);
+    if (status == CLSHEAR_OK)
+        status = clshear_settings_get_numbers(settings, CLSHEAR_SHUTTER_RAMPS, ramps, 2, &count);
+    /* Time is the part of the exposure: where the shutter is all open, less of the motion. */
+    for (int i = 0; i < 2; i++)
+        velocity[i] *= (float)(1.0 - 0.5 * (ramps[0] + ramps[1]));
     const double extent = (double)clshear_lens_extent(settings) * (double)shear;
     if (strcmp(projection, "xu") == 0) slice->slope = extent / anamorphic;
     if (strcmp(projection, "yv") == 0) slice->slope = extent;
