@@ -6,10 +6,7 @@
 #include "pattern/pattern.h"
 #include "render/render_job.h"
 #include "render/resume.h"
-
-enum {
-    SLICE = 1 << 16 /* pixels on their way at once */
-};
+#include "render/visit.h"
 
 /* Samples of a beginning: an eighth of a pattern, but enough to tell something. */
 static cs_u32 beginning_of(cs_u32 pattern)
@@ -65,29 +62,6 @@ void cs_adaptive_free(cs_adaptive *adaptive)
     free(adaptive->aov_means);
 }
 
-/* What is done to the state of a pixel on the host. */
-typedef struct change {
-    void (*apply)(cs_job *job, void *user, size_t index, cs_pixel *pixel);
-    void *user;
-} change;
-
-static clshear_status change_pixels(cs_job *job, const change *change, cs_error *error)
-{
-    clshear_status status = CLSHEAR_OK;
-    cs_pixel *slice = malloc(SLICE * sizeof *slice);
-    CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    for (size_t first = 0; first < job->pixel_count; first += SLICE) {
-        const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
-        CS_TRY(cs_pixels_read(&job->pixels, first, count, slice, error));
-        for (size_t i = 0; i < count; i++)
-            change->apply(job, change->user, first + i, &slice[i]);
-        CS_TRY(cs_pixels_write(&job->pixels, first, count, slice, error));
-    }
-done:
-    free(slice);
-    return status;
-}
-
 /* Where a beginning's statistics go, each a value for each pixel. */
 typedef struct finding {
     cs_exact_sum *sums;
@@ -120,7 +94,7 @@ static clshear_status draw_beginning(cs_job *job, cs_pass *pass, cs_u32 replicat
     clshear_status status = CLSHEAR_OK;
     const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
     const cs_u32 half = job->adaptive.begin / 2;
-    const change taking = {take_out, found};
+    const cs_visit taking = {take_out, found, 1};
     cs_batch batch = {0};
     for (cs_u32 part = 0; part < 2; part++) {
         const cs_pattern pattern = cs_pattern_of(job->pattern.sampler, part * half, half);
@@ -129,7 +103,7 @@ static clshear_status draw_beginning(cs_job *job, cs_pass *pass, cs_u32 replicat
         CS_TRY(cs_pass_replicate(pass, &batch, 1, replicate, error));
         cs_batch_free(&batch);
     }
-    CS_TRY(change_pixels(job, &taking, error));
+    CS_TRY(cs_visit_pixels(job, &taking, error));
     CS_TRY(cs_adaptive_take_aovs(job, replicate, error));
     job->adaptive.drawn++;
 done:
@@ -225,9 +199,9 @@ static clshear_status draw_replicate(cs_job *job, cs_pass *pass, cs_u32 replicat
 {
     clshear_status status = CLSHEAR_OK;
     cs_share *share = &job->adaptive.shares[replicate];
-    const change putting = {put_back, share};
+    const cs_visit putting = {put_back, share, 1};
     CS_TRY(make_batches(job, share, error));
-    CS_TRY(change_pixels(job, &putting, error));
+    CS_TRY(cs_visit_pixels(job, &putting, error));
     CS_TRY(cs_adaptive_put_aovs(job, replicate, error));
     job->adaptive.begun = replicate + 1;
     CS_TRY(cs_resume_begin(job, replicate, error));
