@@ -46,19 +46,20 @@ typedef struct measure {
 
 /* V and W of allocate.h. */
 typedef struct errors {
-    double v, w;
+    cs_f32 v, w;
     int is_dark;
 } errors;
 
 static errors errors_of(const cs_pilot_picture *pilot, const measure *by, size_t pixel)
 {
     const surroundings at = surroundings_of(pilot, pixel);
-    return (errors){.v = at.variance + by->overlooked * at.contrast * at.contrast,
-                    .w = 1.0 / (at.intensity * at.intensity + by->dark),
+    return (errors){.v = (cs_f32)(at.variance + by->overlooked * at.contrast * at.contrast),
+                    .w = (cs_f32)(1.0 / (at.intensity * at.intensity + by->dark)),
                     .is_dark = at.intensity < 0.5 * by->level};
 }
 
-static measure measure_of(const cs_pilot_picture *pilot)
+/* Notes V and W of every pixel in `all`. */
+static measure measure_of(const cs_pilot_picture *pilot, errors *all)
 {
     const size_t pixels = (size_t)pilot->width * (size_t)pilot->height;
     /* A feature missed by n samples has an area of about 1/n. Within it, patterns of s samples have
@@ -69,9 +70,9 @@ static measure measure_of(const cs_pilot_picture *pilot)
         by.level += fabs((double)pilot->intensity[i]) / (double)pixels;
     by.dark = 1e-4 * by.level * by.level + 1e-30;
     for (size_t i = 0; i < pixels; i++) {
-        const errors at = errors_of(pilot, &by, i);
-        by.absolute += at.v;
-        by.relative += at.v * at.w;
+        all[i] = errors_of(pilot, &by, i);
+        by.absolute += (double)all[i].v;
+        by.relative += (double)all[i].v * (double)all[i].w;
     }
     return by;
 }
@@ -99,13 +100,15 @@ typedef struct census {
 /* The bin of a pixel with these errors. */
 static int bin_of(const measure *by, errors at)
 {
-    const double share = at.v / (by->absolute + 1e-300) + at.v * at.w / (by->relative + 1e-300);
+    const double v = (double)at.v, w = (double)at.w;
+    const double share = v / (by->absolute + 1e-300) + v * w / (by->relative + 1e-300);
     const double importance = 0.4 * log2(share + 1e-300);
     const double bin = (importance - LOWEST) * BINS_PER_OCTAVE;
     return bin < 0.0 ? 0 : bin < BINS ? (int)bin : BINS - 1;
 }
 
-static void count_pixels(const cs_pilot_picture *pilot, const measure *by, census *all)
+static void count_pixels(const cs_pilot_picture *pilot, const measure *by, const errors *found,
+                         census *all)
 {
     const size_t pixels = (size_t)pilot->width * (size_t)pilot->height;
     for (size_t i = 0; i < pixels; i++) {
@@ -113,11 +116,11 @@ static void count_pixels(const cs_pilot_picture *pilot, const measure *by, censu
             all->certain++;
             continue;
         }
-        const errors at = errors_of(pilot, by, i);
+        const errors at = found[i];
         crowd *mine = (at.is_dark ? all->dark : all->bright) + bin_of(by, at);
         mine->pixels++;
-        mine->absolute += at.v;
-        mine->relative += at.v * at.w;
+        mine->absolute += (double)at.v;
+        mine->relative += (double)at.v * (double)at.w;
     }
 }
 
@@ -205,16 +208,18 @@ cs_u32 cs_power_of_two(cs_u32 count)
 clshear_status cs_allocate_samples(const cs_pilot_picture *pilot, const cs_range *range,
                                    cs_u32 *samples, cs_error *error)
 {
+    clshear_status status = CLSHEAR_OK;
     const size_t pixels = (size_t)pilot->width * (size_t)pilot->height;
     census *all = calloc(1, sizeof *all);
-    if (all == NULL)
-        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory to share samples out");
+    errors *found = malloc(pixels * sizeof *found);
+    CS_REQUIRE(all != NULL && found != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
+               pixels);
     /* What the pixels have in common must not depend on what is kept from one of them. */
     cs_pilot_picture alone = *pilot;
     alone.near_variance = pilot->variance;
     alone.near_intensity = pilot->intensity;
-    const measure by = measure_of(&alone);
-    count_pixels(&alone, &by, all);
+    const measure by = measure_of(&alone, found);
+    count_pixels(pilot, &by, found, all);
     const double budget = (double)range->mean * (double)pixels - range->certain * all->certain;
     const plan how = choose_plan(all, range, budget);
     for (size_t i = 0; i < pixels; i++) {
@@ -222,6 +227,8 @@ clshear_status cs_allocate_samples(const cs_pilot_picture *pilot, const cs_range
         samples[i] =
             pilot->certain[i] ? range->certain : samples_of(&how, bin_of(&by, at), at.is_dark);
     }
+done:
     free(all);
-    return CLSHEAR_OK;
+    free(found);
+    return status;
 }
