@@ -3,6 +3,7 @@
 #include "support.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "clshear/device/hash.h"
@@ -205,6 +206,31 @@ static void only_a_gain_lowers_bright_pixels(void **state)
     }
 }
 
+/* Noise of its own in every pixel, and dark stripes whose relative error is great: what these would
+ * gain costs absolute error. Neither error rises, if variance falls as N^-1.4. */
+static void neither_error_rises(void **state)
+{
+    static picture p;
+    double absolute[2] = {0}, relative[2] = {0};
+    (void)state;
+    for (cs_u32 i = 0; i < PIXELS; i++) {
+        const int is_dark = i / SIDE % 16 < 3;
+        p.intensity[i] = is_dark ? 0.01f : 1.0f;
+        p.variance[i] = (is_dark ? 1e-4f : 1e-3f) * (0.5f + uniform(i));
+    }
+    allocate(&p, none_certain, (cs_range){2, 16, 64, 64, 1 << 20});
+    for (size_t i = 0; i < PIXELS; i++) {
+        const double v = (double)p.variance[i], square = (double)p.intensity[i] * p.intensity[i];
+        const double left = pow(p.samples[i] / 64.0, -1.4);
+        absolute[0] += v, absolute[1] += v * left;
+        relative[0] += v / square, relative[1] += v / square * left;
+    }
+    printf("%g of the absolute error, %g of the relative\n", absolute[1] / absolute[0],
+           relative[1] / relative[0]);
+    assert_at_most(absolute[1], 1.02 * absolute[0]);
+    assert_at_most(relative[1], 1.02 * relative[0]);
+}
+
 /* With one dominant pixel, the sampler's largest pattern is the limit, and the mean is not
  * exceeded, however small it is. The others are quiet: they have the least where that lets the
  * dominant pixel have more. */
@@ -296,6 +322,7 @@ int main(void)
                                        cmocka_unit_test(samples_follow_variance),
                                        cmocka_unit_test(certain_pixels_give),
                                        cmocka_unit_test(only_a_gain_lowers_bright_pixels),
+                                       cmocka_unit_test(neither_error_rises),
                                        cmocka_unit_test(nothing_reaches_certain_pixels),
                                        cmocka_unit_test(contrast_gets_samples)};
     return cmocka_run_group_tests(tests, NULL, NULL);

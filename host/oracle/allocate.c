@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Statistics of a pixel and its neighbours, 3 x 3 pixels. */
 typedef struct surroundings {
@@ -97,40 +98,43 @@ typedef struct census {
     double certain; /* pixels */
 } census;
 
-/* The bin of a pixel with these errors. */
-static int bin_of(const measure *by, errors at)
+/* The bin of a pixel with these errors, if `weight` is that of the relative error. */
+static int bin_of(const measure *by, double weight, errors at)
 {
     const double v = (double)at.v, w = (double)at.w;
-    const double share = v / (by->absolute + 1e-300) + v * w / (by->relative + 1e-300);
+    const double share = v / (by->absolute + 1e-300) + weight * v * w / (by->relative + 1e-300);
     const double importance = 0.4 * log2(share + 1e-300);
     const double bin = (importance - LOWEST) * BINS_PER_OCTAVE;
     return bin < 0.0 ? 0 : bin < BINS ? (int)bin : BINS - 1;
 }
 
+/* How samples follow from a pixel's errors. */
+typedef struct plan {
+    cs_u32 least; /* of bright pixels */
+    cs_u32 even;  /* of dark ones */
+    cs_u32 most;
+    double weight; /* of the relative error */
+    double scale;  /* binary logarithm of samples over importance */
+} plan;
+
+/* Counts the pixels by their importance. */
 static void count_pixels(const cs_pilot_picture *pilot, const measure *by, const errors *found,
-                         census *all)
+                         double weight, census *all)
 {
     const size_t pixels = (size_t)pilot->width * (size_t)pilot->height;
+    memset(all, 0, sizeof *all);
     for (size_t i = 0; i < pixels; i++) {
         if (pilot->certain[i]) {
             all->certain++;
             continue;
         }
         const errors at = found[i];
-        crowd *mine = (at.is_dark ? all->dark : all->bright) + bin_of(by, at);
+        crowd *mine = (at.is_dark ? all->dark : all->bright) + bin_of(by, weight, at);
         mine->pixels++;
         mine->absolute += (double)at.v;
         mine->relative += (double)at.v * (double)at.w;
     }
 }
-
-/* How samples follow from a bin. */
-typedef struct plan {
-    double scale; /* binary logarithm of samples over importance */
-    cs_u32 least; /* of bright pixels */
-    cs_u32 even;  /* of dark ones */
-    cs_u32 most;
-} plan;
 
 /* `least`, or the power of two nearest to what the bin is worth, from there to `most`. */
 static cs_u32 samples_of(const plan *how, int bin, int is_dark)
@@ -167,10 +171,11 @@ static prospect prospect_of(const census *all, const plan *how)
     return sum;
 }
 
-/* Finds the largest scale with which `budget` samples are enough, to a hundred-thousandth of an
+/* Finds the largest scale with which the range's samples are enough, to a hundred-thousandth of an
  * octave. */
-static prospect fit(const census *all, double budget, plan *how)
+static prospect fit(const census *all, double pixels, const cs_range *range, plan *how)
 {
+    const double budget = range->mean * pixels - range->certain * all->certain;
     double low = -60.0, high = 160.0;
     for (int step = 0; step < 24; step++) {
         how->scale = 0.5 * (low + high);
@@ -183,18 +188,32 @@ static prospect fit(const census *all, double budget, plan *how)
     return prospect_of(all, how);
 }
 
-/* The plan that promises the least errors. */
-static plan choose_plan(const census *all, const cs_range *range, double budget)
+/* The plan that promises the least errors: one with less than `even` in bright pixels only where it
+ * promises that neither error rises. `all` is overwritten. */
+static plan choose_plan(const cs_pilot_picture *pilot, const measure *by, const errors *found,
+                        const cs_range *range, census *all)
 {
+    static const double weights[] = {1.0, 0.3, 0.1};
     const double clear = 1.03; /* the least gain for which bright pixels may have less than even */
-    const cs_u32 most =
-        cs_power_of_two(range->most / 16 < range->mean ? range->most : 16 * range->mean);
-    plan careful = {.least = range->even, .even = range->even, .most = most}, bold = careful;
-    bold.least = range->least;
-    const prospect safe = fit(all, budget, &careful), daring = fit(all, budget, &bold);
-    const double before = safe.absolute * safe.relative;
-    const double after = daring.absolute * daring.relative;
-    return after * clear * clear < before ? bold : careful;
+    const double pixels = (double)pilot->width * (double)pilot->height;
+    plan best = {.least = range->even, .even = range->even, .weight = weights[0]};
+    best.most = cs_power_of_two(range->most / 16 < range->mean ? range->most : 16 * range->mean);
+    count_pixels(pilot, by, found, best.weight, all);
+    const prospect safe = fit(all, pixels, range, &best);
+    double least = safe.absolute * safe.relative / (clear * clear);
+    for (size_t k = 0; k < sizeof weights / sizeof *weights; k++) {
+        plan bold = best;
+        bold.least = range->least;
+        bold.weight = weights[k];
+        count_pixels(pilot, by, found, bold.weight, all);
+        const prospect daring = fit(all, pixels, range, &bold);
+        const double product = daring.absolute * daring.relative;
+        if (daring.absolute > safe.absolute || daring.relative > safe.relative || product >= least)
+            continue;
+        least = product;
+        best = bold;
+    }
+    return best;
 }
 
 cs_u32 cs_power_of_two(cs_u32 count)
@@ -210,7 +229,7 @@ clshear_status cs_allocate_samples(const cs_pilot_picture *pilot, const cs_range
 {
     clshear_status status = CLSHEAR_OK;
     const size_t pixels = (size_t)pilot->width * (size_t)pilot->height;
-    census *all = calloc(1, sizeof *all);
+    census *all = malloc(sizeof *all);
     errors *found = malloc(pixels * sizeof *found);
     CS_REQUIRE(all != NULL && found != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
                pixels);
@@ -219,13 +238,11 @@ clshear_status cs_allocate_samples(const cs_pilot_picture *pilot, const cs_range
     alone.near_variance = pilot->variance;
     alone.near_intensity = pilot->intensity;
     const measure by = measure_of(&alone, found);
-    count_pixels(pilot, &by, found, all);
-    const double budget = (double)range->mean * (double)pixels - range->certain * all->certain;
-    const plan how = choose_plan(all, range, budget);
+    const plan how = choose_plan(pilot, &by, found, range, all);
     for (size_t i = 0; i < pixels; i++) {
         const errors at = errors_of(pilot, &by, i);
-        samples[i] =
-            pilot->certain[i] ? range->certain : samples_of(&how, bin_of(&by, at), at.is_dark);
+        samples[i] = pilot->certain[i] ? range->certain
+                                       : samples_of(&how, bin_of(&by, how.weight, at), at.is_dark);
     }
 done:
     free(all);

@@ -41,12 +41,14 @@ cs_u32 cs_power_of_two(cs_u32 count);
  *
  * Certain pixels get the fewest, and what they leave goes to the others. Of these none gets less
  * than `even`, so that none is worse than with equal samples, whatever the pilot has overlooked;
- * but where less than `even` in bright pixels promises a gain of 3 % at least, these may get
- * `least`. Dark ones may not: half the picture's mean intensity or less can hide a rare bright
- * sample that decides the relative error.
+ * but where less than `even` in bright pixels promises a gain of 3 % at least, in the root of the
+ * product of absolute and relative error, and neither of them to rise, these may get `least`. Dark
+ * ones may not: half the picture's mean intensity or less can hide a rare bright sample that
+ * decides the relative error.
  *
- * Counts are proportional to (V (1/A + W/B))^0.4, which is optimal if variance falls as N^-1.5. V
- * is the pixel's variance with equal samples, averaged over 3 x 3 pixels, plus a part of its
+ * Counts are proportional to (V (1/A + k W/B))^0.4, which is optimal if variance falls as N^-1.5. k
+ * is 1, or 0.3 or 0.1 where bright pixels may get less and this promises more. V is the pixel's
+ * variance with equal samples, averaged over 3 x 3 pixels, plus a part of its
  * squared contrast with these pixels, because a neighbouring feature may reach into unsampled parts
  * of the pixel. W = 1/(I^2 + e^2) turns V into relative error; I is the intensity averaged over
  * 3 x 3 pixels and e a hundredth of the picture's. A and B are the sums of V and V W. */

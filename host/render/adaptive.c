@@ -49,7 +49,11 @@ clshear_status cs_adaptive_plan(cs_job *job, cs_error *error)
                            job->pixel_count);
     }
     const clshear_status status = cs_background_find(job, adaptive->certain, error);
-    return status == CLSHEAR_OK ? cs_adaptive_reserve_aovs(job, error) : status;
+    if (status != CLSHEAR_OK) return status;
+    for (size_t i = 0; i < CS_BEGINNINGS * job->pixel_count; i++)
+        adaptive->shares[i % CS_BEGINNINGS].samples[i / CS_BEGINNINGS] =
+            cs_adaptive_begun_with(adaptive, i / CS_BEGINNINGS);
+    return cs_adaptive_reserve_aovs(job, error);
 }
 
 cs_u32 cs_adaptive_begun_with(const cs_adaptive *adaptive, size_t index)
@@ -162,8 +166,6 @@ static clshear_status draw_beginning(cs_job *job, cs_pass *pass, cs_u32 replicat
     clshear_status status = CLSHEAR_OK;
     const cs_visit taking = {take_out, found, 1};
     cs_share *share = &job->adaptive.shares[replicate];
-    for (size_t i = 0; i < job->pixel_count; i++)
-        share->samples[i] = cs_adaptive_begun_with(&job->adaptive, i);
     CS_TRY(make_batches(job, share, 0, error));
     pass->launch.goes_on = 1;
     CS_TRY(cs_pass_replicate(pass, share->batches, share->batch_count, replicate, error));

@@ -27,7 +27,7 @@ enum {
 
 /* One of the replicates. */
 typedef struct cs_share {
-    cs_u32 *samples;         /* in a pattern of each pixel */
+    cs_u32 *samples;         /* in a pattern of each pixel; at first: in its beginning */
     cs_exact_sum *beginning; /* sums of three colours of each pixel */
     cs_exact_sum *aovs;      /* likewise, of the planes of each pixel; NULL: none */
     cs_batch batches[CS_MOST_BATCHES];
