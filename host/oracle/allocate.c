@@ -80,8 +80,8 @@ static measure measure_of(const cs_pilot_picture *pilot, errors *all)
 
 enum {
     BINS = 4096,
-    BINS_PER_OCTAVE = 32,
-    LOWEST = -100 /* binary logarithm of the importance of the first bin */
+    BINS_PER_OCTAVE = 96,
+    LOWEST = -40 /* binary logarithm of the importance of the first bin */
 };
 
 /* Pixels of like importance. */
@@ -149,11 +149,22 @@ static cs_u32 samples_of(const plan *how, int bin, int is_dark)
     return count;
 }
 
-/* What a plan costs and leaves, without the certain pixels. */
+/* Samples of a plan, without those of certain pixels. */
+static double total_of(const census *all, const plan *how)
+{
+    double sum = 0.0;
+    for (int bin = 0; bin < BINS; bin++) {
+        const double bright = all->bright[bin].pixels, dark = all->dark[bin].pixels;
+        if (bright > 0.0) sum += bright * samples_of(how, bin, 0);
+        if (dark > 0.0) sum += dark * samples_of(how, bin, 1);
+    }
+    return sum;
+}
+
+/* What a plan leaves, if variance falls as N^-1.4; both up to a factor. */
 typedef struct prospect {
-    double samples;
-    double absolute; /* A with these samples, if variance falls as N^-1.4; up to a factor */
-    double relative; /* B likewise */
+    double absolute; /* A */
+    double relative; /* B */
 } prospect;
 
 static prospect prospect_of(const census *all, const plan *how)
@@ -163,8 +174,7 @@ static prospect prospect_of(const census *all, const plan *how)
         const int is_dark = place >= BINS, bin = place % BINS;
         const crowd *these = (is_dark ? all->dark : all->bright) + bin;
         if (!(these->pixels > 0.0)) continue;
-        const double samples = samples_of(how, bin, is_dark), left = pow(samples, -1.4);
-        sum.samples += these->pixels * samples;
+        const double left = pow(samples_of(how, bin, is_dark), -1.4);
         sum.absolute += these->absolute * left;
         sum.relative += these->relative * left;
     }
@@ -179,7 +189,7 @@ static prospect fit(const census *all, double pixels, const cs_range *range, pla
     double low = -60.0, high = 160.0;
     for (int step = 0; step < 24; step++) {
         how->scale = 0.5 * (low + high);
-        if (prospect_of(all, how).samples > budget)
+        if (total_of(all, how) > budget)
             high = how->scale;
         else
             low = how->scale;
