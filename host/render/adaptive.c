@@ -10,11 +10,27 @@
 #include "render/visit.h"
 
 /* Samples of a beginning: a quarter of a pattern, but enough to tell something and to fill the
- * lanes of a packet, which fewer would leave idle. */
-static cs_u32 beginning_of(cs_u32 pattern)
+ * lanes of a packet, which fewer would leave idle; if the pixels that are not certain can have as
+ * many on average. */
+static cs_u32 beginning_of(cs_u32 pattern, double affordable)
 {
-    const cs_u32 whole = cs_power_of_two(pattern), least = whole < 16 ? whole : 16;
+    const cs_u32 whole = cs_power_of_two(pattern);
+    const cs_u32 least = affordable >= 16.0 ? 16 : whole < 16 ? whole : 16;
     return whole / 4 > least ? whole / 4 : least;
+}
+
+/* How many samples a beginning has, once it is known which pixels are certain. */
+static void choose_beginning(cs_job *job)
+{
+    cs_adaptive *adaptive = &job->adaptive;
+    const cs_u32 pattern = job->pattern.grid.count;
+    const double all = (double)job->pixel_count;
+    double certain = 0.0;
+    for (size_t i = 0; i < job->pixel_count; i++)
+        certain += adaptive->certain[i];
+    adaptive->few = pattern / 32 > 2 ? cs_power_of_two(pattern / 32) : 2;
+    adaptive->begin = beginning_of(
+        pattern, all > certain ? (all * pattern - certain * adaptive->few) / (all - certain) : 0.0);
 }
 
 /* Stop rules, shards and checkpoints need all patterns to be planned before the first sample. */
@@ -34,8 +50,6 @@ clshear_status cs_adaptive_plan(cs_job *job, cs_error *error)
 {
     if (!can_share_out(job)) return CLSHEAR_OK;
     cs_adaptive *adaptive = &job->adaptive;
-    adaptive->begin = beginning_of(job->pattern.grid.count);
-    adaptive->few = adaptive->begin / 8 > 2 ? adaptive->begin / 8 : 2;
     adaptive->certain = malloc(job->pixel_count);
     if (adaptive->certain == NULL)
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
@@ -50,6 +64,7 @@ clshear_status cs_adaptive_plan(cs_job *job, cs_error *error)
     }
     const clshear_status status = cs_background_find(job, adaptive->certain, error);
     if (status != CLSHEAR_OK) return status;
+    choose_beginning(job);
     for (size_t i = 0; i < CS_BEGINNINGS * job->pixel_count; i++)
         adaptive->shares[i % CS_BEGINNINGS].samples[i / CS_BEGINNINGS] =
             cs_adaptive_begun_with(adaptive, i / CS_BEGINNINGS);
@@ -193,10 +208,11 @@ static clshear_status size_patterns(cs_job *job, const finding *other, const fin
                                       .height = job->window[3] - job->window[2],
                                       .pattern = adaptive->begin,
                                       .replicates = 1};
+    const cs_u32 mean = job->pattern.grid.count;
     const cs_range range = {.certain = adaptive->few,
                             .least = adaptive->begin,
-                            .even = job->pattern.grid.count,
-                            .mean = job->pattern.grid.count,
+                            .even = mean > adaptive->begin ? mean : adaptive->begin,
+                            .mean = mean,
                             .most = cs_sampler_most(job->pattern.sampler)};
     return cs_allocate_samples(&picture, &range, samples, error);
 }
