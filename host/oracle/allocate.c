@@ -71,6 +71,7 @@ static measure measure_of(const cs_pilot_picture *pilot, errors *all)
         by.level += fabs((double)pilot->intensity[i]) / (double)pixels;
     by.dark = 1e-4 * by.level * by.level + 1e-30;
     for (size_t i = 0; i < pixels; i++) {
+        if (pilot->certain[i]) continue;
         all[i] = errors_of(pilot, &by, i);
         by.absolute += (double)all[i].v;
         by.relative += (double)all[i].v * (double)all[i].w;
@@ -103,7 +104,7 @@ static int bin_of(const measure *by, double weight, errors at)
 {
     const double v = (double)at.v, w = (double)at.w;
     const double share = v / (by->absolute + 1e-300) + weight * v * w / (by->relative + 1e-300);
-    const double importance = 0.4 * log2(share + 1e-300);
+    const double importance = 0.4 * (double)log2f((float)share + 1e-37f);
     const double bin = (importance - LOWEST) * BINS_PER_OCTAVE;
     return bin < 0.0 ? 0 : bin < BINS ? (int)bin : BINS - 1;
 }
@@ -198,8 +199,8 @@ static prospect fit(const census *all, double pixels, const cs_range *range, pla
     return prospect_of(all, how);
 }
 
-/* The plan that promises the least errors: one with less than `even` in bright pixels only where it
- * promises that neither error rises. `all` is overwritten. */
+/* A plan with less than `even` in bright pixels, if one promises enough and that neither error
+ * rises; else one without. `all` is overwritten. */
 static plan choose_plan(const cs_pilot_picture *pilot, const measure *by, const errors *found,
                         const cs_range *range, census *all)
 {
@@ -210,18 +211,17 @@ static plan choose_plan(const cs_pilot_picture *pilot, const measure *by, const 
     best.most = cs_power_of_two(range->most / 16 < range->mean ? range->most : 16 * range->mean);
     count_pixels(pilot, by, found, best.weight, all);
     const prospect safe = fit(all, pixels, range, &best);
-    double least = safe.absolute * safe.relative / (clear * clear);
-    for (size_t k = 0; k < sizeof weights / sizeof *weights; k++) {
+    const double enough = safe.absolute * safe.relative / (clear * clear);
+    if (range->least >= range->even) return best;
+    for (size_t k = 0; k < sizeof weights / sizeof *weights && best.least == range->even; k++) {
         plan bold = best;
         bold.least = range->least;
         bold.weight = weights[k];
-        count_pixels(pilot, by, found, bold.weight, all);
+        if (k > 0) count_pixels(pilot, by, found, bold.weight, all);
         const prospect daring = fit(all, pixels, range, &bold);
-        const double product = daring.absolute * daring.relative;
-        if (daring.absolute > safe.absolute || daring.relative > safe.relative || product >= least)
-            continue;
-        least = product;
-        best = bold;
+        if (daring.absolute <= safe.absolute && daring.relative <= safe.relative &&
+            daring.absolute * daring.relative < enough)
+            best = bold;
     }
     return best;
 }
@@ -250,9 +250,10 @@ clshear_status cs_allocate_samples(const cs_pilot_picture *pilot, const cs_range
     const measure by = measure_of(&alone, found);
     const plan how = choose_plan(pilot, &by, found, range, all);
     for (size_t i = 0; i < pixels; i++) {
+        samples[i] = range->certain;
+        if (pilot->certain[i]) continue;
         const errors at = errors_of(pilot, &by, i);
-        samples[i] = pilot->certain[i] ? range->certain
-                                       : samples_of(&how, bin_of(&by, how.weight, at), at.is_dark);
+        samples[i] = samples_of(&how, bin_of(&by, how.weight, at), at.is_dark);
     }
 done:
     free(all);

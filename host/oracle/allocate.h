@@ -47,7 +47,7 @@ cs_u32 cs_power_of_two(cs_u32 count);
  * decides the relative error.
  *
  * Counts are proportional to (V (1/A + k W/B))^0.4, which is optimal if variance falls as N^-1.5. k
- * is 1, or 0.3 or 0.1 where bright pixels may get less and this promises more. V is the pixel's
+ * is 1, or 0.3 or 0.1 where bright pixels may get less with it and may not with 1. V is the pixel's
  * variance with equal samples, averaged over 3 x 3 pixels, plus a part of its
  * squared contrast with these pixels, because a neighbouring feature may reach into unsampled parts
  * of the pixel. W = 1/(I^2 + e^2) turns V into relative error; I is the intensity averaged over
