@@ -49,9 +49,13 @@ typedef struct cs_adaptive {
 /* Samples of a pixel's beginning. */
 cs_u32 cs_adaptive_begun_with(const cs_adaptive *adaptive, size_t index);
 
-/* Whether the job's samples can be shared out in this way: a progressive sampler, two replicates of
- * CS_LEAST_TO_SHARE_OUT samples or more, and nothing that is continued, has a stop rule, is a shard
- * or has a checkpoint. Then reserves what it takes. */
+/* Where the settings do not say whether samples are shared out, sets that they are if this way can
+ * be taken: with a progressive sampler, two replicates of CS_LEAST_TO_SHARE_OUT samples or more,
+ * and nothing that is or will be continued, has a stop rule, is a shard or has a checkpoint. The
+ * job must have its samples and its pattern. */
+clshear_status cs_adaptive_complete(struct cs_job *job, cs_error *error);
+
+/* Whether the job's samples can be shared out in this way. Then reserves what it takes. */
 clshear_status cs_adaptive_plan(struct cs_job *job, cs_error *error);
 void cs_adaptive_free(cs_adaptive *adaptive);
 
