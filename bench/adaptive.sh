@@ -14,7 +14,7 @@ row() {
     shift 4
     local scene=("$folder/$name.obj" --width "$size" --height "$size" --spp "$spp" --quiet "$@")
     for seed in $(seq "$seeds"); do
-        build/clshear "${scene[@]}" --seed "$seed" --out "$folder/even-$seed.exr"
+        build/clshear "${scene[@]}" --seed "$seed" --adaptive=0 --out "$folder/even-$seed.exr"
         build/clshear "${scene[@]}" --seed "$seed" --adaptive --out "$folder/shared-$seed.exr"
     done
     printf '\n%s, %s x %s pixels, %s samples\n\n' "$name $*" "$size" "$size" "$spp"

@@ -14,7 +14,7 @@ oiiotool --create 64x64 1 --fill:color=0 64x64 --box:color=1:fill=1 8,8,40,56 \
 run() {
     local shear=$1
     shift
-    build/clshear scenes/cornell.obj --width "$size" --height "$size" --spp "$spp" --oracle centre \
+    build/clshear scenes/cornell.obj --width "$size" --height "$size" --spp "$spp" --oracle centre --adaptive=0 \
         --shear "$shear" --quiet --stats "$@" --out "$folder/image.exr" |
         awk '/^kernels/ { s = $2 } /^variance/ { print s, $2 }'
 }

@@ -78,6 +78,7 @@ clshear_settings *bench_settings(const char *path)
     clshear_settings *settings = NULL;
     bench_must(clshear_settings_create(&settings));
     bench_set(settings, CLSHEAR_BOUNCES, 0.0);
+    bench_set(settings, CLSHEAR_ADAPTIVE, 0.0);
     if (path != NULL) bench_must(clshear_settings_read(settings, path, NULL, NULL));
     return settings;
 }

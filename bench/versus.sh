@@ -17,7 +17,7 @@ git -C "$root" worktree add --quiet --detach "$scratch/before" "$1"
 kernel_s() {
     local tree=$1
     shift
-    "$tree/build/clshear" "$tree/scenes/cornell.obj" "$@" --quiet --stats --out "$scratch/frame.exr" | awk '$1 == "kernels" { print $2 }'
+    "$tree/build/clshear" "$tree/scenes/cornell.obj" "$@" --adaptive=0 --quiet --stats --out "$scratch/frame.exr" | awk '$1 == "kernels" { print $2 }'
 }
 
 compare() {

@@ -13,6 +13,7 @@ static clshear_settings *settings_of(test_fixture *made, int size, const char *s
     clshear_settings_unset(settings, CLSHEAR_SPP);
     test_set(settings, CLSHEAR_SAMPLER, "%s", sampler);
     test_set(settings, CLSHEAR_ORACLE, "centre"); /* a pilot's choice depends on its budget */
+    test_set(settings, CLSHEAR_ADAPTIVE, "0");    /* as renders with rules are */
     return settings;
 }
 

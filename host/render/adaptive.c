@@ -2,20 +2,35 @@
 
 #include <stdlib.h>
 
-#include "oracle/choose_rule.h"
+#include "oracle/allocate.h"
 #include "pattern/pattern.h"
+#include "render/background.h"
 #include "render/render_job.h"
 #include "render/resume.h"
+#include "render/visit.h"
 
-enum {
-    SLICE = 1 << 16 /* pixels on their way at once */
-};
-
-/* Samples of a beginning: an eighth of a pattern, but enough to tell something. */
-static cs_u32 beginning_of(cs_u32 pattern)
+/* Samples of a beginning: a quarter of a pattern, but enough to tell something and to fill the
+ * lanes of a packet, which fewer would leave idle; if the pixels that are not certain can have as
+ * many on average. */
+static cs_u32 beginning_of(cs_u32 pattern, double affordable)
 {
-    const cs_u32 least = CS_LEAST_TO_SHARE_OUT / 2, part = cs_power_of_two(pattern) / 8;
-    return part > least ? part : least;
+    const cs_u32 whole = cs_power_of_two(pattern);
+    const cs_u32 least = affordable >= 16.0 ? 16 : whole < 16 ? whole : 16;
+    return whole / 4 > least ? whole / 4 : least;
+}
+
+/* How many samples a beginning has, once it is known which pixels are certain. */
+static void choose_beginning(cs_job *job)
+{
+    cs_adaptive *adaptive = &job->adaptive;
+    const cs_u32 pattern = job->pattern.grid.count;
+    const double all = (double)job->pixel_count;
+    double certain = 0.0;
+    for (size_t i = 0; i < job->pixel_count; i++)
+        certain += adaptive->certain[i];
+    adaptive->few = pattern / 32 > 2 ? cs_power_of_two(pattern / 32) : 2;
+    adaptive->begin = beginning_of(
+        pattern, all > certain ? (all * pattern - certain * adaptive->few) / (all - certain) : 0.0);
 }
 
 /* Stop rules, shards and checkpoints need all patterns to be planned before the first sample. */
@@ -31,19 +46,41 @@ static int can_share_out(const cs_job *job)
            job->pattern.grid.count >= CS_LEAST_TO_SHARE_OUT && !is_planned_ahead(job);
 }
 
+clshear_status cs_adaptive_complete(cs_job *job, cs_error *error)
+{
+    const double shares = can_share_out(job) && cs_integer(&job->settings, EXTENDABLE) == 0;
+    if (cs_is_set(&job->settings, ADAPTIVE)) return CLSHEAR_OK;
+    return cs_settings_set(&job->settings, CLSHEAR_ADAPTIVE, &shares, 1, error);
+}
+
 clshear_status cs_adaptive_plan(cs_job *job, cs_error *error)
 {
     if (!can_share_out(job)) return CLSHEAR_OK;
-    job->adaptive.begin = beginning_of(job->pattern.grid.count);
+    cs_adaptive *adaptive = &job->adaptive;
+    adaptive->certain = malloc(job->pixel_count);
+    if (adaptive->certain == NULL)
+        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
+                       job->pixel_count);
     for (int k = 0; k < CS_BEGINNINGS; k++) {
-        cs_share *share = &job->adaptive.shares[k];
+        cs_share *share = &adaptive->shares[k];
         share->samples = malloc(job->pixel_count * sizeof *share->samples);
         share->beginning = malloc(3 * job->pixel_count * sizeof *share->beginning);
         if (share->samples == NULL || share->beginning == NULL)
             return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
                            job->pixel_count);
     }
+    const clshear_status status = cs_background_find(job, adaptive->certain, error);
+    if (status != CLSHEAR_OK) return status;
+    choose_beginning(job);
+    for (size_t i = 0; i < CS_BEGINNINGS * job->pixel_count; i++)
+        adaptive->shares[i % CS_BEGINNINGS].samples[i / CS_BEGINNINGS] =
+            cs_adaptive_begun_with(adaptive, i / CS_BEGINNINGS);
     return cs_adaptive_reserve_aovs(job, error);
+}
+
+cs_u32 cs_adaptive_begun_with(const cs_adaptive *adaptive, size_t index)
+{
+    return adaptive->certain[index] ? adaptive->few : adaptive->begin;
 }
 
 static void free_batches(cs_share *share)
@@ -62,103 +99,65 @@ void cs_adaptive_free(cs_adaptive *adaptive)
         free(share->beginning);
         free(share->aovs);
     }
+    free(adaptive->certain);
     free(adaptive->aov_means);
-}
-
-/* What is done to the state of a pixel on the host. */
-typedef struct change {
-    void (*apply)(cs_job *job, void *user, size_t index, cs_pixel *pixel);
-    void *user;
-} change;
-
-static clshear_status change_pixels(cs_job *job, const change *change, cs_error *error)
-{
-    clshear_status status = CLSHEAR_OK;
-    cs_pixel *slice = malloc(SLICE * sizeof *slice);
-    CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    for (size_t first = 0; first < job->pixel_count; first += SLICE) {
-        const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
-        CS_TRY(cs_pixels_read(&job->pixels, first, count, slice, error));
-        for (size_t i = 0; i < count; i++)
-            change->apply(job, change->user, first + i, &slice[i]);
-        CS_TRY(cs_pixels_write(&job->pixels, first, count, slice, error));
-    }
-done:
-    free(slice);
-    return status;
 }
 
 /* Where a beginning's statistics go, each a value for each pixel. */
 typedef struct finding {
     cs_exact_sum *sums;
-    cs_f32 *variance;
+    cs_f32 *variance; /* of the mean, if samples were independent; averaged over colours */
     cs_f32 *intensity;
+    const struct finding *before; /* the beginning that was drawn before; NULL: none */
 } finding;
 
-/* Takes a beginning out of the pixel: its two halves are the pixel's patterns. */
+/* Squared deviations of a beginning's `count` samples from their mean, summed over colours. The
+ * pixel has those of the beginning before too: the merge of moments (stats.h) taken back. */
+static double deviations_of(const finding *found, size_t index, const cs_pixel *pixel, double count)
+{
+    const finding *before = found->before;
+    double all = 0.0, between = 0.0;
+    for (size_t c = 0; c < 3; c++) {
+        all += (double)pixel->sample_m2[c];
+        if (before == NULL) continue;
+        const double gap =
+            (double)found->sums[3 * index + c].sum - (double)before->sums[3 * index + c].sum;
+        between += gap * gap / (2.0 * count);
+    }
+    if (before != NULL) between += 3.0 * count * (count - 1.0) * (double)before->variance[index];
+    return all > between ? all - between : 0.0;
+}
+
+/* Takes a beginning out of the pixel. */
 static void take_out(cs_job *job, void *user, size_t index, cs_pixel *pixel)
 {
     const finding *found = user;
-    const cs_f32 half = 0.5f * (cs_f32)job->adaptive.begin; /* a power of two: products are exact */
-    cs_f32 m2 = 0.0f, sum = 0.0f;
+    const double count = cs_adaptive_begun_with(&job->adaptive, index);
+    double sum = 0.0;
     for (size_t c = 0; c < 3; c++) {
-        m2 += pixel->pattern_m2[c];
-        sum += pixel->pattern_sum[c];
-        found->sums[3 * index + c] =
-            (cs_exact_sum){half * pixel->pattern_sum[c], half * pixel->pattern_carry[c]};
-        pixel->pattern_m2[c] = pixel->pattern_sum[c] = pixel->pattern_carry[c] = 0.0f;
+        found->sums[3 * index + c] = (cs_exact_sum){pixel->sum[c], pixel->carry[c]};
+        sum += (double)pixel->sum[c];
+        pixel->sum[c] = pixel->carry[c] = 0.0f;
     }
-    pixel->patterns = 0;
-    found->variance[index] = m2 / 3.0f;
-    found->intensity[index] = sum / 6.0f;
+    pixel->pending = 0;
+    found->variance[index] =
+        (cs_f32)(deviations_of(found, index, pixel, count) / (3.0 * count * (count - 1.0)));
+    found->intensity[index] = (cs_f32)(sum / (3.0 * count));
 }
 
-/* Draws the beginning of a replicate, in halves. */
-static clshear_status draw_beginning(cs_job *job, cs_pass *pass, cs_u32 replicate, finding *found,
-                                     cs_error *error)
+/* The least size of a replicate's patterns above `size`; 0: there is none. */
+static cs_u32 next_size(const cs_job *job, const cs_share *share, cs_u32 size)
 {
-    clshear_status status = CLSHEAR_OK;
-    const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
-    const cs_u32 half = job->adaptive.begin / 2;
-    const change taking = {take_out, found};
-    cs_batch batch = {0};
-    for (cs_u32 part = 0; part < 2; part++) {
-        const cs_pattern pattern = cs_pattern_of(job->pattern.sampler, part * half, half);
-        CS_TRY(cs_batch_create(job->scene->context, &pattern, NULL, job->pixel_count, width, 0,
-                               &batch, error));
-        CS_TRY(cs_pass_replicate(pass, &batch, 1, replicate, error));
-        cs_batch_free(&batch);
-    }
-    CS_TRY(change_pixels(job, &taking, error));
-    CS_TRY(cs_adaptive_take_aovs(job, replicate, error));
-    job->adaptive.drawn++;
-done:
-    cs_batch_free(&batch);
-    return status;
+    cs_u32 next = 0;
+    for (size_t i = 0; i < job->pixel_count; i++)
+        if (share->samples[i] > size && (next == 0 || share->samples[i] < next))
+            next = share->samples[i];
+    return next;
 }
 
-/* The sizes of a replicate's patterns, powers of two from that of the beginning on: by what the
- * other's beginning has found in the pixel, and both in its neighbours (`near`). */
-static clshear_status size_patterns(cs_job *job, const finding *other, const finding *near,
-                                    cs_u32 *samples, cs_error *error)
-{
-    const cs_pilot_picture picture = {.variance = other->variance,
-                                      .intensity = other->intensity,
-                                      .near_variance = near->variance,
-                                      .near_intensity = near->intensity,
-                                      .shear_px = job->shear_px,
-                                      .width = job->window[1] - job->window[0],
-                                      .height = job->window[3] - job->window[2],
-                                      .pattern = job->adaptive.begin / 2,
-                                      .replicates = 2};
-    const cs_range range = {.least = job->adaptive.begin,
-                            .mean = job->pattern.grid.count,
-                            .most = cs_sampler_most(job->pattern.sampler)};
-    return cs_allocate_samples(&picture, &range, samples, error);
-}
-
-/* Batches of the pixels whose patterns go on after the beginning, one for each size. */
-static clshear_status make_batches(cs_job *job, cs_share *share, cs_error *error)
+/* Batches of the pixels whose patterns have more than `had` samples, one for each size, which draw
+ * what follows these. */
+static clshear_status make_batches(cs_job *job, cs_share *share, cs_u32 had, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
@@ -166,14 +165,12 @@ static clshear_status make_batches(cs_job *job, cs_share *share, cs_error *error
     cs_u32 *list = malloc(job->pixel_count * sizeof *list);
     CS_REQUIRE(list != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
                job->pixel_count);
-    const cs_u32 had = job->adaptive.begin;
-    for (cs_u32 size = 2 * had; size <= CS_MAX_PATTERN; size *= 2) {
+    for (cs_u32 size = next_size(job, share, had); size > 0; size = next_size(job, share, size)) {
         size_t count = 0;
         for (size_t i = 0; i < job->pixel_count; i++) {
             const cs_u32 pixel = cs_tiled_pixel((cs_u32)i, width, height);
             if (share->samples[pixel] == size) list[count++] = pixel;
         }
-        if (count == 0) continue;
         const cs_pattern pattern = cs_pattern_of(job->pattern.sampler, had, size - had);
         share->batch_count++; /* first, so that what a failure leaves is freed */
         CS_TRY(cs_batch_create(job->scene->context, &pattern, list, count, width, 0,
@@ -184,6 +181,49 @@ done:
     return status;
 }
 
+/* Draws the beginning of a replicate. */
+static clshear_status draw_beginning(cs_job *job, cs_pass *pass, cs_u32 replicate, finding *found,
+                                     cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const cs_visit taking = {take_out, found, 1};
+    cs_share *share = &job->adaptive.shares[replicate];
+    CS_TRY(make_batches(job, share, 0, error));
+    pass->launch.goes_on = 1;
+    CS_TRY(cs_pass_replicate(pass, share->batches, share->batch_count, replicate, error));
+    pass->launch.goes_on = 0;
+    CS_TRY(cs_visit_pixels(job, &taking, error));
+    CS_TRY(cs_adaptive_take_aovs(job, replicate, error));
+    job->adaptive.drawn++;
+done:
+    free_batches(share);
+    return status;
+}
+
+/* The sizes of a replicate's patterns, from that of the beginning on: by what the other's beginning
+ * has found in the pixel, and both in its neighbours (`near`). */
+static clshear_status size_patterns(cs_job *job, const finding *other, const finding *near,
+                                    cs_u32 *samples, cs_error *error)
+{
+    const cs_adaptive *adaptive = &job->adaptive;
+    const cs_pilot_picture picture = {.variance = other->variance,
+                                      .intensity = other->intensity,
+                                      .near_variance = near->variance,
+                                      .near_intensity = near->intensity,
+                                      .certain = adaptive->certain,
+                                      .width = job->window[1] - job->window[0],
+                                      .height = job->window[3] - job->window[2],
+                                      .pattern = adaptive->begin,
+                                      .replicates = 1};
+    const cs_u32 mean = job->pattern.grid.count;
+    const cs_range range = {.certain = adaptive->few,
+                            .least = adaptive->begin,
+                            .even = mean > adaptive->begin ? mean : adaptive->begin,
+                            .mean = mean,
+                            .most = cs_sampler_most(job->pattern.sampler)};
+    return cs_allocate_samples(&picture, &range, samples, error);
+}
+
 /* Puts a beginning back into the pixel, and finishes the pattern where that is all of it. */
 static void put_back(cs_job *job, void *user, size_t index, cs_pixel *pixel)
 {
@@ -192,8 +232,8 @@ static void put_back(cs_job *job, void *user, size_t index, cs_pixel *pixel)
         pixel->sum[c] = share->beginning[3 * index + c].sum;
         pixel->carry[c] = share->beginning[3 * index + c].carry;
     }
-    pixel->pending = job->adaptive.begin;
-    if (share->samples[index] == job->adaptive.begin) cs_finish_pattern(pixel);
+    pixel->pending = cs_adaptive_begun_with(&job->adaptive, index);
+    if (share->samples[index] == pixel->pending) cs_finish_pattern(pixel);
 }
 
 /* The beginnings, and what they decide. */
@@ -206,7 +246,8 @@ static clshear_status begin(cs_job *job, cs_pass *pass, cs_error *error)
     CS_REQUIRE(memory != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", count);
     for (cs_u32 k = 0; k < CS_BEGINNINGS; k++) {
         cs_f32 *values = memory + 2 * (k + 1) * count;
-        found[k] = (finding){job->adaptive.shares[k].beginning, values, values + count};
+        found[k] = (finding){job->adaptive.shares[k].beginning, values, values + count,
+                             k > 0 ? &found[k - 1] : NULL};
         CS_TRY(draw_beginning(job, pass, k, &found[k], error));
     }
     for (size_t i = 0; i < count; i++) {
@@ -225,9 +266,9 @@ static clshear_status draw_replicate(cs_job *job, cs_pass *pass, cs_u32 replicat
 {
     clshear_status status = CLSHEAR_OK;
     cs_share *share = &job->adaptive.shares[replicate];
-    const change putting = {put_back, share};
-    CS_TRY(make_batches(job, share, error));
-    CS_TRY(change_pixels(job, &putting, error));
+    const cs_visit putting = {put_back, share, 1};
+    CS_TRY(make_batches(job, share, job->adaptive.begin, error));
+    CS_TRY(cs_visit_pixels(job, &putting, error));
     CS_TRY(cs_adaptive_put_aovs(job, replicate, error));
     job->adaptive.begun = replicate + 1;
     CS_TRY(cs_resume_begin(job, replicate, error));
@@ -256,18 +297,19 @@ double cs_adaptive_mean(const cs_job *job, const cs_pixel *pixel, size_t index, 
     const double finished =
         (double)pixel->pattern_sum[colour] + (double)pixel->pattern_carry[colour];
     const double pending = (double)pixel->sum[colour] + (double)pixel->carry[colour];
+    const double begun_with = cs_adaptive_begun_with(adaptive, index);
     /* Beginnings that no pattern contains yet. */
     double sum = 0.0, count = 0.0;
     for (cs_u32 r = adaptive->begun; r < adaptive->drawn; r++) {
         const cs_exact_sum *beginning = &adaptive->shares[r].beginning[3 * index + (size_t)colour];
-        sum += ((double)beginning->sum + (double)beginning->carry) / adaptive->begin;
+        sum += ((double)beginning->sum + (double)beginning->carry) / begun_with;
         count++;
     }
     if (adaptive->drawn == CS_BEGINNINGS) {
         sum += finished + (pixel->pending > 0 ? pending / pixel->pending : 0.0);
         count += pixel->patterns + (pixel->pending > 0 ? 1.0 : 0.0);
-    } else { /* in a beginning, whose halves are patterns */
-        sum = sum * adaptive->begin + 0.5 * finished * adaptive->begin + pending;
+    } else { /* in a beginning: all samples have the same weight */
+        sum = sum * begun_with + pending;
         count = pixel->samples;
     }
     return count > 0.0 ? sum / count : 0.0;

@@ -1,8 +1,9 @@
 /* Renders that share samples out between pixels by need, and keep all of them.
  *
- * Two replicates begin with the same few samples in every pixel. How many a pixel has in one is
- * decided by its samples in the beginning of the other. Then each pattern is drawn to its end, its
- * beginning a part of it. Pixels that need no more than the beginning are not drawn again.
+ * Two replicates begin with the same samples in every pixel, but for those that show the background
+ * alone, which have a few and no more. How many a pixel has in one is decided by its samples in the
+ * beginning of the other. Then each pattern is drawn to its end, its beginning a part of it. Pixels
+ * that need no more than the beginning are not drawn again.
  *
  * Unbiased: the size of a pattern is a function of another replicate's samples, which are
  * independent of its own; so, given its size, its mean has the expected value of every pattern of
@@ -26,7 +27,7 @@ enum {
 
 /* One of the replicates. */
 typedef struct cs_share {
-    cs_u32 *samples;         /* in a pattern of each pixel */
+    cs_u32 *samples;         /* in a pattern of each pixel; at first: in its beginning */
     cs_exact_sum *beginning; /* sums of three colours of each pixel */
     cs_exact_sum *aovs;      /* likewise, of the planes of each pixel; NULL: none */
     cs_batch batches[CS_MOST_BATCHES];
@@ -35,17 +36,26 @@ typedef struct cs_share {
 
 /* Start from zeros. */
 typedef struct cs_adaptive {
-    cs_u32 begin;  /* samples of a beginning; 0: the job does not share out in this way */
-    cs_u32 drawn;  /* beginnings that are complete */
-    cs_u32 begun;  /* replicates that went on from their beginning */
-    cs_u32 closed; /* replicates that are complete */
+    cs_u32 begin;     /* samples of a beginning; 0: the job does not share out in this way */
+    cs_u32 few;       /* samples of a beginning in a certain pixel */
+    cs_u32 drawn;     /* beginnings that are complete */
+    cs_u32 begun;     /* replicates that went on from their beginning */
+    cs_u32 closed;    /* replicates that are complete */
+    uint8_t *certain; /* of each pixel: whether it shows the background alone */
     cs_share shares[CS_BEGINNINGS];
     double *aov_means; /* sums over the closed replicates of the means of their planes */
 } cs_adaptive;
 
-/* Whether the job's samples can be shared out in this way: a progressive sampler, two replicates of
- * CS_LEAST_TO_SHARE_OUT samples or more, and nothing that is continued, has a stop rule, is a shard
- * or has a checkpoint. Then reserves what it takes. */
+/* Samples of a pixel's beginning. */
+cs_u32 cs_adaptive_begun_with(const cs_adaptive *adaptive, size_t index);
+
+/* Where the settings do not say whether samples are shared out, sets that they are if this way can
+ * be taken: with a progressive sampler, two replicates of CS_LEAST_TO_SHARE_OUT samples or more,
+ * and nothing that is or will be continued, has a stop rule, is a shard or has a checkpoint. The
+ * job must have its samples and its pattern. */
+clshear_status cs_adaptive_complete(struct cs_job *job, cs_error *error);
+
+/* Whether the job's samples can be shared out in this way. Then reserves what it takes. */
 clshear_status cs_adaptive_plan(struct cs_job *job, cs_error *error);
 void cs_adaptive_free(cs_adaptive *adaptive);
 

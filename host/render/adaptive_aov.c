@@ -76,6 +76,7 @@ static void settle(cs_job *job, cs_u32 replicate, size_t index, const cs_pixel *
         settle_beginning(job, index, sums);
         return;
     }
+    const cs_u32 begun_with = cs_adaptive_begun_with(adaptive, index);
     /* The replicate in progress, if there is one. */
     const cs_u32 open = adaptive->begun == adaptive->closed ? 0
                         : pixel->patterns > adaptive->closed
@@ -85,7 +86,7 @@ static void settle(cs_job *job, cs_u32 replicate, size_t index, const cs_pixel *
         double sum = adaptive->aov_means[index * planes + k], count = adaptive->closed;
         if (open > 0) sum += total_of(sums[k]) / open, count++;
         for (cs_u32 b = adaptive->begun; b < CS_BEGINNINGS; b++, count++)
-            sum += total_of(adaptive->shares[b].aovs[index * planes + k]) / adaptive->begin;
+            sum += total_of(adaptive->shares[b].aovs[index * planes + k]) / begun_with;
         sums[k] = exact(count > 0.0 ? sum / count * pixel->samples : 0.0);
     }
 }

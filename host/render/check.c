@@ -199,5 +199,6 @@ clshear_status cs_job_choose_samples(cs_job *job, cs_error *error)
 {
     clshear_status status = check_counts(job, error);
     if (status == CLSHEAR_OK) status = choose_sampler(job, error);
-    return status == CLSHEAR_OK ? choose_pattern(job, error) : status;
+    if (status == CLSHEAR_OK) status = choose_pattern(job, error);
+    return status == CLSHEAR_OK ? cs_adaptive_complete(job, error) : status;
 }

@@ -5,8 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "oracle/allocate.h"
 #include "oracle/choose_rule.h"
 #include "pattern/pattern.h"
+#include "render/background.h"
 #include "render/motion.h"
 
 enum {
@@ -245,14 +247,27 @@ static cs_u32 least_count(cs_u32 mean)
     return cs_power_of_two(2 * ((mean - 1) / 16) + 1);
 }
 
+static cs_range range_of(cs_u32 mean, cs_u32 most)
+{
+    const cs_u32 even = cs_power_of_two(mean), few = least_count(mean);
+    return (cs_range){.certain = few,
+                      .least = even / 4 > few ? even / 4 : few,
+                      .even = even,
+                      .mean = mean,
+                      .most = most};
+}
+
 clshear_status cs_pilot_samples(cs_job *job, cs_u32 *samples, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const int width = job->window[1] - job->window[0], height = job->window[3] - job->window[2];
     outcome result = {.variance = malloc(job->pixel_count * sizeof(cs_f32)),
                       .intensity = malloc(job->pixel_count * sizeof(cs_f32))};
-    CS_REQUIRE(result.variance != NULL && result.intensity != NULL, CLSHEAR_OUT_OF_MEMORY,
-               "out of memory for the pilot of %zu pixels", job->pixel_count);
+    uint8_t *certain = malloc(job->pixel_count);
+    CS_REQUIRE(result.variance != NULL && result.intensity != NULL && certain != NULL,
+               CLSHEAR_OUT_OF_MEMORY, "out of memory for the pilot of %zu pixels",
+               job->pixel_count);
+    CS_TRY(cs_background_find(job, certain, error));
     /* A sixteenth of the samples, but two patterns at least that say something: smaller ones rank
      * pixels worse, and where packets have 16 lanes they cost as much. */
     const cs_u32 sampler = job->pattern.sampler;
@@ -265,7 +280,7 @@ clshear_status cs_pilot_samples(cs_job *job, cs_u32 *samples, cs_error *error)
                                       .intensity = result.intensity,
                                       .near_variance = result.variance,
                                       .near_intensity = result.intensity,
-                                      .shear_px = job->shear_px,
+                                      .certain = certain,
                                       .width = width,
                                       .height = height,
                                       .pattern = size,
@@ -274,11 +289,12 @@ clshear_status cs_pilot_samples(cs_job *job, cs_u32 *samples, cs_error *error)
     while (cs_sampler_count(sampler, limit) == 0)
         limit /= 2;
     const cs_u32 mean = job->pattern.grid.count;
-    const cs_range range = {.least = least_count(mean), .mean = mean, .most = limit};
+    const cs_range range = range_of(mean, limit);
     CS_TRY(cs_allocate_samples(&picture, &range, samples, error));
 done:
     free(result.variance);
     free(result.intensity);
+    free(certain);
     return status;
 }
 

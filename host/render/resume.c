@@ -9,10 +9,7 @@
 #include "pattern/pattern.h"
 #include "render/aov.h"
 #include "render/recipe.h"
-
-enum {
-    SLICE = 1 << 16 /* pixels on their way at once */
-};
+#include "render/visit.h"
 
 static int is_extendable(const cs_job *job)
 {
@@ -84,30 +81,10 @@ clshear_status cs_resume_check(cs_job *job, cs_error *error)
     return CLSHEAR_OK;
 }
 
-/* Calls `change` for every pixel's state on the device. */
-static clshear_status for_pixels(cs_job *job, uint32_t replicate,
-                                 void (*change)(cs_job *job, uint32_t replicate, size_t index,
-                                                cs_pixel *pixel),
-                                 int write_back, cs_error *error)
-{
-    clshear_status status = CLSHEAR_OK;
-    cs_pixel *slice = malloc(SLICE * sizeof *slice);
-    CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    for (size_t first = 0; first < job->pixel_count; first += SLICE) {
-        const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
-        CS_TRY(cs_pixels_read(&job->pixels, first, count, slice, error));
-        for (size_t i = 0; i < count; i++)
-            change(job, replicate, first + i, &slice[i]);
-        if (write_back) CS_TRY(cs_pixels_write(&job->pixels, first, count, slice, error));
-    }
-done:
-    free(slice);
-    return status;
-}
-
 /* Puts the picture's samples of a replicate into the pixel; before the first, its moments too. */
-static void load(cs_job *job, uint32_t replicate, size_t index, cs_pixel *pixel)
+static void load(cs_job *job, void *user, size_t index, cs_pixel *pixel)
 {
+    const uint32_t replicate = *(const uint32_t *)user;
     static const char *const mean[3] = {"R", "G", "B"};
     static const char *const variance[3] = {"SampleVariance.R", "SampleVariance.G",
                                             "SampleVariance.B"};
@@ -129,8 +106,9 @@ static void load(cs_job *job, uint32_t replicate, size_t index, cs_pixel *pixel)
 }
 
 /* The mean of the replicate that was finished last: what the sum of means has grown by. */
-static void keep(cs_job *job, uint32_t replicate, size_t index, cs_pixel *pixel)
+static void keep(cs_job *job, void *user, size_t index, cs_pixel *pixel)
 {
+    const uint32_t replicate = *(const uint32_t *)user;
     for (size_t c = 0; c < 3; c++) {
         double *before = &job->pattern_sums[3 * index + c];
         const double now = (double)pixel->pattern_sum[c] + (double)pixel->pattern_carry[c];
@@ -159,16 +137,18 @@ clshear_status cs_resume_prepare(cs_job *job, cs_error *error)
 
 clshear_status cs_resume_begin(cs_job *job, uint32_t replicate, cs_error *error)
 {
+    const cs_visit loading = {load, &replicate, 1};
     job->replicates_begun = replicate + 1;
     if (job->base == NULL) return CLSHEAR_OK;
     const clshear_status status = replicate == 0 ? cs_aov_load(job, error) : CLSHEAR_OK;
-    return status == CLSHEAR_OK ? for_pixels(job, replicate, load, 1, error) : status;
+    return status == CLSHEAR_OK ? cs_visit_pixels(job, &loading, error) : status;
 }
 
 clshear_status cs_resume_end(cs_job *job, uint32_t replicate, cs_error *error)
 {
+    const cs_visit keeping = {keep, &replicate, 0};
     if (job->pattern_means == NULL) return CLSHEAR_OK;
-    clshear_status status = for_pixels(job, replicate, keep, 0, error);
+    clshear_status status = cs_visit_pixels(job, &keeping, error);
     if (status == CLSHEAR_OK) job->patterns_kept++;
     return status;
 }

@@ -98,8 +98,8 @@
       "shear by S pixels everywhere, not by the oracle") \
     X(LENS_RAYS, 7, "lens-rays", "", INTEGER, 1, 1, "16", 0, 256, none, RECIPE, "N", \
       "rays for the depths of a pixel") \
-    X(ADAPTIVE, 8, "adaptive", "", SWITCH, 1, 1, "0", 0, 1, none, RECORD, "", \
-      "more samples where they are needed; --spp is the mean") \
+    X(ADAPTIVE, 8, "adaptive", "", SWITCH, 1, 1, "", 0, 1, none, RECORD, "", \
+      "more samples where needed, --spp the mean; =0: alike") \
     X(EXTENDABLE, 9, "extendable", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
       "keep the data for --extend in the EXR") \
     X(KEEP_PATTERNS, 10, "keep-patterns", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
