@@ -224,7 +224,7 @@ static void sharing_out_is_the_default(void **state)
                  {CLSHEAR_ADAPTIVE, "0", 0},    {CLSHEAR_EXTENDABLE, "1", 0},
                  {CLSHEAR_REPLICATES, "4", 0},  {CLSHEAR_SAMPLER, "mj", 0},
                  {CLSHEAR_SHARD, "1/2", 0},     {CLSHEAR_SPP, "14", 0},
-                 {CLSHEAR_NOISE, "0.00001", 0}, {CLSHEAR_SPP, "16", 1}};
+                 {CLSHEAR_NOISE, "0.00001", 0}, {CLSHEAR_SPP, "62", 0}};
     test_fixture *made = *state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         clshear_settings *settings = test_settings(made->settings, SIZE, SIZE, 64);

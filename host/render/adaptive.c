@@ -48,7 +48,8 @@ static int can_share_out(const cs_job *job)
 
 clshear_status cs_adaptive_complete(cs_job *job, cs_error *error)
 {
-    const double shares = can_share_out(job) && cs_integer(&job->settings, EXTENDABLE) == 0;
+    const double shares = can_share_out(job) && cs_integer(&job->settings, EXTENDABLE) == 0 &&
+                          job->pattern.grid.count >= CS_LEAST_TO_SHARE_OUT_UNASKED;
     if (cs_is_set(&job->settings, ADAPTIVE)) return CLSHEAR_OK;
     return cs_settings_set(&job->settings, CLSHEAR_ADAPTIVE, &shares, 1, error);
 }

@@ -23,6 +23,9 @@ enum {
     CS_MOST_BATCHES = 24,
     CS_BEGINNINGS = 2,         /* replicates */
     CS_LEAST_TO_SHARE_OUT = 8, /* samples in a pattern */
+    /* ... and without being asked: patterns of fewer than two packets leave lanes idle where
+     * samples are shared out, and at equal time more samples for all pixels are better. */
+    CS_LEAST_TO_SHARE_OUT_UNASKED = 32,
 };
 
 /* One of the replicates. */
@@ -50,8 +53,9 @@ typedef struct cs_adaptive {
 cs_u32 cs_adaptive_begun_with(const cs_adaptive *adaptive, size_t index);
 
 /* Where the settings do not say whether samples are shared out, sets that they are if this way can
- * be taken: with a progressive sampler, two replicates of CS_LEAST_TO_SHARE_OUT samples or more,
- * and nothing that is or will be continued, has a stop rule, is a shard or has a checkpoint. The
+ * be taken and pays: with a progressive sampler, two replicates of CS_LEAST_TO_SHARE_OUT_UNASKED
+ * samples or more, and nothing that is or will be continued, has a stop rule, is a shard or has a
+ * checkpoint. The
  * job must have its samples and its pattern. */
 clshear_status cs_adaptive_complete(struct cs_job *job, cs_error *error);
 
