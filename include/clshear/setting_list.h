@@ -99,7 +99,7 @@
     X(LENS_RAYS, 7, "lens-rays", "", INTEGER, 1, 1, "16", 0, 256, none, RECIPE, "N", \
       "rays for the depths of a pixel") \
     X(ADAPTIVE, 8, "adaptive", "", SWITCH, 1, 1, "", 0, 1, none, RECORD, "", \
-      "more samples where needed, --spp the mean; =0: alike") \
+      "share samples out by need, --spp the mean; =0: evenly") \
     X(EXTENDABLE, 9, "extendable", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
       "keep the data for --extend in the EXR") \
     X(KEEP_PATTERNS, 10, "keep-patterns", "", SWITCH, 1, 1, "0", 0, 1, none, PRIVATE, "", \
