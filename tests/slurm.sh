@@ -130,7 +130,7 @@ for node in node1 node2 node3; do
 done
 wait_for 60 "the nodes are not there: $(sinfo)" nodes_are_idle || exit 1
 
-flags=(--width 64 --height 64 --spp 14336 --replicates 7 --oracle centre --packet 8)
+flags=(--width 64 --height 64 --spp 114688 --replicates 7 --oracle centre --packet 8)
 scene=$root/scenes/cornell.obj
 last=$("$root/scripts/slurm/submit" 7 img.exr "$scene" "${flags[@]}") || exit 1
 shards=$(squeue --noheader --name=clshear-shard --format=%F | sort -n | head -1)
