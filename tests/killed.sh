@@ -60,7 +60,15 @@ torment() {
     while [ $killed -lt "$kills" ] || [ $pictures -eq 0 ] || [ -e state ]; do
         go_on "$name" $((kills - killed)) "$@"
         code=$?
-        [ $code -eq 137 ] && killed=$((killed + 1)) && continue
+        if [ $code -eq 137 ]; then
+            killed=$((killed + 1))
+            [ -e state ] && continue
+            # Before the first checkpoint, or after the picture and before the end of the program.
+            [ "$reached" -lt 50 ] || [ "$(hash_of "$name.exr")" = "$(hash_of killed.exr)" ] ||
+                wrong "$name: neither checkpoint nor picture after $reached %"
+            reached=0
+            continue
+        fi
         [ $code -eq 0 ] || { wrong "$name: exit $code, $(cat said.txt)"; break; }
         [ "$(hash_of "$name.exr")" = "$(hash_of killed.exr)" ] || wrong "$name: other bits after $killed kills"
         [ ! -e state ] || { wrong "$name: the checkpoint is left"; break; }
