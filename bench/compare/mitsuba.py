@@ -18,6 +18,7 @@ import sys
 import tempfile
 import time
 
+from flags import read_flags
 from spheres import write_spheres
 
 # This file is called like the package, which must not find it first.
@@ -43,18 +44,6 @@ INTEGRATORS = {
 }
 
 # --- The scene in Mitsuba's terms ---
-
-
-def read_flags(path):
-    """Flags of a .flags file: name to list of values, each a list of numbers or a word."""
-    flags = {}
-    for line in path.read_text().splitlines():
-        if line.startswith("--"):
-            name, value = line[2:].split()
-            numbers = re.fullmatch(r"[-+.,\deE]+", value)
-            flags.setdefault(name, []).append(
-                [float(part) for part in value.split(",")] if numbers else value)
-    return flags
 
 
 def read_mtl(path):

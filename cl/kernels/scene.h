@@ -75,7 +75,8 @@ typedef struct cs_wide_leaf {
     cs_f32 corner[3][CS_WIDE_LEAF];
     cs_f32 edge1[3][CS_WIDE_LEAF];
     cs_f32 edge2[3][CS_WIDE_LEAF];
-    cs_u32 first; /* of the array of cs_triangle; what is beyond the last one repeats it */
+    cs_u32 first; /* index of the first triangle in the array of cs_triangle. A leaf of fewer than
+                   * CS_WIDE_LEAF triangles repeats its last one */
     cs_u32 padding[3];
 } cs_wide_leaf;
 CS_SHARED_WORDS(cs_wide_leaf, 40);

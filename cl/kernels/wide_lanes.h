@@ -1,7 +1,8 @@
-/* What the walk of single rays does with sixteen children or triangles at once. Device only.
+/* Vector operations of the walk of single rays over a node's sixteen children or a leaf's four
+ * triangles. Device only.
  *
- * OpenCL C has no masks as integers and no permutation by a vector that compilers make one
- * instruction of, so that processors with AVX-512 have their own. */
+ * OpenCL C cannot turn a comparison into an integer mask, or permute a vector by another, in one
+ * instruction. Processors with AVX-512 use compiler built-ins for both; others use loops. */
 #ifndef CS_KERNELS_WIDE_LANES_H
 #define CS_KERNELS_WIDE_LANES_H
 
@@ -28,7 +29,8 @@ static inline cs_u32 cs_mask_of_four(int4 mask)
 }
 
 /* Writes references and distances of the children whose `enter` is below `limit`, from far to near,
- * and returns how many there are. What is behind them, up to CS_WIDE, is overwritten. */
+ * and returns their number. Both arrays need room for CS_WIDE entries: entries after the last child
+ * are overwritten with anything. */
 static inline int cs_push_children(CS_GLOBAL const cs_wide_node *node, int octant, cs_vfloat enter,
                                    cs_f32 limit, cs_u32 *references, cs_f32 *enters)
 {

@@ -1,8 +1,8 @@
 /* Closest hit and any hit of rays that have little in common, each by itself. Device only.
  *
- * A ray meets the boxes of up to sixteen children at once (Wald, Benthin & Boulos 2008), and four
- * triangles. The rays of a packet take turns, a step each: what a ray needs next is asked for one
- * turn before, so that it does not wait for memory. */
+ * A step tests one ray against the boxes of up to sixteen children (Wald, Benthin & Boulos 2008) or
+ * against four triangles. The rays of a packet take turns, a step each. At the end of its step a
+ * ray prefetches its next node or leaf, which memory delivers during the steps of the others. */
 #ifndef CS_KERNELS_WIDE_WALK_H
 #define CS_KERNELS_WIDE_WALK_H
 
@@ -22,11 +22,12 @@ typedef struct cs_wide_ray {
     float4 inverse; /* of the direction */
     float4 direction;
     cs_f32 limit; /* distance of the nearest hit so far, or the ray's reach */
-    int near[3];  /* bytes from low planes to those that the ray meets first: 0 or 16 */
-    int order;    /* in which children are pushed: an octant */
-    int next;     /* node or leaf */
+    int near[3]; /* for each axis, offset in bytes of the planes that the ray meets first: 0 for the
+                  * low ones, 16 for the high ones */
+    int order;   /* in which children are pushed: an octant */
+    int next;    /* node or leaf */
     int triangle; /* CS_WIDE_LEAF times its leaf, and its place there; or CS_NO_HIT */
-    int top;      /* entries of the stack */
+    int top;      /* number of entries on the stack */
     cs_u32 references[CS_WIDE_STACK];
     cs_f32 enters[CS_WIDE_STACK]; /* distances at which the ray enters their boxes */
 } cs_wide_ray;
@@ -46,7 +47,7 @@ static inline void cs_wide_enter(CS_GLOBAL const cs_wide_node *nodes, cs_wide_ra
     cs_vfloat far_z = fma(cs_bytes_at(planes + 80 - ray->near[2]), scale.z, offset.z);
     cs_vfloat enter = cs_max(cs_max(near_x, near_y), cs_max(near_z, (cs_vfloat)(0.0f)));
     cs_vfloat leave = cs_min(cs_min(far_x, far_y), far_z);
-    /* Ize 2013: what rounding loses relative to the distance */
+    /* Far planes are moved away by the relative error of a slab test in floats (Ize 2013). */
     cs_vint hit = enter <= leave * 1.0000005f;
     hit = hit & (*(CS_GLOBAL const cs_vint *)node->child != 0);
     enter = hit ? enter : (cs_vfloat)(INFINITY);
@@ -237,7 +238,7 @@ static inline cs_f32 cs_extent(cs_vfloat x, cs_vint active)
 {
     cs_vfloat high = active ? x : (cs_vfloat)(-INFINITY);
     cs_vfloat low = active ? -x : (cs_vfloat)(-INFINITY);
-    return cs_reduce_largest(high) + cs_reduce_largest(low);
+    return cs_reduce_max_float(high) + cs_reduce_max_float(low);
 }
 
 /* From which extents on rays have little in common, summed over the axes: those of their unit

@@ -13,8 +13,8 @@ extern "C" {
  * settings.
  * - Eye, target, up, and field of view or CLSHEAR_ORTHOGRAPHIC: from the scene file's camera, the
  *   one that CLSHEAR_CAMERA names or else the first. Without one, the scene fills the picture as
- *   seen from the front and slightly above, or from where CLSHEAR_ORBIT says. CLSHEAR_ORTHOGRAPHIC
- * 0 becomes the width that shows all of it.
+ *   seen from the front and slightly above, or from where CLSHEAR_ORBIT says. A value of 0 of
+ *   CLSHEAR_ORTHOGRAPHIC becomes the width that shows all of it.
  * - Focal distance: the focal plane, with its CLSHEAR_TILT, goes through what CLSHEAR_FOCUS_PIXEL
  *   sees, through CLSHEAR_FOCUS_POINT, or through what the middle pixel sees. If that is nothing,
  *   the distance is that of the centre of the bounding box.

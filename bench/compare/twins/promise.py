@@ -3,9 +3,9 @@ same: a row of a table for each scene of DoF-20 that is named. scripts/promise-c
 
 Both render the twin of the scene (cycles_scene.py) with two threads, the same size and bounces and a
 box filter. Each is judged by a reference of its own with sixteen times the samples, whose own error
-is taken off (so that --reference 4 is enough for Cycles'). CPU time is that of all threads, less that of loading: the median of a render of
-4 x 3 pixels with clshear, so that the depth prepass and the pilot count; one sample per pixel with
-Cycles, which keeps its scene in memory.
+is taken off (so that --reference 4 is enough for Cycles'). CPU time is that of all threads, less
+that of loading: the median of a render of 4 x 3 pixels with clshear, so that the depth prepass and
+the pilot count; one sample per pixel with Cycles, which keeps its scene in memory.
 """
 import argparse
 import json
@@ -20,6 +20,9 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.append(str(HERE.parent))
+from flags import read_flags  # noqa: E402
+
 ROOT = HERE.parents[2]
 SCENES = ROOT / "bench" / "dof20"
 MODELS = ROOT / "build" / "dof20" / "models"
@@ -28,15 +31,9 @@ HEAD = """| scene | samples | true error | CPU s | Cycles, fixed: CPU s | ratio 
 |---|---|---|---|---|---|---|---|---|---|"""
 
 
-def read_flags(path):
-    """Flags of a .flags file: name to list of values, each a list of numbers or a word."""
-    flags = {}
-    for line in path.read_text().splitlines():
-        if line.startswith("--"):
-            name, value = line[2:].split()
-            numbers = re.fullmatch(r"[-+.,\deE]+", value)
-            flags.setdefault(name, []).append(
-                [float(part) for part in value.split(",")] if numbers else value)
+def flags_of(path):
+    """Flags of a .flags file, with the defaults that the twin has to be told."""
+    flags = read_flags(path)
     flags.setdefault("bounces", [[4.0]])
     flags.setdefault("up", [[0.0, 1.0, 0.0]])
     return flags
@@ -132,7 +129,7 @@ def at_error(rungs, error, name):
 
 def of_cycles(options, name, folder, error):
     job = {"importer": str(pathlib.Path(options.program).with_name("clshear-import")),
-           "model": str(model_of(name)), "flags": read_flags(settings_of(name)),
+           "model": str(model_of(name)), "flags": flags_of(settings_of(name)),
            "width": options.width, "height": options.height, "error": error,
            "seeds": max(options.seeds, 2), "reference": options.reference, "folder": str(folder),
            "picture": str(folder / "cycles.png")}

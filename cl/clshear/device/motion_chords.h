@@ -5,9 +5,9 @@
  * along one line is fixed, film, lens and time are uniform on chords of that line. Along the motion
  * these are three boxes: the fibre goes to where their sum has the rank that the sum of the first
  * two had (cs_chain_axis). Across it the time has no part, and two boxes slide as at rest
- * (chord_map.h). Along comes first: the lens's place there depends on the time, and its chord
- * across with it, but what slides across hardly depends on that chord. The filter is a mixture of
- * boxes as in chord_map.h.
+ * (chord_map.h). The line along the motion comes first, because the lens's place
+ * on it depends on the time and sets the length of the chord across. That length changes the places
+ * across little. The filter is a mixture of boxes as in chord_map.h.
  *
  * A polygon, a box of such a mixture, and a disk that hardly moves have no map to their fibre with
  * the time: their place in the chord along the motion takes the place of the rank.

@@ -191,8 +191,8 @@ static inline cs_f32 cs_reduce_add(cs_vfloat x)
 #endif
 }
 
-/* Largest lane. */
-static inline cs_f32 cs_reduce_largest(cs_vfloat x)
+/* Largest lane, of floats. */
+static inline cs_f32 cs_reduce_max_float(cs_vfloat x)
 {
 #if CS_PACKET == 1
     return x;

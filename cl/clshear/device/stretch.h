@@ -14,7 +14,7 @@ typedef struct cs_stretch {
     cs_vfloat high; /* 0 or more */
 } cs_stretch;
 
-/* A direction on the film, and that in which a point of the lens moves what it sees as much. */
+/* A direction on the film, and the direction on the lens that moves the image along it. */
 typedef struct cs_heading {
     cs_f32 x; /* unit vector on the film */
     cs_f32 y;
