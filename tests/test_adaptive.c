@@ -188,6 +188,94 @@ static void beginnings_do_not_bias(void **state)
     clshear_film_free(fine);
 }
 
+enum {
+    WALL = 24, /* pixels of the picture's sides; a wall fills its left half */
+    SPECKS = WALL * WALL / 2,
+    SPECK_SEEDS = 64
+};
+
+static const float speck_px = 0.25f, wall_radiance = 0.05f;
+
+/* A dark wall with a white speck in each pixel, and nothing beside it. A unit is a pixel. */
+static clshear_scene *speckled_wall(clshear_context *context)
+{
+    static float corners[SPECKS][3][3];
+    static uint32_t indices[SPECKS][3];
+    static const float wall[] = {-12, -12, 0, 0, -12, 0, 0, 12, 0, -12, 12, 0};
+    static const uint32_t halves[] = {0, 1, 2, 0, 2, 3};
+    for (uint32_t i = 0; i < SPECKS; i++)
+        for (uint32_t k = 0; k < 3; k++) {
+            corners[i][k][0] = (float)(i % (WALL / 2)) - 11.7f + (k == 1 ? speck_px : 0.0f);
+            corners[i][k][1] = (float)(i / (WALL / 2)) - 11.6f + (k == 2 ? speck_px : 0.0f);
+            corners[i][k][2] = 0.1f;
+            indices[i][k] = 3 * i + k;
+        }
+    const clshear_mesh meshes[] = {{.positions = wall,
+                                    .indices = halves,
+                                    .vertex_count = 4,
+                                    .triangle_count = 2,
+                                    .emission = {wall_radiance, wall_radiance, wall_radiance}},
+                                   {.positions = &corners[0][0][0],
+                                    .indices = &indices[0][0],
+                                    .vertex_count = 3 * SPECKS,
+                                    .triangle_count = SPECKS,
+                                    .emission = {1, 1, 1}}};
+    return test_meshes(context, meshes, 2);
+}
+
+/* Mean over the wall in one render. Adds to `different` the pixels of it that have other counts of
+ * samples than the first. */
+static double mean_of_wall(clshear_scene *scene, const char *sampler, uint32_t seed, int *different)
+{
+    clshear_settings *settings = test_settings(NULL, WALL, WALL, 64);
+    test_set(settings, CLSHEAR_EYE, "0,0,10");
+    test_set(settings, CLSHEAR_TARGET, "0,0,0");
+    test_set(settings, CLSHEAR_ORTHOGRAPHIC, "%d", WALL);
+    test_set(settings, CLSHEAR_LENS_RADIUS, "0");
+    test_set(settings, CLSHEAR_SAMPLER, "%s", sampler);
+    test_set_number(settings, CLSHEAR_SEED, seed);
+    clshear_film *film = test_render(scene, settings);
+    const float *green = clshear_film_channel(film, "G");
+    const float *samples = clshear_film_channel(film, "Samples");
+    double mean = 0.0;
+    for (int i = 0; i < WALL * WALL; i++) {
+        if (i % WALL >= WALL / 2) continue;
+        mean += (double)green[i] / SPECKS;
+        *different += samples[i] != samples[0];
+    }
+    clshear_film_free(film);
+    clshear_settings_free(settings);
+    return mean;
+}
+
+/* Samples that meet something rare do not decide the size of their own pattern: if they did,
+ * patterns that have missed the specks would stay small and weigh as much as the others. The mean
+ * over the wall is known: specks are triangles of speck_px^2 / 2. Its standard error is that of 64
+ * seeds, so that 5 of them are passed by chance with probability 5e-6 (Student's t). */
+static void what_is_rare_does_not_bias(void **state)
+{
+    static const char *const samplers[] = {"random", "sz"};
+    test_fixture *made = *state;
+    clshear_scene *scene = speckled_wall(made->context);
+    const double part = 0.5 * (double)speck_px * (double)speck_px;
+    const double truth = part + (1.0 - part) * (double)wall_radiance;
+    for (size_t k = 0; k < sizeof samplers / sizeof *samplers; k++) {
+        double mean = 0.0, m2 = 0.0;
+        int different = 0;
+        for (uint32_t seed = 0; seed < SPECK_SEEDS; seed++) {
+            const double value = mean_of_wall(scene, samplers[k], seed, &different);
+            const double delta = value - mean;
+            mean += delta / (seed + 1);
+            m2 += delta * (value - mean);
+        }
+        const double error = sqrt(m2 / (SPECK_SEEDS - 1) / SPECK_SEEDS);
+        printf("%s: mean %g, true %g, standard error %g\n", samplers[k], mean, truth, error);
+        assert_above(different, SPECKS); /* patterns of the wall do have different sizes */
+        assert_near(mean, truth, 5.0 * error);
+    }
+    clshear_scene_free(scene);
+}
+
 /* Without shear there is nothing to gain. With shear most pixels of this scene gain. */
 static void gain_is_shown(void **state)
 {
@@ -250,6 +338,7 @@ int main(void)
         cmocka_unit_test(samples_are_counted),
         cmocka_unit_test(interruption_leaves_no_holes),
         cmocka_unit_test(beginnings_do_not_bias),
+        cmocka_unit_test(what_is_rare_does_not_bias),
         cmocka_unit_test(gain_is_shown),
         cmocka_unit_test(sharing_out_is_the_default),
         cmocka_unit_test(adaptive_allocation_is_unbiased_and_less_noisy),
