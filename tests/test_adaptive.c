@@ -203,13 +203,15 @@ static clshear_scene *speckled_wall(clshear_context *context)
     static uint32_t indices[SPECKS][3];
     static const float wall[] = {-12, -12, 0, 0, -12, 0, 0, 12, 0, -12, 12, 0};
     static const uint32_t halves[] = {0, 1, 2, 0, 2, 3};
-    for (uint32_t i = 0; i < SPECKS; i++)
+    for (uint32_t i = 0; i < SPECKS; i++) {
+        const uint32_t column = i % (WALL / 2), row = i / (WALL / 2);
         for (uint32_t k = 0; k < 3; k++) {
-            corners[i][k][0] = (float)(i % (WALL / 2)) - 11.7f + (k == 1 ? speck_px : 0.0f);
-            corners[i][k][1] = (float)(i / (WALL / 2)) - 11.6f + (k == 2 ? speck_px : 0.0f);
+            corners[i][k][0] = (float)column - 11.7f + (k == 1 ? speck_px : 0.0f);
+            corners[i][k][1] = (float)row - 11.6f + (k == 2 ? speck_px : 0.0f);
             corners[i][k][2] = 0.1f;
             indices[i][k] = 3 * i + k;
         }
+    }
     const clshear_mesh meshes[] = {{.positions = wall,
                                     .indices = halves,
                                     .vertex_count = 4,
