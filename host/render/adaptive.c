@@ -63,11 +63,12 @@ int cs_adaptive_shares(const cs_job *job)
 
 size_t cs_adaptive_bytes(const cs_job *job)
 {
-    const cs_share *share = job->adaptive.shares;
-    const size_t colours = sizeof *share->samples + 3 * sizeof *share->beginning;
+    const size_t colours =
+        sizeof *job->adaptive.shares->samples + 3 * sizeof *job->adaptive.shares->beginning;
+    const size_t plane =
+        CS_BEGINNINGS * sizeof *job->adaptive.shares->aovs + sizeof *job->adaptive.aov_means;
     return sizeof *job->adaptive.certain + CS_BEGINNINGS * colours +
-           cs_aov_count(job->planes) *
-               (CS_BEGINNINGS * sizeof *share->aovs + sizeof *job->adaptive.aov_means);
+           cs_aov_count(job->planes) * plane;
 }
 
 clshear_status cs_adaptive_plan(cs_job *job, cs_error *error)

@@ -139,7 +139,7 @@ clshear_status cs_resume_prepare(cs_job *job, cs_error *error)
     const uint32_t most = 16;
     const size_t planes = cs_resume_channels(job);
     const int extends = is_extendable(job) || job->base != NULL;
-    if (!keeps_patterns(job)) return CLSHEAR_OK;
+    if (planes == 0) return CLSHEAR_OK;
     if (extends && job->replicates > most)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "%u replicates: a render that can be extended has at most %u",
