@@ -76,6 +76,7 @@ static void read_replicates(group *g, const char *path)
 static void read_seeds(group *g, char **paths, int count)
 {
     double *mean = NULL, *m2 = NULL;
+    if (count < 2) stop("a group must have 2 files or more, or one with replicates");
     for (int k = 0; k < count; k++) {
         clshear_film *film = must_read(paths[k]);
         reserve(g, film);

@@ -25,7 +25,8 @@ void bench_read_flags(int argc, char **argv, const bench_flag *flags, size_t cou
 {
     for (int i = 1; i < argc; i += 2) {
         size_t f = 0;
-        while (f < count && (strncmp(argv[i], "--", 2) != 0 || strcmp(argv[i] + 2, flags[f].name)))
+        while (f < count &&
+               (strncmp(argv[i], "--", 2) != 0 || strcmp(argv[i] + 2, flags[f].name) != 0))
             f++;
         if (f < count && i + 1 < argc && store(&flags[f], argv[i + 1])) continue;
         fprintf(stderr, "%s: %s: flags, each with a value, are", argv[0], argv[i]);

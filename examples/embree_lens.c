@@ -107,7 +107,7 @@ static double render(const view *view, uint32_t replicate, uint32_t mode, float 
     const uint32_t key = cs_pattern_key(1, PIXEL_Y * IMAGE_SIDE + PIXEL_X, replicate);
     double sum = 0.0;
     for (uint32_t i = 0; i < view->pattern.grid.count; i++) {
-        float t[CS_MAIN_DIMENSIONS];
+        float t[CS_MAIN_DIMENSIONS] = {0};
         cs_draw(&view->pattern, view->sample_table, key, i, t);
         const cs_camera_sample p =
             cs_shear(t[0], t[1], t[2], t[3], mode, &view->camera.optics, view->lens_table, shear);

@@ -6,8 +6,13 @@
 set -u
 python=${MITSUBA_PYTHON:-}
 if [ "${3:-}" = lobes ]; then
-    "${python:=python3}" -c 'import numpy' || exit 77
-    exec "$python" "$2/bench/compare/lobes.py" --program "$1"
+    # Debian's numpy is for the system's Python, which may not be the first one.
+    for python in ${python:-python3 /usr/bin/python3}; do
+        "$python" -c 'import numpy' 2>/dev/null &&
+            exec "$python" "$2/bench/compare/lobes.py" --program "$1" --quick
+    done
+    echo "no Python with numpy"
+    exit 77
 fi
 if [ -z "$python" ] || ! "$python" -c 'import mitsuba'; then
     echo "MITSUBA_PYTHON names no Python with Mitsuba"

@@ -1,5 +1,5 @@
 #!/bin/bash
-# The documents tell the truth: every indented command that starts with build/ runs as printed, the C
+# The documents tell the truth: every indented command that starts with build/ or oiiotool runs as printed, the C
 # programs compile and run, the reference is up to date, and every link leads somewhere.
 set -eu
 root=$1 build=$2 scratch=$3
@@ -14,7 +14,7 @@ documents=("$root"/README.md "$root"/CONTRIBUTING.md "$root"/docs/*.md "$root"/d
 
 # Commands run one after another in one folder, so that a page can use what its earlier lines wrote.
 # Pictures are rendered with few samples: their quality is not tested here.
-grep -h '^    build/' "${documents[@]}" | while read -r command; do
+grep -hE '^    (build/|oiiotool )' "${documents[@]}" | while read -r command; do
     echo "+ $command"
     case $command in
     "build/clshear scenes/"*"--extend "* | *--replicates* | *--list*) bash -c "$command" ;;

@@ -23,12 +23,14 @@ cc "${c[@]}" embree_lens.c -o embree_lens "${libraries[@]}" -lembree3 -lm
 cc "${c[@]}" render.c -o render "${libraries[@]}"
 ./render cornell.obj out.exr >/dev/null
 
+# Every public header compiles by itself.
+for header in installed/include/clshear/*.h; do
+    echo "#include <clshear/${header##*/}>" | cc "${c[@]}" -x c -fsyntax-only -
+done
+
 # C++: every public header, and words that agree with the functions.
 {
-    echo '#include <clshear/clshear.h>'
-    echo '#include <clshear/analysis.h>'
-    echo '#include <clshear/opencl.h>'
-    echo '#include <clshear/kernels.h>'
+    (cd installed/include && find clshear -maxdepth 1 -name '*.h' | sort | sed 's/.*/#include <&>/')
     (cd installed/include && find clshear/device -name '*.h' | sort | sed 's/.*/#include <&>/')
     cat <<'END'
 #include <cstdio>

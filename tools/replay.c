@@ -316,7 +316,7 @@ static void set_argument(const player *player, cl_kernel kernel, cl_uint index, 
         return;
     }
     const uint32_t number = take_below(chunk, player->buffer_count + 1);
-    const cl_mem memory = number > 0 ? player->buffers[number - 1].memory : NULL;
+    cl_mem memory = number > 0 ? player->buffers[number - 1].memory : NULL;
     need(clSetKernelArg(kernel, index, sizeof memory, &memory), "a buffer is not accepted");
 }
 

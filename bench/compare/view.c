@@ -75,8 +75,9 @@ static cs_ray ray_at(const bench_view *view, const cs_u32 *rows, cs_u32 pixel, c
     const cs_camera_sample point =
         cs_shear(tuple[0], tuple[1], tuple[2], tuple[3], CS_SHEAR_EQUAL_AREA, &view->frame.optics,
                  view->optics.table.items, shear_px);
-    return cs_lens_ray(view->frame, point.x + (float)(pixel % size),
-                       point.y + (float)(pixel / size), point.u, point.v);
+    const cs_u32 row = pixel / size, column = pixel - row * size;
+    return cs_lens_ray(view->frame, point.x + (float)column, point.y + (float)row, point.u,
+                       point.v);
 }
 
 static void make_rays(bench_view *view, cs_error *error)

@@ -20,4 +20,7 @@ void cs_wide_bvh_free(cs_wide_bvh *wide);
 clshear_status cs_wide_bvh_make(const cs_node *nodes, size_t count, const cs_triangle *triangles,
                                 cs_wide_bvh *wide, cs_error *error);
 
+/* Bytes of the wide hierarchy that is to be expected of so many triangles in the binary one. */
+double cs_wide_bvh_expected(size_t triangles);
+
 #endif

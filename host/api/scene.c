@@ -86,6 +86,7 @@ void clshear_scene_describe(const clshear_scene *scene, clshear_scene_info *info
     clshear_scene_info described = scene->info;
     described.lights = scene->scene.lights.count;
     described.emitters = scene->device_scene.emitters;
+    described.device_bytes += cs_wide_scene_bytes(scene->wide);
     for (int axis = 0; axis < 3; axis++) {
         const double origin = scene->scene.origin[axis];
         described.low[axis] = (double)scene->scene.bounds[0][axis] + origin;

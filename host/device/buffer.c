@@ -5,6 +5,15 @@
 
 static atomic_uint_least64_t last_number;
 
+/* Counts a buffer among those that the device holds. */
+static void count_in(cs_device *device, size_t size)
+{
+    const size_t held = atomic_fetch_add(&device->held, size) + size;
+    size_t most = atomic_load(&device->most);
+    while (held > most && !atomic_compare_exchange_weak(&device->most, &most, held))
+        continue;
+}
+
 clshear_status cs_buffer_create(cs_device *device, size_t size, const void *initial,
                                 cs_buffer **result, cs_error *error)
 {
@@ -21,11 +30,12 @@ clshear_status cs_buffer_create(cs_device *device, size_t size, const void *init
                "%s: a buffer of %zu MB is too large (the device allows %zu MB); make the scene or "
                "the image smaller",
                device->name, size >> 20, (size_t)limit >> 20);
-    buffer->queue = device->queue;
+    buffer->device = device;
     buffer->size = size;
     buffer->number = atomic_fetch_add(&last_number, 1) + 1;
     buffer->memory = clCreateBuffer(device->context, CL_MEM_READ_WRITE, size, NULL, &code);
     CS_OPENCL(code, "%s: no memory for a buffer of %zu MB", device->name, size >> 20);
+    count_in(device, size);
     if (initial != NULL) {
         CS_TRY(cs_buffer_write(buffer, 0, size, initial, error));
     } else {
@@ -47,8 +57,8 @@ done:
 clshear_status cs_buffer_read(const cs_buffer *buffer, size_t offset, size_t size, void *target,
                               cs_error *error)
 {
-    const cl_int code = clEnqueueReadBuffer(buffer->queue, buffer->memory, CL_TRUE, offset, size,
-                                            target, 0, NULL, NULL);
+    const cl_int code = clEnqueueReadBuffer(buffer->device->queue, buffer->memory, CL_TRUE, offset,
+                                            size, target, 0, NULL, NULL);
     if (code == CL_SUCCESS) return CLSHEAR_OK;
     return cs_opencl_fail(error, code, "cannot read %zu bytes from the device", size);
 }
@@ -57,11 +67,16 @@ clshear_status cs_buffer_write(cs_buffer *buffer, size_t offset, size_t size, co
                                cs_error *error)
 {
     atomic_fetch_add(&buffer->writes, 1u);
-    const cl_int code = clEnqueueWriteBuffer(buffer->queue, buffer->memory, CL_TRUE, offset, size,
-                                             source, 0, NULL, NULL);
+    const cl_int code = clEnqueueWriteBuffer(buffer->device->queue, buffer->memory, CL_TRUE, offset,
+                                             size, source, 0, NULL, NULL);
     return code == CL_SUCCESS
                ? CLSHEAR_OK
                : cs_opencl_fail(error, code, "cannot write %zu bytes to the device", size);
+}
+
+size_t cs_buffer_size(const cs_buffer *buffer)
+{
+    return buffer != NULL ? buffer->size : 0;
 }
 
 cs_buffer *cs_buffer_retain(cs_buffer *buffer)
@@ -73,6 +88,9 @@ cs_buffer *cs_buffer_retain(cs_buffer *buffer)
 void cs_buffer_free(cs_buffer *buffer)
 {
     if (buffer == NULL || atomic_fetch_sub(&buffer->references, 1) > 1) return;
-    if (buffer->memory != NULL) clReleaseMemObject(buffer->memory);
+    if (buffer->memory != NULL) {
+        clReleaseMemObject(buffer->memory);
+        atomic_fetch_sub(&buffer->device->held, buffer->size);
+    }
     free(buffer);
 }

@@ -229,6 +229,30 @@ int cs_device_threads(const cs_device *device)
     return device->threads;
 }
 
+size_t cs_device_held(const cs_device *device)
+{
+    return atomic_load(&device->held);
+}
+
+size_t cs_device_most_held(const cs_device *device)
+{
+    return atomic_load(&device->most);
+}
+
+size_t cs_device_memory(const cs_device *device)
+{
+    cl_ulong bytes = 0;
+    clGetDeviceInfo(device->id, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof bytes, &bytes, NULL);
+    return (size_t)bytes;
+}
+
+int cs_device_shares_memory(const cs_device *device)
+{
+    cl_bool is_shared = CL_FALSE;
+    clGetDeviceInfo(device->id, CL_DEVICE_HOST_UNIFIED_MEMORY, sizeof is_shared, &is_shared, NULL);
+    return is_shared == CL_TRUE;
+}
+
 /* Sets the kernel's arguments and starts it, with the device locked: the arguments are the
  * kernel's, whichever thread set them. */
 static clshear_status start(const wish *wanted, cl_event *done_at)

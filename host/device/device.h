@@ -44,6 +44,14 @@ const char *cs_device_driver(const cs_device *device);
 int cs_device_packet(const cs_device *device);
 int cs_device_threads(const cs_device *device); /* its compute units */
 
+/* Bytes of its buffers: of those that there are, and the most that there were at once. */
+size_t cs_device_held(const cs_device *device);
+size_t cs_device_most_held(const cs_device *device);
+
+/* Bytes of its memory, and whether that is the host's. */
+size_t cs_device_memory(const cs_device *device);
+int cs_device_shares_memory(const cs_device *device);
+
 /* A buffer of `size` bytes, at least 4, that starts as `initial` or, where that is NULL, as zeros.
  */
 clshear_status cs_buffer_create(cs_device *device, size_t size, const void *initial,
@@ -52,6 +60,8 @@ clshear_status cs_buffer_read(const cs_buffer *buffer, size_t offset, size_t siz
                               cs_error *error);
 clshear_status cs_buffer_write(cs_buffer *buffer, size_t offset, size_t size, const void *source,
                                cs_error *error);
+size_t cs_buffer_size(const cs_buffer *buffer); /* bytes; 0 of NULL */
+
 /* Each retain is undone by a cs_buffer_free. */
 cs_buffer *cs_buffer_retain(cs_buffer *buffer);
 void cs_buffer_free(cs_buffer *buffer);

@@ -32,12 +32,14 @@ struct cs_device {
     char driver[256];
     const cs_log *log;     /* NULL: none */
     cs_recorder *recorder; /* of its launches; NULL: none */
+    atomic_size_t held;    /* bytes of its buffers */
+    atomic_size_t most;    /* that were held at once */
 };
 
 struct cs_buffer {
     atomic_int references;
     cl_mem memory;
-    cl_command_queue queue;
+    cs_device *device;
     size_t size;        /* bytes */
     uint64_t number;    /* of all buffers of the process, from 1 on */
     atomic_uint writes; /* how often the host has written to it */

@@ -70,6 +70,11 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+size_t cs_noise_bytes(void)
+{
+    return sizeof(float);
+}
+
 clshear_status cs_noise_of_pixels(const cs_estimate *estimate, const cs_tone *tone, double *noise,
                                   cs_error *error)
 {

@@ -25,4 +25,7 @@ double cs_noise_of_picture(const cs_estimate *estimate);
 clshear_status cs_noise_of_pixels(const cs_estimate *estimate, const cs_tone *tone, double *noise,
                                   cs_error *error);
 
+/* Bytes that it takes for each pixel while it runs. */
+size_t cs_noise_bytes(void);
+
 #endif

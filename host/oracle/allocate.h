@@ -3,6 +3,7 @@
 #ifndef CS_ORACLE_ALLOCATE_H
 #define CS_ORACLE_ALLOCATE_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "base/status.h"
@@ -54,5 +55,8 @@ cs_u32 cs_power_of_two(cs_u32 count);
  * 3 x 3 pixels and e a hundredth of the picture's. A and B are the sums of V and V W. */
 clshear_status cs_allocate_samples(const cs_pilot_picture *pilot, const cs_range *range,
                                    cs_u32 *samples, cs_error *error);
+
+/* Bytes that it takes for each pixel while it runs. */
+size_t cs_allocate_bytes(void);
 
 #endif

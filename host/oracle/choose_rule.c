@@ -60,20 +60,29 @@ static double ratio_at(const summed_area *tables, int width, int height, int x, 
     return exp((log(local) * count + log(everywhere) * trust) / (count + trust));
 }
 
+enum {
+    TABLES = 3
+};
+
+size_t cs_pilot_choose_bytes(void)
+{
+    return TABLES * sizeof(double) + sizeof(cs_f32);
+}
+
 clshear_status cs_pilot_choose(const cs_evidence *evidence, cs_rule prior, int width, int height,
                                int radius, uint8_t *rules, cs_error *error)
 {
     const double clear = 0.8; /* largest ratio of variances at which a rule replaces the prior */
     const size_t pixels = (size_t)width * (size_t)height;
     const size_t stride = (size_t)width + 1, size = stride * ((size_t)height + 1);
-    double *memory = calloc(3 * size, sizeof *memory);
+    double *memory = calloc(TABLES * size, sizeof *memory);
     cs_f32 *best = malloc(pixels * sizeof *best);
     if (memory == NULL || best == NULL) {
         free(memory);
         free(best);
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for the pilot");
     }
-    summed_area tables[3] = {
+    summed_area tables[TABLES] = {
         {memory, stride}, {memory + size, stride}, {memory + 2 * size, stride}};
     memset(rules, (int)prior, pixels);
     for (size_t i = 0; i < pixels; i++)

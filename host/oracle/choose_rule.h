@@ -3,6 +3,8 @@
 #ifndef CS_ORACLE_CHOOSE_RULE_H
 #define CS_ORACLE_CHOOSE_RULE_H
 
+#include <stddef.h>
+
 #include "base/status.h"
 #include "oracle/oracle.h"
 
@@ -20,5 +22,8 @@ typedef struct cs_evidence {
  * replaces the prior if the ratio is clearly below 1. Fails when out of memory. */
 clshear_status cs_pilot_choose(const cs_evidence *evidence, cs_rule prior, int width, int height,
                                int radius, uint8_t *rules, cs_error *error);
+
+/* Bytes that it takes for each pixel while it runs. */
+size_t cs_pilot_choose_bytes(void);
 
 #endif

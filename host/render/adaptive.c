@@ -4,6 +4,7 @@
 
 #include "oracle/allocate.h"
 #include "pattern/pattern.h"
+#include "render/aov.h"
 #include "render/background.h"
 #include "render/render_job.h"
 #include "render/resume.h"
@@ -40,6 +41,7 @@ static int is_planned_ahead(const cs_job *job)
            cs_is_set(&job->settings, CHECKPOINT);
 }
 
+/* Whether it could share out if that is wanted. */
 static int can_share_out(const cs_job *job)
 {
     return cs_sampler_is_progressive(job->pattern.sampler) && job->replicates == CS_BEGINNINGS &&
@@ -52,6 +54,21 @@ clshear_status cs_adaptive_complete(cs_job *job, cs_error *error)
                           job->pattern.grid.count >= CS_LEAST_TO_SHARE_OUT_UNASKED;
     if (cs_is_set(&job->settings, ADAPTIVE)) return CLSHEAR_OK;
     return cs_settings_set(&job->settings, CLSHEAR_ADAPTIVE, &shares, 1, error);
+}
+
+int cs_adaptive_shares(const cs_job *job)
+{
+    return cs_integer(&job->settings, ADAPTIVE) != 0 && can_share_out(job);
+}
+
+size_t cs_adaptive_bytes(const cs_job *job)
+{
+    const size_t colours =
+        sizeof *job->adaptive.shares->samples + 3 * sizeof *job->adaptive.shares->beginning;
+    const size_t plane =
+        CS_BEGINNINGS * sizeof *job->adaptive.shares->aovs + sizeof *job->adaptive.aov_means;
+    return sizeof *job->adaptive.certain + CS_BEGINNINGS * colours +
+           cs_aov_count(job->planes) * plane;
 }
 
 clshear_status cs_adaptive_plan(cs_job *job, cs_error *error)
@@ -237,12 +254,21 @@ static void put_back(cs_job *job, void *user, size_t index, cs_pixel *pixel)
     if (share->samples[index] == pixel->pending) cs_finish_pattern(pixel);
 }
 
+enum {
+    FINDINGS = 2 * (CS_BEGINNINGS + 1) /* variance and intensity of each beginning and of both */
+};
+
+size_t cs_adaptive_begin_bytes(void)
+{
+    return FINDINGS * sizeof(cs_f32) + cs_allocate_bytes();
+}
+
 /* The beginnings, and what they decide. */
 static clshear_status begin(cs_job *job, cs_pass *pass, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const size_t count = job->pixel_count;
-    cs_f32 *memory = malloc(2 * (CS_BEGINNINGS + 1) * count * sizeof *memory);
+    cs_f32 *memory = malloc(FINDINGS * count * sizeof *memory);
     finding found[CS_BEGINNINGS], both = {.variance = memory, .intensity = memory + count};
     CS_REQUIRE(memory != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", count);
     for (cs_u32 k = 0; k < CS_BEGINNINGS; k++) {

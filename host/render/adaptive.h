@@ -59,7 +59,15 @@ cs_u32 cs_adaptive_begun_with(const cs_adaptive *adaptive, size_t index);
  * job must have its samples and its pattern. */
 clshear_status cs_adaptive_complete(struct cs_job *job, cs_error *error);
 
-/* Whether the job's samples can be shared out in this way. Then reserves what it takes. */
+/* Whether the job shares its samples out in this way. Needs its settings and its pattern. */
+int cs_adaptive_shares(const struct cs_job *job);
+
+/* Bytes of a pixel that such a job keeps on the host, and those that its beginnings take besides.
+ */
+size_t cs_adaptive_bytes(const struct cs_job *job);
+size_t cs_adaptive_begin_bytes(void);
+
+/* Reserves what a job takes that shares out in this way; does nothing for others. */
 clshear_status cs_adaptive_plan(struct cs_job *job, cs_error *error);
 void cs_adaptive_free(cs_adaptive *adaptive);
 

@@ -187,8 +187,6 @@ clshear_status cs_job_begin(cs_job *job, clshear_scene *scene, const clshear_set
     CS_TRY(cs_studio_complete(scene, &job->settings, error));
     CS_TRY(cs_lighting_make(scene, &job->settings, &job->lighting, error));
     job->features = features_of(job);
-    if (job->features & CS_FEATURE_WIDE)
-        CS_TRY(cs_wide_scene_make(job->scene, &job->features, error));
     job->planes = cs_aov_planes(&job->settings);
     CS_TRY(make_camera(job, error));
 done:

@@ -16,8 +16,14 @@ enum {
     CHOICE_REPLICATES = 2,
     GAIN_SAMPLES = 32, /* patterns by which the gain is measured */
     GAIN_REPLICATES = 4,
-    SLICE = 1 << 16
+    GAIN_PLANES = 3 /* variances without and with the shear, and no shears */
 };
+
+/* Fewer samples than this leave a pilot nothing to find out with. */
+static const cs_u32 least_spp_for_pilot = 64;
+
+/* The part of the samples of the pixels that differ which the choice of shears may take. */
+static const double choice_budget = 0.06;
 
 /* Where a pilot's results go, for each pixel of the window: negative where it did not look. */
 typedef struct outcome {
@@ -30,12 +36,13 @@ static clshear_status read_outcome(const cs_job *job, const cs_pixels *pixels, c
                                    const outcome *result, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_pixel *slice = malloc(SLICE * sizeof *slice);
+    cs_pixel *slice = malloc(CS_PIXEL_SLICE * sizeof *slice);
     CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     for (size_t i = 0; i < job->pixel_count && list != NULL; i++)
         result->variance[i] = -1.0f;
-    for (size_t first = 0; first < pixels->count; first += SLICE) {
-        const size_t left = pixels->count - first, count = left < SLICE ? left : SLICE;
+    for (size_t first = 0; first < pixels->count; first += CS_PIXEL_SLICE) {
+        const size_t left = pixels->count - first,
+                     count = left < CS_PIXEL_SLICE ? left : CS_PIXEL_SLICE;
         CS_TRY(cs_pixels_read(pixels, first, count, slice, error));
         for (size_t i = 0; i < count; i++) {
             const cs_pixel *p = &slice[i];
@@ -162,7 +169,7 @@ static int is_exact(const cs_optics *optics)
  * shear is exact, the right depth gains most: there it is 6 % of all. */
 static double affordable_part(const cs_job *job, const choice *c)
 {
-    const double budget = 0.06 * (double)job->pilot_spp;
+    const double budget = choice_budget * (double)job->pilot_spp;
     double tries = 0.0, differing = 0.0;
     for (size_t i = 0; i < job->pixel_count; i++) {
         int candidates = 0;
@@ -208,6 +215,13 @@ static clshear_status try_rules(cs_job *job, choice *c, double part, cs_error *e
         if (status != CLSHEAR_OK) return status;
     }
     return CLSHEAR_OK;
+}
+
+int cs_pilot_chooses_shears(const cs_job *job)
+{
+    return job->oracle == CLSHEAR_ORACLE_PILOT && !cs_is_set(&job->settings, SHEAR_PX) &&
+           job->shear_kind == CLSHEAR_SHEAR_EQUAL_AREA && job->spp >= least_spp_for_pilot &&
+           (job->base == NULL || cs_film_channel(job->base, "Shear") == NULL);
 }
 
 clshear_status cs_pilot_shears(cs_job *job, cs_error *error)
@@ -316,7 +330,7 @@ clshear_status cs_pilot_gain(cs_job *job, cs_f32 *gain, cs_error *error)
     clshear_status status = CLSHEAR_OK;
     const size_t pixels = job->pixel_count;
     const int width = job->window[1] - job->window[0], height = job->window[3] - job->window[2];
-    cs_f32 *memory = calloc(3 * pixels, sizeof *memory);
+    cs_f32 *memory = calloc(GAIN_PLANES * pixels, sizeof *memory);
     uint8_t *no_rules = malloc(pixels);
     CS_REQUIRE(memory != NULL && no_rules != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory for the gain of %zu pixels", pixels);
@@ -335,4 +349,46 @@ done:
     free(memory);
     free(no_rules);
     return status;
+}
+
+int cs_pilot_chooses_samples(const cs_job *job)
+{
+    return cs_integer(&job->settings, ADAPTIVE) != 0 && !cs_adaptive_shares(job) &&
+           job->spp >= CS_LEAST_SPP_TO_ALLOCATE;
+}
+
+/* What run() takes for `part` of the pixels. */
+static cs_footprint run_bytes(const cs_job *job, double part)
+{
+    const double velocity = job->moves ? sizeof(cs_velocity) : 0;
+    return (cs_footprint){.host = velocity,
+                          .device = part * (double)(cs_pixel_bytes(0) + sizeof(cs_u32)) +
+                                    sizeof(cs_f32) + velocity};
+}
+
+/* What the choice of shears takes. A pixel is tried with the prior and a candidate at least. */
+static cs_footprint choice_bytes(const cs_job *job)
+{
+    const choice *c = NULL;
+    const double cost = 2.0 * CHOICE_SAMPLES * CHOICE_REPLICATES;
+    const double part = fmin(choice_budget * job->pilot_spp / cost, 1.0);
+    const cs_footprint arrays = {.host =
+                                     sizeof *c->list + sizeof *c->rules +
+                                     CS_RULE_COUNT * (sizeof **c->shears + sizeof **c->variance)};
+    const cs_footprint choosing = {.host = (double)cs_pilot_choose_bytes()};
+    return cs_footprint_sum(arrays, cs_footprint_larger(run_bytes(job, part), choosing));
+}
+
+cs_footprint cs_pilot_bytes(const cs_job *job)
+{
+    const cs_footprint run = run_bytes(job, 1.0);
+    const cs_footprint gain = {.host = GAIN_PLANES * sizeof(cs_f32) + sizeof(uint8_t)};
+    const cs_footprint samples = {.host = 2 * sizeof(cs_f32) + sizeof(uint8_t) + sizeof(cs_u32)};
+    cs_footprint most = {0};
+    if (cs_pilot_chooses_shears(job)) most = cs_footprint_larger(most, choice_bytes(job));
+    if (cs_integer(&job->settings, GAIN) != 0)
+        most = cs_footprint_larger(most, cs_footprint_sum(gain, run));
+    if (cs_pilot_chooses_samples(job))
+        most = cs_footprint_larger(most, cs_footprint_sum(samples, run));
+    return most;
 }

@@ -2,7 +2,17 @@
 #ifndef CS_RENDER_PILOT_H
 #define CS_RENDER_PILOT_H
 
+#include "render/footprint.h"
 #include "render/render_job.h"
+
+/* Whether pilots choose the job's shears, or how many samples its pixels have. Need its settings
+ * and its pattern. */
+int cs_pilot_chooses_shears(const cs_job *job);
+int cs_pilot_chooses_samples(const cs_job *job);
+
+/* Bytes of a pixel that the job's pilots take: an upper bound, since it is not known before which
+ * pixels they look at. */
+cs_footprint cs_pilot_bytes(const cs_job *job);
 
 /* Fills the job's rules and shears by trying candidates on part of the pixels: at most 7 % of the
  * render's samples. */

@@ -37,6 +37,11 @@ done:
     return status;
 }
 
+size_t cs_pixel_bytes(size_t planes)
+{
+    return sizeof(cs_pixel) + planes * sizeof(cs_exact_sum);
+}
+
 clshear_status cs_pixels_create(clshear_context *context, size_t count, cs_u32 width, size_t planes,
                                 cs_pixels *pixels, cs_error *error)
 {

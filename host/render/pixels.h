@@ -7,6 +7,10 @@
 #include "kernels/pixel.h"
 #include "render/objects.h"
 
+enum {
+    CS_PIXEL_SLICE = 1 << 16 /* pixels on their way between device and host at once */
+};
+
 /* Pages are whole bands of tiles, so that a walk through tiles (cs_tiled_pixel) does not come back
  * to one. Start from zeros. */
 typedef struct cs_pixels {
@@ -20,6 +24,9 @@ typedef struct cs_pixels {
 
 /* Pixels in a page of a window of this width. */
 size_t cs_page_pixels(const clshear_context *context, cs_u32 width);
+
+/* Bytes of a pixel on the device, with sums of some planes of AOVs. */
+size_t cs_pixel_bytes(size_t planes);
 
 /* `count` pixels of a window, all zero, with sums of some planes of AOVs. */
 clshear_status cs_pixels_create(clshear_context *context, size_t count, cs_u32 width, size_t planes,

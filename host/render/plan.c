@@ -2,43 +2,24 @@
  * buffers. */
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "oracle/oracle.h"
 #include "pattern/pattern.h"
 #include "render/aov.h"
 #include "render/live.h"
+#include "render/memory.h"
 #include "render/motion.h"
 #include "render/pilot.h"
 #include "render/resume.h"
 #include "render/rounds.h"
 
-/* Fewer samples than this leave a pilot nothing to find out with. */
-static const cs_u32 least_spp_for_pilot = 64;
-
 /* Rays of the prepass between two questions to the caller: a fraction of a second. */
 static const size_t rays_at_once = 1 << 22;
-
-/* Says before the render when the picture does not fit: the system ends a program for that without
- * a word, when the memory is written to. */
-static void warn_of_memory(const cs_job *job)
-{
-    const size_t each = sizeof(cs_pixel) + cs_aov_count(job->planes) * sizeof(cs_exact_sum) +
-                        sizeof *job->depth + 2 * sizeof *job->shear_px + sizeof *job->rule +
-                        sizeof(cs_u32); /* its place in the order of pixels */
-    const double need = (double)each * (double)job->pixel_count;
-    const double most = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    if (need > 0.8 * most)
-        cs_warn(&job->scene->context->log,
-                "%zu pixels take %.1f GB of the machine's %.1f GB of memory; --crop renders parts",
-                job->pixel_count, 1e-9 * need, 1e-9 * most);
-}
 
 static clshear_status reserve(cs_job *job, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_device *device = job->scene->context->device;
-    warn_of_memory(job);
     /* Zero, so that a render that is stopped before they are known can be resolved. */
     job->depth = calloc(job->pixel_count, sizeof *job->depth);
     job->shear_px = calloc(job->pixel_count, sizeof *job->shear_px);
@@ -94,7 +75,6 @@ static clshear_status choose_shears(cs_job *job, cs_error *error)
     const float *extended = job->base != NULL ? cs_film_channel(job->base, "Shear") : NULL;
     const float *rules = job->base != NULL ? cs_film_channel(job->base, "Oracle") : NULL;
     const int is_given = cs_is_set(&job->settings, SHEAR_PX);
-    const int pilot = job->oracle == CLSHEAR_ORACLE_PILOT && !is_given;
     const cs_rule rule = cs_rule_of(job->oracle);
     for (size_t i = 0; i < job->pixel_count; i++) {
         job->rule[i] = rules != NULL ? (uint8_t)rules[i] : (uint8_t)rule;
@@ -105,10 +85,7 @@ static clshear_status choose_shears(cs_job *job, cs_error *error)
         else
             job->shear_px[i] = cs_job_shear(job, i, rule);
     }
-    if (!pilot || extended != NULL || job->spp < least_spp_for_pilot ||
-        job->shear_kind != CLSHEAR_SHEAR_EQUAL_AREA)
-        return CLSHEAR_OK;
-    return cs_pilot_shears(job, error);
+    return cs_pilot_chooses_shears(job) ? cs_pilot_shears(job, error) : CLSHEAR_OK;
 }
 
 /* A batch for each number of samples. */
@@ -147,7 +124,7 @@ static clshear_status plan_batches(cs_job *job, cs_error *error)
         const clshear_status status = cs_adaptive_plan(job, error);
         if (status != CLSHEAR_OK || job->adaptive.begin > 0) return status;
     }
-    const int shared = adaptive && job->spp >= CS_LEAST_SPP_TO_ALLOCATE;
+    const int shared = cs_pilot_chooses_samples(job);
     if (adaptive && !shared)
         cs_warn(&job->scene->context->log,
                 "%u samples per pixel are too few to allocate adaptively (from %d on)", job->spp,
@@ -168,6 +145,9 @@ static clshear_status plan_batches(cs_job *job, cs_error *error)
 clshear_status cs_job_plan(cs_job *job, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
+    cs_memory_check(job);
+    CS_TRY(cs_wide_scene_make(job->scene, &job->features, error));
+    job->memory = cs_memory_of(job);
     /* What the scene's surfaces need is compiled by now, when the scene was completed. */
     if (job->features != job->scene->device_scene.needs.features)
         CS_TRY(cs_pass_warm_up(job->scene->context->device, job->features, error));

@@ -100,6 +100,7 @@ static clshear_status prepare(evaluation *e, clshear_scene *scene, const clshear
 {
     clshear_status status = CLSHEAR_OK;
     CS_TRY(cs_job_begin(&e->job, scene, settings, NULL, error));
+    CS_TRY(cs_wide_scene_make(scene, &e->job.features, error));
     CS_REQUIRE(x >= 0 && x < e->job.width && y >= 0 && y < e->job.height, CLSHEAR_BAD_ARGUMENT,
                "pixel %d,%d is outside the %d x %d image", x, y, e->job.width, e->job.height);
     e->pixel[0] = (cs_u32)x;

@@ -27,6 +27,13 @@ typedef struct cs_rounds {
     cs_u32 replicate;                  /* of the round in progress */
 } cs_rounds;
 
+/* What a render holds at its fullest, bytes: see memory.h. */
+typedef struct cs_memory {
+    double host;
+    double device;
+    double both; /* at once: at most the sum, as the two need not be fullest at the same time */
+} cs_memory;
+
 struct cs_viewer;
 
 /* Who sees the picture while it is rendered: see live.h. */
@@ -88,10 +95,11 @@ typedef struct cs_job {
     double *pattern_sums;
     uint32_t patterns_kept;
     uint32_t replicates_begun;
-    int resumes;    /* whether the job goes on from a checkpoint */
-    int save_fails; /* whether the last checkpoint could not be written */
-    double saved_s; /* when the last checkpoint was written */
-    double start_s; /* when the render began */
+    int resumes;      /* whether the job goes on from a checkpoint */
+    int save_fails;   /* whether the last checkpoint could not be written */
+    double saved_s;   /* when the last checkpoint was written */
+    double start_s;   /* when the render began */
+    cs_memory memory; /* without the scene */
     double prepass_s;
     double pilot_s;
     double kernel_s;
@@ -129,5 +137,8 @@ cs_u32 cs_job_patterns(const cs_job *job);
 
 /* Turns the accumulated pixels into a film with metadata. */
 clshear_status cs_job_resolve(cs_job *job, clshear_film **film, cs_error *error);
+
+/* Bytes of a pixel in that film. */
+size_t cs_film_bytes(const cs_job *job);
 
 #endif

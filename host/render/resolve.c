@@ -11,10 +11,6 @@
 #include "render/resume.h"
 #include "render/rounds.h"
 
-enum {
-    SLICE = 1 << 16 /* pixels read back at once */
-};
-
 typedef struct planes {
     float *mean[3];
     float *variance[3];
@@ -25,6 +21,13 @@ typedef struct planes {
     float *rule;
     float *samples;
 } planes;
+
+size_t cs_film_bytes(const cs_job *job)
+{
+    const size_t fixed = sizeof(planes) / sizeof(float *);
+    const size_t others = (job->moves ? 2u : 0u) + (cs_integer(&job->settings, GAIN) != 0);
+    return (fixed + others + cs_aov_count(job->planes) + cs_resume_channels(job)) * sizeof(float);
+}
 
 static clshear_status add_planes(clshear_film *film, planes *all)
 {
@@ -100,10 +103,11 @@ static clshear_status read_pixels(cs_job *job, clshear_film *film, planes *all, 
 {
     clshear_status status = CLSHEAR_OK;
     uint32_t fewest = UINT32_MAX;
-    cs_pixel *slice = malloc(SLICE * sizeof *slice);
+    cs_pixel *slice = malloc(CS_PIXEL_SLICE * sizeof *slice);
     CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
-    for (size_t first = 0; first < job->pixel_count; first += SLICE) {
-        size_t count = job->pixel_count - first < SLICE ? job->pixel_count - first : SLICE;
+    for (size_t first = 0; first < job->pixel_count; first += CS_PIXEL_SLICE) {
+        size_t count =
+            job->pixel_count - first < CS_PIXEL_SLICE ? job->pixel_count - first : CS_PIXEL_SLICE;
         CS_TRY(cs_rounds_read(job, first, count, slice, error));
         for (size_t i = 0; i < count; i++) {
             resolve_pixel(job, &slice[i], first + i, all);
@@ -201,6 +205,8 @@ clshear_status cs_job_resolve(cs_job *job, clshear_film **result, cs_error *erro
     film->info.pilot_s = job->pilot_s;
     film->info.pilot_samples = (uint64_t)job->pilot_samples;
     film->info.kernel_s = job->kernel_s;
+    film->info.host_bytes = (uint64_t)job->memory.host;
+    film->info.device_bytes = (uint64_t)job->memory.device;
     *result = film;
     film = NULL;
 done:

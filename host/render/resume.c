@@ -117,12 +117,29 @@ static void keep(cs_job *job, void *user, size_t index, cs_pixel *pixel)
     }
 }
 
+static int keeps_patterns(const cs_job *job)
+{
+    return is_extendable(job) || job->base != NULL || cs_integer(&job->settings, KEEP_PATTERNS);
+}
+
+size_t cs_resume_channels(const cs_job *job)
+{
+    return keeps_patterns(job) ? 3 * (size_t)job->replicates : 0;
+}
+
+size_t cs_resume_bytes(const cs_job *job)
+{
+    return keeps_patterns(job) ? cs_resume_channels(job) * sizeof *job->pattern_means +
+                                     3 * sizeof *job->pattern_sums
+                               : 0;
+}
+
 clshear_status cs_resume_prepare(cs_job *job, cs_error *error)
 {
     const uint32_t most = 16;
-    const size_t planes = 3 * (size_t)job->replicates;
+    const size_t planes = cs_resume_channels(job);
     const int extends = is_extendable(job) || job->base != NULL;
-    if (!extends && !cs_integer(&job->settings, KEEP_PATTERNS)) return CLSHEAR_OK;
+    if (planes == 0) return CLSHEAR_OK;
     if (extends && job->replicates > most)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "%u replicates: a render that can be extended has at most %u",

@@ -11,6 +11,10 @@ clshear_status cs_resume_check(cs_job *job, cs_error *error);
 
 /* Room for the means of the patterns, which an extension needs one by one. */
 clshear_status cs_resume_prepare(cs_job *job, cs_error *error);
+
+/* Channels of the film for them, and bytes of a pixel that are held until then. */
+size_t cs_resume_channels(const cs_job *job);
+size_t cs_resume_bytes(const cs_job *job);
 void cs_resume_free(cs_job *job);
 
 /* Before and after the samples of a replicate are drawn. */

@@ -9,7 +9,7 @@
 #include "render/resume.h"
 
 enum {
-    SLICE = 1 << 16,  /* pixels on their way at once */
+    LOOK_PLANES = 6,  /* mean and variance of three colours */
     FIRST_ROUND = 16, /* samples of a pattern */
     FIRST_PATTERNS = 2,
     SPP_OF_PILOTS = 256 /* where the render may end with few samples */
@@ -18,6 +18,17 @@ enum {
 static int draws_rounds(const cs_job *job)
 {
     return cs_stop_has_rules(&job->stop) && cs_sampler_is_progressive(job->pattern.sampler);
+}
+
+size_t cs_rounds_bytes(const cs_job *job)
+{
+    return draws_rounds(job) ? job->replicates * sizeof *job->rounds.nets : 0;
+}
+
+size_t cs_rounds_look_bytes(const cs_job *job)
+{
+    if (!cs_stop_has_rules(&job->stop)) return 0;
+    return LOOK_PLANES * sizeof(float) + (job->stop.pixels > 0.0 ? cs_noise_bytes() : 0);
 }
 
 clshear_status cs_rounds_check(cs_job *job, cs_error *error)
@@ -41,10 +52,11 @@ static clshear_status swap_nets(cs_job *job, int to_device, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_net *nets = job->rounds.nets + job->rounds.replicate * job->pixel_count;
-    cs_pixel *slice = malloc(SLICE * sizeof *slice);
+    cs_pixel *slice = malloc(CS_PIXEL_SLICE * sizeof *slice);
     CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    for (size_t first = 0; first < job->pixel_count; first += SLICE) {
-        const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
+    for (size_t first = 0; first < job->pixel_count; first += CS_PIXEL_SLICE) {
+        const size_t left = job->pixel_count - first,
+                     count = left < CS_PIXEL_SLICE ? left : CS_PIXEL_SLICE;
         CS_TRY(cs_pixels_read(&job->pixels, first, count, slice, error));
         for (size_t i = 0; i < count; i++) {
             cs_net *net = &nets[first + i];
@@ -129,12 +141,12 @@ static clshear_status look(cs_job *job, int *is_reached, cs_error *error)
     const cs_tone tone = {.exposure = (float)cs_number(&job->settings, EXPOSURE),
                           .is_auto = (int)cs_integer(&job->settings, AUTO_EXPOSURE),
                           .curve = (int)cs_integer(&job->settings, TONE)};
-    float *planes = malloc(6 * pixels * sizeof *planes);
-    cs_pixel *slice = malloc(SLICE * sizeof *slice);
+    float *planes = malloc(LOOK_PLANES * pixels * sizeof *planes);
+    cs_pixel *slice = malloc(CS_PIXEL_SLICE * sizeof *slice);
     CS_REQUIRE(planes != NULL && slice != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory for %zu pixels", pixels);
-    for (size_t first = 0; first < pixels; first += SLICE) {
-        const size_t left = pixels - first, count = left < SLICE ? left : SLICE;
+    for (size_t first = 0; first < pixels; first += CS_PIXEL_SLICE) {
+        const size_t left = pixels - first, count = left < CS_PIXEL_SLICE ? left : CS_PIXEL_SLICE;
         CS_TRY(cs_rounds_read(job, first, count, slice, error));
         for (size_t i = 0; i < 3 * count; i++) {
             const cs_pixel *pixel = &slice[i / 3];

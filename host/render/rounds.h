@@ -11,6 +11,10 @@
  * nothing for a job without rules. */
 clshear_status cs_rounds_check(cs_job *job, cs_error *error);
 
+/* Bytes of a pixel on the host: that rounds keep, and that a look takes. 0 of jobs without. */
+size_t cs_rounds_bytes(const cs_job *job);
+size_t cs_rounds_look_bytes(const cs_job *job);
+
 /* Draws rounds until a rule ends the job, or all samples are drawn. The job must have a rule. */
 clshear_status cs_rounds_run(cs_job *job, cs_pass *pass, cs_error *error);
 

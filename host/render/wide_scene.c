@@ -84,6 +84,7 @@ clshear_status cs_wide_scene_make(const clshear_scene *scene, cs_u32 *features, 
 {
     clshear_status status = CLSHEAR_OK;
     cs_wide_scene *wide = scene->wide;
+    if ((*features & CS_FEATURE_WIDE) == 0) return CLSHEAR_OK;
     pthread_mutex_lock(&wide->lock);
     if (!wide->is_made) {
         cs_buffer_free(wide->leaves); /* what a failure left */
@@ -101,4 +102,30 @@ void cs_wide_scene_buffers(cs_wide_scene *wide, const cs_buffer *buffers[CS_SCEN
     buffers[CS_SCENE_WIDE_NODES] = wide->nodes;
     buffers[CS_SCENE_WIDE_LEAVES] = wide->leaves;
     pthread_mutex_unlock(&wide->lock);
+}
+
+size_t cs_wide_scene_bytes(cs_wide_scene *wide)
+{
+    pthread_mutex_lock(&wide->lock);
+    const size_t bytes = cs_buffer_size(wide->nodes) + cs_buffer_size(wide->leaves);
+    pthread_mutex_unlock(&wide->lock);
+    return bytes;
+}
+
+double cs_wide_scene_expected(const clshear_scene *scene, cs_u32 features)
+{
+    pthread_mutex_lock(&scene->wide->lock);
+    const int is_made = scene->wide->is_made;
+    pthread_mutex_unlock(&scene->wide->lock);
+    return is_made || (features & CS_FEATURE_WIDE) == 0
+               ? 0.0
+               : cs_wide_bvh_expected(scene->info.references);
+}
+
+cs_footprint cs_wide_scene_making(const clshear_scene *scene, cs_u32 features)
+{
+    const double wide = cs_wide_scene_expected(scene, features);
+    const double binary = (double)scene->info.nodes * (double)sizeof(cs_node) +
+                          (double)scene->info.references * (double)sizeof(cs_triangle);
+    return wide > 0.0 ? (cs_footprint){.host = binary + wide, .device = wide} : (cs_footprint){0};
 }

@@ -27,6 +27,8 @@ typedef struct clshear_film_info {
     double noise_pixel;     /* as CLSHEAR_NOISE_PIXEL has it; 0: the rule was not set */
     double spp_expected;    /* samples per pixel that the noise promised would take; 0: unknown, or
                              * the promise is kept */
+    uint64_t host_bytes;    /* memory that the render took at its fullest, estimated, */
+    uint64_t device_bytes;  /* ... and that on the device; both without the scene */
 } clshear_film_info;
 
 /* Fills in `info`. The caller sets `info->struct_size`. */

@@ -88,7 +88,8 @@ typedef struct clshear_scene_info {
     size_t degenerate;   /* triangles without area, which are left out */
     size_t nodes;        /* nodes of the hierarchy */
     size_t references;   /* triangles in its leaves; spatial splits repeat some */
-    size_t device_bytes; /* geometry on the device: nodes, triangles, faces, vertices */
+    size_t device_bytes; /* geometry on the device: nodes, triangles, faces, vertices, and the wide
+                          * hierarchy as soon as a render with bounces has made it */
     size_t lights;       /* added lights and those of the file */
     size_t emitters;     /* emissive triangles */
     int file_camera;     /* 1 if the file has a camera */

@@ -108,6 +108,8 @@ void report_statistics(const clshear_context *context, const clshear_scene *scen
            100.0 * (double)info.pilot_samples / (double)info.samples);
     printf("kernels      %.3f s\n", info.kernel_s);
     printf("render       %.3f s, prepass and kernels included\n", info.render_s);
+    printf("memory       %.1f MB, and %.1f MB on the device, without the scene\n",
+           1e-6 * (double)info.host_bytes, 1e-6 * (double)info.device_bytes);
     printf("samples      %.3f M, %.2f M/s\n", 1e-6 * (double)info.samples,
            1e-6 * (double)info.samples / info.kernel_s);
     printf("rays         %.3f M, %.2f M/s (camera and shadow)\n", 1e-6 * rays,

@@ -1,0 +1,10 @@
+/* The memory of this process. */
+#ifndef CS_BASE_RESIDENT_H
+#define CS_BASE_RESIDENT_H
+
+#include <stddef.h>
+
+/* Bytes of this process that are in the machine's memory; 0 where the system does not tell. */
+size_t cs_resident_bytes(void);
+
+#endif
