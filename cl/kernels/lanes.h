@@ -26,10 +26,10 @@ static inline cs_vfloat cs_from_whole(cs_vint x)
     (cs_vfloat)(of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7), of(8), of(9), of(10), \
                 of(11), of(12), of(13), of(14), of(15))
 #define CS_NEIGHBOURS(of, i) (cs_vfloat)(of(i), of(i + 4), of(i + 8), of(i + 12))
-#define CS_TRANSPOSED(rows, i, j, k, l)                                                          \
-    (cs_vfloat)(rows[0].s##i, rows[1].s##i, rows[2].s##i, rows[3].s##i, rows[0].s##j,            \
-                rows[1].s##j, rows[2].s##j, rows[3].s##j, rows[0].s##k, rows[1].s##k,            \
-                rows[2].s##k, rows[3].s##k, rows[0].s##l, rows[1].s##l, rows[2].s##l,            \
+#define CS_TRANSPOSED(rows, i, j, k, l)                                               \
+    (cs_vfloat)(rows[0].s##i, rows[1].s##i, rows[2].s##i, rows[3].s##i, rows[0].s##j, \
+                rows[1].s##j, rows[2].s##j, rows[3].s##j, rows[0].s##k, rows[1].s##k, \
+                rows[2].s##k, rows[3].s##k, rows[0].s##l, rows[1].s##l, rows[2].s##l, \
                 rows[3].s##l)
 #elif CS_PACKET == 8
 #define CS_EACH_LANE(of) (cs_vfloat)(of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7))
@@ -57,7 +57,8 @@ static inline cs_vfloat cs_gather(CS_GLOBAL const cs_f32 *table, cs_vint index)
 static inline void cs_gather_four(CS_GLOBAL const cs_f32 *table, cs_vint index, cs_vfloat *found)
 {
 #if CS_PACKET >= 8
-    /* Rows of lanes whose numbers are 4 apart: what is within four lanes changes its place fastest. */
+    /* Rows of lanes whose numbers are 4 apart: what is within four lanes changes its place fastest.
+     */
     cs_int_lanes place;
     place.all = index;
     cs_vfloat rows[4];
