@@ -26,7 +26,7 @@ typedef struct fixture {
 
 /* What walks: packets of up to 16 rays, or each ray by itself. */
 enum {
-    ALONE = 17
+    ALONE = 32 /* added to the width of packets whose rays walk alone */
 };
 
 static void build(fixture *made, const char *mesh, size_t triangles)
@@ -50,8 +50,8 @@ static void destroy(fixture *made)
 }
 
 /* Traces RAYS rays (3 planes of origins, 3 of directions) with the kernel, in packets of `width`
- * or ALONE. `distances` holds the length of each ray, and receives the distance of its hit, or a
- * negative number if something blocks it. */
+ * or, with ALONE added, alone. `distances` holds the length of each ray, and receives the distance
+ * of its hit, or a negative number if something blocks it. */
 static void trace_device(const fixture *made, int width, int any_hit, const float *rays,
                          float *distances)
 {
@@ -59,10 +59,10 @@ static void trace_device(const fixture *made, int width, int any_hit, const floa
     cs_buffer *buffers[6] = {0};
     const uint32_t count = RAYS;
     const size_t plane = RAYS * sizeof(float);
-    const int packet = width == ALONE ? CS_WIDE : width;
-    const cs_u32 features = width == ALONE ? CS_FEATURE_PATHS | CS_FEATURE_WIDE : 0u;
-    const cs_array *nodes = width == ALONE ? &made->wide.nodes : &made->bvh.nodes;
-    const cs_array *leaves = width == ALONE ? &made->wide.leaves : &made->bvh.triangles;
+    const int alone = width > ALONE, packet = alone ? width - ALONE : width;
+    const cs_u32 features = alone ? CS_FEATURE_PATHS | CS_FEATURE_WIDE : 0u;
+    const cs_array *nodes = alone ? &made->wide.nodes : &made->bvh.nodes;
+    const cs_array *leaves = alone ? &made->wide.leaves : &made->bvh.triangles;
     assert_int_equal(cs_device_open(NULL, 0, packet, &device, &error), CLSHEAR_OK);
     const void *sources[6] = {rays, rays + 3 * RAYS, distances, NULL, nodes->items, leaves->items};
     const size_t sizes[6] = {3 * plane,
@@ -126,7 +126,7 @@ static void make_random_rays(float *rays, float reach, float *distances)
 static void hits_equal_brute_force(void **state)
 {
     (void)state;
-    const int widths[] = {1, 4, 8, 16, ALONE};
+    const int widths[] = {1, 4, 8, 16, ALONE + 8, ALONE + 16};
     float *rays = malloc(6 * RAYS * sizeof *rays), *found = malloc(RAYS * sizeof *found);
     fixture made;
     build(&made, "box", 0);
@@ -259,14 +259,15 @@ static void alone_as_in_packets(void **state)
     float *rays = malloc(6 * RAYS * sizeof *rays), *packets = malloc(RAYS * sizeof *packets);
     float *alone = malloc(RAYS * sizeof *alone);
     for (int k = 0; k < 2; k++) {
+        const int width = k == 0 ? 8 : 16;
         fixture made;
         build(&made, meshes[k], 60000);
         for (int any_hit = 0; any_hit < 2; any_hit++) {
             cs_u32 different = 0, met = 0;
             make_random_rays(rays, reaches[any_hit], packets);
-            trace_device(&made, CS_WIDE, any_hit, rays, packets);
+            trace_device(&made, width, any_hit, rays, packets);
             make_random_rays(rays, reaches[any_hit], alone);
-            trace_device(&made, ALONE, any_hit, rays, alone);
+            trace_device(&made, ALONE + width, any_hit, rays, alone);
             for (cs_u32 i = 0; i < RAYS; i++) {
                 different += alone[i] != packets[i];
                 met += packets[i] != reaches[any_hit];

@@ -19,18 +19,24 @@ static inline cs_vfloat cs_from_whole(cs_vint x)
     return CS_OVER_LANES(convert_float)(x);
 }
 
-/* A packet of what `of` is at each lane; of four neighbours, a quarter of a packet each. Written
+/* A packet of what `of` is at each lane; of four neighbours at every fourth lane. Written
  * out: lanes that are stored one by one cannot be loaded as a packet before all stores are done. */
 #if CS_PACKET == 16
 #define CS_EACH_LANE(of)                                                                      \
     (cs_vfloat)(of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7), of(8), of(9), of(10), \
                 of(11), of(12), of(13), of(14), of(15))
-#define CS_QUARTER(of, q) (cs_vfloat)(of(4 * q), of(4 * q + 1), of(4 * q + 2), of(4 * q + 3))
-#define CS_TRANSPOSED(quarter, a, b, c, d)                                                    \
-    (cs_vfloat)(quarter[0].s##a##b##c##d, quarter[1].s##a##b##c##d, quarter[2].s##a##b##c##d, \
-                quarter[3].s##a##b##c##d)
+#define CS_NEIGHBOURS(of, i) (cs_vfloat)(of(i), of(i + 4), of(i + 8), of(i + 12))
+#define CS_TRANSPOSED(rows, i, j, k, l)                                               \
+    (cs_vfloat)(rows[0].s##i, rows[1].s##i, rows[2].s##i, rows[3].s##i, rows[0].s##j, \
+                rows[1].s##j, rows[2].s##j, rows[3].s##j, rows[0].s##k, rows[1].s##k, \
+                rows[2].s##k, rows[3].s##k, rows[0].s##l, rows[1].s##l, rows[2].s##l, \
+                rows[3].s##l)
 #elif CS_PACKET == 8
 #define CS_EACH_LANE(of) (cs_vfloat)(of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7))
+#define CS_NEIGHBOURS(of, i) (cs_vfloat)(of(i), of(i + 4))
+#define CS_TRANSPOSED(rows, i, j, k, l)                                               \
+    (cs_vfloat)(rows[0].s##i, rows[1].s##i, rows[2].s##i, rows[3].s##i, rows[0].s##j, \
+                rows[1].s##j, rows[2].s##j, rows[3].s##j)
 #elif CS_PACKET == 4
 #define CS_EACH_LANE(of) (cs_vfloat)(of(0), of(1), of(2), of(3))
 #else
@@ -50,20 +56,22 @@ static inline cs_vfloat cs_gather(CS_GLOBAL const cs_f32 *table, cs_vint index)
 /* Four neighbours, from table[index] on, in each lane. */
 static inline void cs_gather_four(CS_GLOBAL const cs_f32 *table, cs_vint index, cs_vfloat *found)
 {
-#if CS_PACKET == 16
+#if CS_PACKET >= 8
+    /* Rows of lanes whose numbers are 4 apart: what is within four lanes changes its place fastest.
+     */
     cs_int_lanes place;
     place.all = index;
-    cs_vfloat quarter[4];
+    cs_vfloat rows[4];
 #define CS_ONE(i) vload4(0, table + place.lane[i])
-    quarter[0] = CS_QUARTER(CS_ONE, 0);
-    quarter[1] = CS_QUARTER(CS_ONE, 1);
-    quarter[2] = CS_QUARTER(CS_ONE, 2);
-    quarter[3] = CS_QUARTER(CS_ONE, 3);
+    rows[0] = CS_NEIGHBOURS(CS_ONE, 0);
+    rows[1] = CS_NEIGHBOURS(CS_ONE, 1);
+    rows[2] = CS_NEIGHBOURS(CS_ONE, 2);
+    rows[3] = CS_NEIGHBOURS(CS_ONE, 3);
 #undef CS_ONE
-    found[0] = CS_TRANSPOSED(quarter, 0, 4, 8, c);
-    found[1] = CS_TRANSPOSED(quarter, 1, 5, 9, d);
-    found[2] = CS_TRANSPOSED(quarter, 2, 6, a, e);
-    found[3] = CS_TRANSPOSED(quarter, 3, 7, b, f);
+    found[0] = CS_TRANSPOSED(rows, 0, 4, 8, c);
+    found[1] = CS_TRANSPOSED(rows, 1, 5, 9, d);
+    found[2] = CS_TRANSPOSED(rows, 2, 6, a, e);
+    found[3] = CS_TRANSPOSED(rows, 3, 7, b, f);
 #else
     for (int i = 0; i < 4; i++)
         found[i] = cs_gather(table, index + i);

@@ -20,6 +20,9 @@ enum {
     CS_MATERIAL_PARAMETERS = 16 /* numbers of a material that its BSDF alone knows */
 };
 
+/* Lanes of the narrowest packets whose rays may walk the wide hierarchy. */
+#define CS_WIDE_LEAST_PACKET 8
+
 /* The buffers of a scene, in the order of kernels' arguments: X(identifier, name, type of the
  * elements). Structs, kernel parameters and the host's arrays are made from it. */
 #define CS_SCENE_BUFFER_LIST(X)                         \

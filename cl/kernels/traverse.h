@@ -10,8 +10,8 @@
 #include "clshear/device/packet.h"
 #include "kernels/shape.h"
 
-/* Whether rays may walk the wide hierarchy, whose nodes have as many children as packets lanes. */
-#define CS_WALKS_WIDE (CS_HAS(WIDE) && CS_PACKET == 16)
+/* Whether rays may walk the wide hierarchy. */
+#define CS_WALKS_WIDE (CS_HAS(WIDE) && CS_PACKET >= CS_WIDE_LEAST_PACKET)
 
 typedef struct cs_hit {
     cs_vfloat distance; /* in units of the ray's direction */

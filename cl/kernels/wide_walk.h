@@ -24,7 +24,7 @@ typedef struct cs_wide_ray {
     cs_f32 limit; /* distance of the nearest hit so far, or the ray's reach */
     int near[3]; /* for each axis, offset in bytes of the planes that the ray meets first: 0 for the
                   * low ones, 16 for the high ones */
-    int order;   /* in which children are pushed: an octant */
+    int octant;  /* of the direction */
     int next;    /* node or leaf */
     int triangle; /* CS_WIDE_LEAF times its leaf, and its place there; or CS_NO_HIT */
     int top;      /* number of entries on the stack */
@@ -32,13 +32,12 @@ typedef struct cs_wide_ray {
     cs_f32 enters[CS_WIDE_STACK]; /* distances at which the ray enters their boxes */
 } cs_wide_ray;
 
-/* Meets the boxes of a node's children. */
-static inline void cs_wide_enter(CS_GLOBAL const cs_wide_node *nodes, cs_wide_ray *ray)
+/* Distances at which the ray enters the boxes of CS_PACKET children of a node, from child `first`
+ * on; INFINITY where it does not. scale, offset: from bytes to distances. */
+static inline cs_vfloat cs_wide_enters(CS_GLOBAL const cs_wide_node *node, int first,
+                                       const cs_wide_ray *ray, float4 scale, float4 offset)
 {
-    CS_GLOBAL const cs_wide_node *node = nodes + ray->next;
-    CS_GLOBAL const uchar *planes = (CS_GLOBAL const uchar *)node->planes;
-    float4 scale = *(CS_GLOBAL const float4 *)node->step * ray->inverse;
-    float4 offset = (*(CS_GLOBAL const float4 *)node->low - ray->origin) * ray->inverse;
+    CS_GLOBAL const uchar *planes = (CS_GLOBAL const uchar *)node->planes + first;
     cs_vfloat near_x = fma(cs_bytes_at(planes + ray->near[0]), scale.x, offset.x);
     cs_vfloat near_y = fma(cs_bytes_at(planes + 32 + ray->near[1]), scale.y, offset.y);
     cs_vfloat near_z = fma(cs_bytes_at(planes + 64 + ray->near[2]), scale.z, offset.z);
@@ -49,10 +48,22 @@ static inline void cs_wide_enter(CS_GLOBAL const cs_wide_node *nodes, cs_wide_ra
     cs_vfloat leave = cs_min(cs_min(far_x, far_y), far_z);
     /* Far planes are moved away by the relative error of a slab test in floats (Ize 2013). */
     cs_vint hit = enter <= leave * 1.0000005f;
-    hit = hit & (*(CS_GLOBAL const cs_vint *)node->child != 0);
-    enter = hit ? enter : (cs_vfloat)(INFINITY);
-    ray->top += cs_push_children(node, ray->order, enter, ray->limit, ray->references + ray->top,
-                                 ray->enters + ray->top);
+    hit = hit & (*(CS_GLOBAL const cs_vint *)(node->child + first) != 0);
+    return hit ? enter : (cs_vfloat)(INFINITY);
+}
+
+/* Meets the boxes of a node's children. */
+static inline void cs_wide_enter(CS_GLOBAL const cs_wide_node *nodes, cs_wide_ray *ray,
+                                 const int any_hit)
+{
+    CS_GLOBAL const cs_wide_node *node = nodes + ray->next;
+    float4 scale = *(CS_GLOBAL const float4 *)node->step * ray->inverse;
+    float4 offset = (*(CS_GLOBAL const float4 *)node->low - ray->origin) * ray->inverse;
+    cs_float_lanes enter[CS_WIDE / CS_PACKET];
+    for (int i = 0; i < CS_WIDE / CS_PACKET; i++)
+        enter[i].all = cs_wide_enters(node, i * CS_PACKET, ray, scale, offset);
+    ray->top += cs_push_children(node, ray->octant, any_hit, enter, ray->limit,
+                                 ray->references + ray->top, ray->enters + ray->top);
 }
 
 /* A coordinate of four triangles. */
@@ -150,7 +161,7 @@ static inline void cs_wide_take_turns(const cs_scene_buffers *scene, cs_wide_ray
         next->node_count = next->leaf_count = 0;
         for (int i = 0; i < turn->node_count; i++) {
             int lane = turn->nodes[i];
-            cs_wide_enter(scene->wide_nodes, rays + lane);
+            cs_wide_enter(scene->wide_nodes, rays + lane, any_hit);
             cs_wide_pop(scene, rays + lane, lane, next);
         }
         for (int i = 0; i < turn->leaf_count; i++) {
@@ -164,7 +175,7 @@ static inline void cs_wide_take_turns(const cs_scene_buffers *scene, cs_wide_ray
 /* A lane's ray at the root; `origin`, `direction` and `inverse` are of all lanes. */
 static inline void cs_wide_begin(cs_wide_ray *ray, const cs_float_lanes *origin,
                                  const cs_float_lanes *direction, const cs_float_lanes *inverse,
-                                 int lane, int octant, const int any_hit)
+                                 int lane, int octant)
 {
     ray->origin = CS_LANE_OF(origin, lane);
     ray->direction = CS_LANE_OF(direction, lane);
@@ -172,7 +183,7 @@ static inline void cs_wide_begin(cs_wide_ray *ray, const cs_float_lanes *origin,
     ray->near[0] = (octant & 1) * CS_WIDE;
     ray->near[1] = (octant >> 1 & 1) * CS_WIDE;
     ray->near[2] = (octant >> 2 & 1) * CS_WIDE;
-    ray->order = any_hit ? 7 - octant : octant; /* as cs_walk_octant */
+    ray->octant = octant;
     ray->next = 0;
     ray->triangle = CS_NO_HIT;
     ray->references[0] = CS_WIDE_END;
@@ -182,7 +193,7 @@ static inline void cs_wide_begin(cs_wide_ray *ray, const cs_float_lanes *origin,
 
 /* Begins the rays of all lanes that have a reach; returns how many there are, and names them. */
 static inline int cs_wide_begin_all(cs_wide_ray *rays, const cs_ray *ray,
-                                    const cs_float_lanes *reach, int *lanes, const int any_hit)
+                                    const cs_float_lanes *reach, int *lanes)
 {
     cs_float_lanes origin[3], direction[3], inverse[3];
     cs_int_lanes octant;
@@ -198,7 +209,7 @@ static inline int cs_wide_begin_all(cs_wide_ray *rays, const cs_ray *ray,
                  (inverse[2].all < 0.0f ? (cs_vint)(4) : (cs_vint)(0));
     for (int lane = 0; lane < CS_PACKET; lane++) {
         if (!(reach->lane[lane] > 0.0f)) continue;
-        cs_wide_begin(rays + lane, origin, direction, inverse, lane, octant.lane[lane], any_hit);
+        cs_wide_begin(rays + lane, origin, direction, inverse, lane, octant.lane[lane]);
         rays[lane].limit = reach->lane[lane];
         lanes[count++] = lane;
     }
@@ -216,7 +227,7 @@ static inline void cs_traverse_alone(const cs_scene_buffers *scene, const cs_ray
     int lanes[CS_PACKET];
     distance.all = hit->distance;
     triangle.all = (cs_vint)(CS_NO_HIT);
-    int count = cs_wide_begin_all(rays, ray, &distance, lanes, any_hit);
+    int count = cs_wide_begin_all(rays, ray, &distance, lanes);
     for (int i = 0; i < count; i++)
         turns[0].nodes[i] = lanes[i];
     turns[0].node_count = count;

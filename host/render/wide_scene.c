@@ -8,7 +8,10 @@
 #include "render/objects.h"
 
 enum {
-    LEAST_TRIANGLES = 1 << 13 /* below, packets are faster even if their rays diverge */
+    /* Below, packets are faster even if their rays diverge. Where a packet has 8 lanes, a ray alone
+     * takes two steps a node. */
+    LEAST_TRIANGLES_OF_8 = 1 << 17,
+    LEAST_TRIANGLES = 1 << 13
 };
 
 struct cs_wide_scene {
@@ -36,9 +39,10 @@ void cs_wide_scene_free(cs_wide_scene *wide)
 
 cs_u32 cs_wide_feature(const clshear_scene *scene, cs_u32 features)
 {
+    const int packet = cs_device_packet(scene->context->device);
+    const size_t least = packet < CS_WIDE ? LEAST_TRIANGLES_OF_8 : LEAST_TRIANGLES;
     return (features & CS_FEATURE_PATHS) != 0 && !cs_scene_moves(&scene->scene) &&
-                   cs_device_packet(scene->context->device) == CS_WIDE &&
-                   cs_scene_triangle_count(&scene->scene) >= LEAST_TRIANGLES
+                   packet >= CS_WIDE_LEAST_PACKET && cs_scene_triangle_count(&scene->scene) >= least
                ? CS_FEATURE_WIDE
                : 0u;
 }
