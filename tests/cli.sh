@@ -31,6 +31,13 @@ refuse 2 "more than one scene" -- "$cornell" "$cornell"
 refuse 2 "--aperture heart: must be disk, square, polygon or an image file" -- "$cornell" --aperture heart
 expect 0 "--fstop is not used: --lens-radius comes after it" -- "$cornell" --fstop 2 --lens-radius 3 --width 8 --height 8 --spp 1 --out pair.exr
 expect 0 "--focus-pixel is not used: --focal-distance" -- "$cornell" --focus-pixel 3,3 --focal-distance 1000 --width 8 --height 8 --spp 1 --out pair.exr
+for idle in "--unit 0.001" --tone=agx "--exposure 1" --auto-exposure "--every 3"; do
+    flag=${idle%%[ =]*}
+    # shellcheck disable=SC2086
+    expect 0 "$flag is not used: it needs" -- "$cornell" $idle --width 8 --height 8 --spp 1 --out pair.exr
+done
+output=$("$program" "$cornell" --unit 0.001 --fstop 2 --tone agx --exposure 1 --width 8 --height 8 --spp 1 --out pair.png --out pair.exr 2>&1)
+case $output in *"it needs"*) wrong "flags with a use: $output" ;; esac
 refuse 2 "--blades 2: must be" -- "$cornell" --blades 2
 refuse 2 "--anamorphic 0: must be" -- "$cornell" --anamorphic 0
 refuse 2 "--filter lanczos: must be box" -- "$cornell" --filter lanczos
@@ -53,6 +60,8 @@ case $?$output in 1*"no OpenCL device found; install"*) ;; *) wrong "no driver: 
 output=$("$program" --list-samplers 2>&1 >/dev/full)
 case $?$output in 1*"standard output: cannot be written"*) ;; *) wrong "/dev/full: $output" ;; esac
 expect 1 "environment 1,2: neither R,G,B nor a file" -- "$cornell" --quiet --environment 1,2 --out refused.exr
+echo text >words.hdrx
+expect 1 "words.hdrx: not an image that can be read" -- "$cornell" --quiet --environment words.hdrx --out refused.exr
 expect 1 "environment gone.hdr: neither" -- "$cornell" --quiet --environment gone.hdr --out refused.exr
 expect 1 "65500" -- "$cornell" --quiet --spp 1 --width 65536 --height 1 --out wide.jpg
 
@@ -156,7 +165,7 @@ done
     refuse 2 "--tilt 90,0: must be two numbers" -- bare.obj --tilt 90,0
     refuse 1 "shutter 1,0: closes before it opens" -- bare.obj --shutter 1,0
     refuse 1 "tilt 80,0: at focal distance" -- bare.obj --quiet --orthographic 9 --focal-distance 2 --tilt 80,0
-    expect 0 "--aov is for .exr, and no output is one" -- bare.obj $small --aov albedo --out k.png
+    expect 0 "--aov is not used: it needs an .exr among the outputs" -- bare.obj $small --aov albedo --out k.png
     expect 0 "" -- bare.obj $small --aov albedo --out k.png --out k.EXR
     case $output in *"--aov"*) wrong "a remark on channels that are kept: $output" ;; esac
 }

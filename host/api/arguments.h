@@ -37,9 +37,10 @@ static inline clshear_status cs_struct_in(void *copy, size_t size, const void *g
     return CLSHEAR_BAD_ARGUMENT
 
 /* Copies a versioned struct to the caller, up to the caller's size. The size itself stays
- * unchanged. */
+ * unchanged. Without a target nothing is copied. */
 static inline void cs_struct_out(void *target, const void *source, size_t size)
 {
+    if (target == NULL) return;
     size_t target_size;
     memcpy(&target_size, target, sizeof target_size);
     const size_t common = target_size < size ? target_size : size;
@@ -74,11 +75,11 @@ static inline void *cs_handle(clshear_status *status, const void *made, size_t s
         return status;                                                             \
     }
 
-/* Defines a public function that returns a member of an object. */
+/* Defines a public function that returns a member of an object: 0 or NULL without an object. */
 #define CS_GETTER(type, object, member)                              \
     type clshear_##object##_##member(const clshear_##object *object) \
     {                                                                \
-        return object->member;                                       \
+        return object != NULL ? object->member : (type)0;            \
     }
 
 /* Defines the public function that frees an object: what is in it, and the object. */
@@ -90,11 +91,12 @@ static inline void *cs_handle(clshear_status *status, const void *made, size_t s
         free(object);                                      \
     }
 
-/* Defines a public function that returns an element of an object's array. */
-#define CS_GETTER_AT(type, object, name, member)                                 \
-    type clshear_##object##_##name(const clshear_##object *object, size_t index) \
-    {                                                                            \
-        return object->member[index];                                            \
+/* Defines a public function that returns an element of an object's array of `count` elements: 0 or
+ * NULL past the last one, or without an object. */
+#define CS_GETTER_AT(type, object, name, member, count)                                   \
+    type clshear_##object##_##name(const clshear_##object *object, size_t index)          \
+    {                                                                                     \
+        return object != NULL && index < object->count ? object->member[index] : (type)0; \
     }
 
 #endif

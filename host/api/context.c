@@ -62,12 +62,12 @@ const char *clshear_context_message(const clshear_context *context)
 
 const char *clshear_device_name(const clshear_context *context)
 {
-    return cs_device_name(context->device);
+    return context != NULL ? cs_device_name(context->device) : NULL;
 }
 
 const char *clshear_driver_name(const clshear_context *context)
 {
-    return cs_device_driver(context->device);
+    return context != NULL ? cs_device_driver(context->device) : NULL;
 }
 
 clshear_status clshear_list_devices(void (*report)(void *user, int number, const char *name),

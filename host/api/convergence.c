@@ -97,25 +97,26 @@ CS_FREES(convergence)
 
 CS_GETTER(size_t, convergence, sizes)
 CS_GETTER(double, convergence, mean)
-CS_GETTER_AT(uint32_t, convergence, count, counts)
-CS_GETTER_AT(double, convergence, error, errors)
+CS_GETTER_AT(uint32_t, convergence, count, counts, sizes)
+CS_GETTER_AT(double, convergence, error, errors, sizes)
 
 void clshear_convergence_fit(const clshear_convergence *result, clshear_fit *fit)
 {
-    cs_struct_out(fit, &result->fit, sizeof result->fit);
+    if (result != NULL) cs_struct_out(fit, &result->fit, sizeof result->fit);
 }
 
 const float *clshear_convergence_map(const clshear_convergence *result, size_t index, int window[4])
 {
-    if (result->maps == NULL || index >= result->sizes) return NULL;
+    if (result == NULL || result->maps == NULL || index >= result->sizes) return NULL;
     const size_t width = (size_t)(result->window[1] - result->window[0]);
     const size_t height = (size_t)(result->window[3] - result->window[2]);
-    memcpy(window, result->window, sizeof result->window);
+    if (window != NULL) memcpy(window, result->window, sizeof result->window);
     return result->maps + index * width * height;
 }
 
 void clshear_convergence_local_fit(const clshear_convergence *result, size_t index,
                                    clshear_fit *fit)
 {
+    if (result == NULL || result->sizes < 2 || index >= result->sizes - 1) return;
     cs_struct_out(fit, &result->local[index], sizeof result->local[index]);
 }

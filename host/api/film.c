@@ -10,17 +10,17 @@
 
 void clshear_film_describe(const clshear_film *film, clshear_film_info *info)
 {
-    cs_struct_out(info, &film->info, sizeof film->info);
+    if (film != NULL) cs_struct_out(info, &film->info, sizeof film->info);
 }
 
 const char *clshear_film_channel_name(const clshear_film *film, size_t index)
 {
-    return cs_film_channel_name(film, index);
+    return film != NULL ? cs_film_channel_name(film, index) : NULL;
 }
 
 const float *clshear_film_channel(const clshear_film *film, const char *name)
 {
-    return cs_film_channel(film, name);
+    return film != NULL && name != NULL ? cs_film_channel(film, name) : NULL;
 }
 
 clshear_status clshear_film_copy(clshear_film *film, const char *const *channels, size_t count,
@@ -35,6 +35,7 @@ clshear_status clshear_film_copy(clshear_film *film, const char *const *channels
 
 double clshear_film_mean_variance(const clshear_film *film)
 {
+    if (film == NULL) return NAN;
     const size_t pixels = (size_t)film->info.width * (size_t)film->info.height;
     double sum = 0.0;
     for (const char *colour = "RGB"; *colour != '\0'; colour++) {
@@ -71,10 +72,10 @@ clshear_status clshear_film_merge(const clshear_film *const *films, size_t count
 void clshear_film_missing(const clshear_film *film, char *text, size_t size)
 {
     cs_shards shards;
-    const char *held = cs_film_text(film, "clshear.shard");
-    if (size > 0) *text = '\0';
-    if (size == 0 || held == NULL || cs_shards_read(held, &shards, cs_thread_error()) != CLSHEAR_OK)
-        return;
+    if (text == NULL || size == 0) return;
+    *text = '\0';
+    const char *held = film != NULL ? cs_film_text(film, "clshear.shard") : NULL;
+    if (held == NULL || cs_shards_read(held, &shards, cs_thread_error()) != CLSHEAR_OK) return;
     cs_shards_print(&shards, 0, text, size);
     cs_shards_free(&shards);
 }

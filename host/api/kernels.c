@@ -99,13 +99,15 @@ void clshear_pattern_free(clshear_pattern *pattern)
 clshear_status clshear_pattern_constants(const clshear_pattern *pattern, void *constants,
                                          size_t size)
 {
+    CS_NEEDS(pattern);
+    CS_NEEDS(constants);
     return give("cs_pattern", &pattern->constants, sizeof pattern->constants, constants, size);
 }
 
 const uint32_t *clshear_pattern_table(const clshear_pattern *pattern, size_t *words)
 {
-    *words = pattern->table.count;
-    return pattern->table.items;
+    if (words != NULL) *words = pattern != NULL ? pattern->table.count : 0;
+    return pattern != NULL ? pattern->table.items : NULL;
 }
 
 /* ------------------------------------------------------------------------------------------------
@@ -174,8 +176,8 @@ clshear_status clshear_lens_optics(const clshear_lens *lens, void *optics, size_
 
 const float *clshear_lens_table(const clshear_lens *lens, size_t *floats)
 {
-    *floats = lens->made.table.count;
-    return lens->made.table.items;
+    if (floats != NULL) *floats = lens != NULL ? lens->made.table.count : 0;
+    return lens != NULL ? lens->made.table.items : NULL;
 }
 
 clshear_status clshear_lens_camera(const clshear_lens *lens, void *camera, size_t size)

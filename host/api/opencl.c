@@ -31,7 +31,7 @@ clshear_status clshear_context_create_from(cl_context cl, cl_device_id id, cl_co
 void clshear_context_objects(const clshear_context *context, cl_context *cl, cl_device_id *device,
                              cl_command_queue *queue)
 {
-    cs_device_objects(context->device, cl, device, queue);
+    if (context != NULL) cs_device_objects(context->device, cl, device, queue);
 }
 
 clshear_status clshear_film_copy_to_buffer(clshear_film *film, clshear_context *context,

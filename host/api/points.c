@@ -90,7 +90,8 @@ clshear_status clshear_points_write(const clshear_points *points, const char *pa
 void clshear_points_integrate(const clshear_points *points, const clshear_integrand *integrand,
                               int homogenise, uint32_t seed, double *means)
 {
-    cs_points_integrate(points, integrand, homogenise, seed, means);
+    if (points != NULL && integrand != NULL && means != NULL)
+        cs_points_integrate(points, integrand, homogenise, seed, means);
 }
 
 clshear_status clshear_points_integrate_4d(const clshear_points *points, clshear_function function,

@@ -17,7 +17,7 @@ clshear_status clshear_integrand_find(const char *name, clshear_integrand *integ
 
 double clshear_integrand_at(const clshear_integrand *integrand, double x, double y)
 {
-    return cs_integrand_at(integrand, x, y);
+    return integrand != NULL ? cs_integrand_at(integrand, x, y) : 0.0;
 }
 
 clshear_status clshear_integrand_tabulate(const clshear_integrand *integrand, size_t side,
@@ -71,16 +71,17 @@ CS_GETTER(double, prediction, variance)
 
 double clshear_prediction_isotropic(const clshear_prediction *prediction)
 {
-    return prediction->by_cones[0];
+    return prediction != NULL ? prediction->by_cones[0] : 0.0;
 }
 
 double clshear_prediction_in_cones(const clshear_prediction *prediction, size_t level)
 {
+    if (prediction == NULL) return 0.0;
     return level < CS_CONE_LEVELS ? prediction->by_cones[level] : prediction->variance;
 }
 
 CS_GETTER(double, prediction, energy)
 CS_GETTER(size_t, prediction, parts)
-CS_GETTER_AT(const char *, prediction, part_name, names)
-CS_GETTER_AT(double, prediction, part_variance, variances)
-CS_GETTER_AT(double, prediction, part_energy, energies)
+CS_GETTER_AT(const char *, prediction, part_name, names, parts)
+CS_GETTER_AT(double, prediction, part_variance, variances, parts)
+CS_GETTER_AT(double, prediction, part_energy, energies, parts)

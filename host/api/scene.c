@@ -83,6 +83,7 @@ clshear_status clshear_scene_add_light(clshear_scene *scene, const clshear_light
 
 void clshear_scene_describe(const clshear_scene *scene, clshear_scene_info *info)
 {
+    if (scene == NULL) return;
     clshear_scene_info described = scene->info;
     described.lights = scene->scene.lights.count;
     described.emitters = scene->device_scene.emitters;
@@ -97,6 +98,7 @@ void clshear_scene_describe(const clshear_scene *scene, clshear_scene_info *info
 
 const char *clshear_scene_camera(const clshear_scene *scene, size_t index)
 {
+    if (scene == NULL) return NULL;
     const cs_scene_camera *cameras = scene->scene.cameras.items;
     return index < scene->scene.cameras.count ? cameras[index].name : NULL;
 }

@@ -50,17 +50,17 @@ CS_GETTER(size_t, spectrum, height)
 
 size_t clshear_spectrum_radius(const clshear_spectrum *spectrum)
 {
-    return cs_spectrum_radius(spectrum);
+    return spectrum != NULL ? cs_spectrum_radius(spectrum) : 0;
 }
 
 void clshear_spectrum_radial(const clshear_spectrum *spectrum, float *mean, float *anisotropy_db)
 {
-    cs_spectrum_radial(spectrum, mean, anisotropy_db);
+    if (spectrum != NULL && mean != NULL) cs_spectrum_radial(spectrum, mean, anisotropy_db);
 }
 
 void clshear_spectrum_along(const clshear_spectrum *spectrum, double x, double y, float *power)
 {
-    cs_spectrum_along(spectrum, x, y, power);
+    if (spectrum != NULL && power != NULL) cs_spectrum_along(spectrum, x, y, power);
 }
 
 clshear_status clshear_spectrum_write(const clshear_spectrum *spectrum, int keep_dc,

@@ -58,6 +58,7 @@ const char *extension_for(const void *memory, size_t size)
 std::string reason_of(const ImageBuf &image, const std::string &path)
 {
     std::string reason = first_line(image.geterror());
+    if (reason.find("could not find a format reader") != std::string::npos) reason.clear();
     const size_t advice = reason.find(" Also, it is not the name of an image format");
     if (advice != std::string::npos) reason.resize(advice);
     for (const std::string &named : {"Invalid image file \"" + path + "\": ", " (" + path + ")",

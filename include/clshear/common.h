@@ -7,6 +7,8 @@
  *   Contexts, scenes and films also store the reason of their own last failure.
  * - Objects are opaque. Each type has a _free function, which accepts NULL. Objects can be freed in
  *   any order: a scene keeps its context alive.
+ * - A function that returns no status takes a NULL object or target too: it returns NULL or 0
+ *   (clshear_film_mean_variance: NaN) and does nothing else. The same for an index past the last.
  * - Functions copy the arrays and texts in their arguments.
  * - Public structs begin with `struct_size`. The caller sets it to the size of the struct:
  *   `clshear_film_info info = {.struct_size = sizeof info};`. The library writes no

@@ -161,16 +161,51 @@ static int check_formats(const render_job *job)
     return EXIT_DONE;
 }
 
-/* Channels that no output has room for are told before the render. */
-static void tell_lost_channels(const render_job *job)
+/* Whether an output is an EXR, or (`is_exr` 0) whether one is not. */
+static int has_output(const render_job *job, int is_exr)
 {
-    if (job->options.quiet || !clshear_settings_is_set(job->options.settings, CLSHEAR_AOV)) return;
     for (size_t i = 0; i < job->files.out.count; i++) {
         const char *dot = strrchr(job->files.out.items[i], '.');
-        if (dot != NULL && strcasecmp(dot, ".exr") == 0) return;
+        if ((dot != NULL && strcasecmp(dot, ".exr") == 0) == is_exr) return 1;
     }
-    fprintf(stderr, "clshear: --aov is for .exr, and no output is one: the channels are lost; "
-                    "add --out FILE.exr\n");
+    return 0;
+}
+
+/* Whether the command line gives a flag by this name: a settings file describes its scene for any
+ * use, so that its flags may do nothing. */
+static int is_on_line(const program_options *options, const char *name)
+{
+    for (int i = 1; i < options->word_count; i++) {
+        const char *word = options->words[i];
+        if (*word != '-') continue;
+        word += word[1] == '-' ? 2 : 1;
+        const size_t length = strcspn(word, "=");
+        if (length == strlen(name) && strncmp(word, name, length) == 0) return 1;
+    }
+    return 0;
+}
+
+/* Flags of the line that do nothing without another one are told before the render. */
+static void tell_idle_flags(const render_job *job)
+{
+    const clshear_settings *settings = job->options.settings;
+    const int is_seen = clshear_settings_is_set(settings, CLSHEAR_PREVIEW);
+    const struct {
+        int has_use;
+        const char *name, *needs;
+    } flags[] = {
+        {has_output(job, 1), "aov", "an .exr among the outputs; add --out FILE.exr"},
+        {has_output(job, 0) || is_seen, "exposure", "an output that is no .exr"},
+        {has_output(job, 0) || is_seen, "auto-exposure", "an output that is no .exr"},
+        {has_output(job, 0) || is_seen, "tone", "an output that is no .exr"},
+        {clshear_settings_is_set(settings, CLSHEAR_F_STOP), "unit", "--fstop"},
+        {clshear_settings_is_set(settings, CLSHEAR_CHECKPOINT) || is_seen, "every",
+         "--checkpoint or --preview"},
+    };
+    for (size_t i = 0; i < sizeof flags / sizeof *flags && !job->options.quiet; i++)
+        if (!flags[i].has_use && is_on_line(&job->options, flags[i].name))
+            fprintf(stderr, "clshear: --%s is not used: it needs %s\n", flags[i].name,
+                    flags[i].needs);
 }
 
 /* A lens that opens, and that was not chosen by the program. */
@@ -266,7 +301,7 @@ static int run(void *user)
     if (code == EXIT_DONE) code = check_formats(job);
     if (code == EXIT_DONE)
         code = check_places("gain", job->files.gain.items, job->files.gain.count);
-    if (code == EXIT_DONE) tell_lost_channels(job);
+    if (code == EXIT_DONE) tell_idle_flags(job);
     if (code == EXIT_DONE)
         code = check_setting_place(options->settings, CLSHEAR_CHECKPOINT, "checkpoint");
     if (code == EXIT_DONE) code = check_setting_place(options->settings, CLSHEAR_RECORD, "record");
