@@ -56,7 +56,7 @@ static double growth(const lobe *lobe)
 static cs_surface surface_of(int kind, const float *normal)
 {
     cs_surface surface = {
-        .hit = 1, .albedo = {0.2f, 0.5f, 0.8f}, .bsdf = kind, .albedos = cs_albedo_table()};
+        .hit = 1, .albedo = {0.2f, 0.5f, 0.8f}, .bsdf = kind, .albedos = cs_albedo_table};
     for (int axis = 0; axis < 3; axis++)
         surface.normal[axis] = surface.outward[axis] = normal[axis];
     surface.parameters[CS_PARAMETER_ROUGHNESS] = 0.3f;

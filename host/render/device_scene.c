@@ -75,7 +75,7 @@ clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const 
     CS_TRY(upload(world, device, CS_SCENE_MATERIALS, &scene->materials, error));
     world->needs = cs_scene_material_needs(scene);
     if (world->needs.features & CS_FEATURE_MATERIALS)
-        CS_TRY(cs_buffer_create(device, CS_ALBEDO_FLOATS * sizeof(float), cs_albedo_table(),
+        CS_TRY(cs_buffer_create(device, CS_ALBEDO_FLOATS * sizeof(float), cs_albedo_table,
                                 &world->buffers[CS_SCENE_ALBEDOS], error));
     CS_TRY(upload(world, device, CS_SCENE_NODE_STEPS, &bvh->node_steps, error));
     CS_TRY(upload(world, device, CS_SCENE_TRIANGLE_STEPS, &bvh->triangle_steps, error));

@@ -2,8 +2,7 @@
 #ifndef CS_SCENE_ALBEDO_H
 #define CS_SCENE_ALBEDO_H
 
-/* CS_ALBEDO_FLOATS numbers, see cs_albedo_at; made at the first call, which takes some tenths of a
- * second. */
-const float *cs_albedo_table(void);
+/* CS_ALBEDO_FLOATS numbers, see cs_albedo_at. */
+extern const float cs_albedo_table[];
 
 #endif
