@@ -116,9 +116,10 @@ static int fits(const cs_job *job, const state *read)
 {
     const cs_u32 most =
         job->pattern.grid.count > job->replicates ? job->pattern.grid.count : job->replicates;
+    const cs_u32 most_kept = job->pattern_means != NULL ? job->replicates : 0u;
     return read->pixel_count == job->pixel_count && read->planes == job->pixels.planes &&
            read->from <= read->to && read->to <= most && read->replicate <= job->replicates &&
-           read->replicates_begun <= job->replicates && read->patterns_kept <= job->replicates &&
+           read->replicates_begun <= job->replicates && read->patterns_kept <= most_kept &&
            read->place.part >= 0.0 && read->place.next <= 1.0 && stop_fits(&read->stop) &&
            is_duration(read->elapsed_s) && is_duration(read->pass_s) &&
            is_duration(read->kernel_s) && read->done >= 0.0;

@@ -42,7 +42,7 @@ for name in "$@"; do
     used=0
     inputs=0
     while [ "$used" -lt "$seconds" ]; do
-        "./fuzz_$name" -max_total_time=$((seconds - used)) -max_len=4096 -timeout=20 \
+        "./fuzz_$name" -max_total_time=$((seconds - used)) -max_len=4096 -timeout=60 \
             -rss_limit_mb=4096 -print_final_stats=1 -close_fd_mask=1 ${words:+"$words"} \
             -artifact_prefix="$name-" "corpus_$name" >"$name.log" 2>&1 || {
             tail -n 40 "$name.log"
