@@ -10,7 +10,7 @@ expect 0 "clshear 0." -- --version
 expect 0 "--spp N" -- --print-settings md
 cmp -s <(echo "$output") <("$program" --print-settings md) || wrong "the reference changes"
 expect 0 '.TH CLSHEAR 1' -- --print-settings man
-expect 2 "--print-settings html: must be one of md man" -- --print-settings html
+expect 2 "--print-settings html: must be md or man" -- --print-settings html
 expect 0 "0: " -- --list-devices
 
 # Wrong usage: 2.
@@ -47,7 +47,7 @@ expect 2 "--out picture.bmp: must be a name that ends in" -- "$cornell" --out pi
 
 # Failures: 1.
 refuse 1 "nowhere.obj: cannot be opened: No such file" -- nowhere.obj
-refuse 1 "no OpenCL device \"toaster\"" -- "$cornell" --quiet --device toaster
+refuse 1 "no OpenCL device is called \"toaster\"; there are: 0 " -- "$cornell" --quiet --device toaster
 refuse 2 "--crop 0,0,0,0: must be four whole numbers, X0,X1,Y0,Y1, with X0 < X1" -- "$cornell" --crop 0,0,0,0
 refuse 1 "crop 0,99,0,9" -- "$cornell" --quiet --width 32 --height 32 --crop 0,99,0,9
 refuse 1 "pixel 40,2 is outside" -- "$cornell" --quiet --width 32 --height 32 --focus-pixel 40,2
@@ -62,6 +62,7 @@ case $?$output in 1*"standard output: cannot be written"*) ;; *) wrong "/dev/ful
 expect 1 "environment 1,2: neither R,G,B nor a file" -- "$cornell" --quiet --environment 1,2 --out refused.exr
 echo text >words.hdrx
 expect 1 "words.hdrx: not an image that can be read" -- "$cornell" --quiet --environment words.hdrx --out refused.exr
+refuse 1 "sun: its direction has no length" -- "$cornell" --quiet --sun 0,0,0,1,1,1,1
 expect 1 "environment gone.hdr: neither" -- "$cornell" --quiet --environment gone.hdr --out refused.exr
 expect 1 "65500" -- "$cornell" --quiet --spp 1 --width 65536 --height 1 --out wide.jpg
 

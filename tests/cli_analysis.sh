@@ -21,7 +21,7 @@ expect 2 "--resolution 1: must be" -- spectrum --resolution 1
 expect 2 "unknown flag --fov" -- spectrum --fov 30
 expect 2 "--direction 0,0: must be two numbers" -- spectrum --direction 0,0
 expect 2 "--out a.gif: must be" -- spectrum --out a.gif
-expect 2 "--plot a.pdf: must be a name that ends in one of .png .svg" -- spectrum --plot a.pdf
+expect 2 "--plot a.pdf: must be a name that ends in .png or .svg" -- spectrum --plot a.pdf
 expect 1 "none.txt" -- spectrum --in none.txt
 expect 0 "predicted as isotropic," -- predict --integrand step --sampler nrooks --n 16 --sets 50 --measure 50
 case $output in *"measured,"*) ;; *) wrong "not measured: $output" ;; esac
@@ -31,7 +31,8 @@ expect 0 "measured unshifted," -- predict "$cornell" --pixel 302,130 --quiet --n
 expect 2 "--pixel is of a SCENE" -- predict --pixel 3,4
 expect 2 "--pixel 512,4: is outside the 512 x 512 image" -- predict "$cornell" --pixel 512,4 --n 16 --sets 4 --quiet
 expect 2 "--block 16: must be" -- predict "$cornell" --pixel 3,4 --block 16
-expect 2 "--integrand blob: must be one of step box" -- predict --integrand blob
+expect 2 "--integrand blob: must be step, box" -- predict --integrand blob
+expect 2 "converg: no such command or scene; did you mean converge?" -- converg --integrand disk
 expect 0 "target,sampler,shear,n,replicates,variance,slope" -- converge --integrand box --sampler mj --nreps 20
 [ "$(echo "$output" | grep -c '^box,mj,none,')" -eq 4 ] || wrong "converge: $output"
 # The variance of a wall is least at its own shear: none and the opposite one are worse.

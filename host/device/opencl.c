@@ -165,16 +165,19 @@ clshear_status cs_opencl_find(const char *wanted, cl_device_id *device, cs_error
     char *end;
     const long number = strtol(wanted, &end, 10);
     const int is_number = *end == '\0';
+    char names[512] = "";
     for (cl_uint i = 0; i < count; i++) {
         char name[256];
         cs_opencl_describe(devices[i], name, NULL, sizeof name);
+        const size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%u %s", i == 0 ? "" : ", ", i, name);
         if (is_number ? number == (long)i : contains_ignoring_case(name, wanted)) {
             *device = devices[i];
             return CLSHEAR_OK;
         }
     }
-    return cs_fail(error, CLSHEAR_NO_DEVICE,
-                   "no OpenCL device \"%s\" among %u; see the device list", wanted, count);
+    return cs_fail(error, CLSHEAR_NO_DEVICE, "no OpenCL device is called \"%s\"; there are: %s",
+                   wanted, names);
 }
 
 clshear_status cs_device_list(void (*report)(void *user, int number, const char *name), void *user,

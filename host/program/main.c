@@ -2,16 +2,34 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "commands/commands.h"
 #include "report/failure.h"
 #include "report/progress.h"
+#include "report/words.h"
+
+/* The command that a word which is neither one nor a file may mean, or NULL. */
+static const char *nearest_command(const char *word)
+{
+    const size_t length = strlen(word), most = 2;
+    if (length <= most || *word == '-' || access(word, F_OK) == 0) return NULL;
+    for (size_t i = 1; all_commands[i] != NULL; i++) {
+        const char *name = all_commands[i]->name;
+        if (word_distance(word, length, name, strlen(name)) <= most) return name;
+    }
+    return NULL;
+}
 
 static int run(int argc, char **argv)
 {
     for (size_t i = 1; argc > 1 && all_commands[i] != NULL; i++)
         if (strcmp(argv[1], all_commands[i]->name) == 0)
             return command_run(all_commands[i], argc - 1, argv + 1);
+    const char *nearest = argc > 1 ? nearest_command(argv[1]) : NULL;
+    if (nearest != NULL)
+        return complain(EXIT_USAGE, "%s: no such command or scene; did you mean %s?", argv[1],
+                        nearest);
     return command_run(all_commands[0], argc, argv);
 }
 

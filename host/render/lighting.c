@@ -13,10 +13,11 @@ static clshear_status add(cs_array *lights, const cs_light *light, cs_error *err
     return CLSHEAR_OK;
 }
 
-static clshear_status add_made(const clshear_light *light, cs_array *lights, cs_error *error)
+static clshear_status add_made(const clshear_light *light, const char *name, cs_array *lights,
+                               cs_error *error)
 {
     cs_light made;
-    clshear_status status = cs_light_make(light, &made, error);
+    clshear_status status = cs_light_make(light, name, &made, error);
     return status == CLSHEAR_OK ? add(lights, &made, error) : status;
 }
 
@@ -78,7 +79,7 @@ static clshear_status add_settings(const clshear_settings *settings, const doubl
             take(readers[r].read(numbers, &light), 3, light.colour);
             for (int c = 0; c < 3; c++)
                 light.position[c] = (float)(numbers[c] - origin[c]);
-            CS_TRY(add_made(&light, lights, error));
+            CS_TRY(add_made(&light, cs_setting_table[readers[r].setting].name, lights, error));
         }
     }
 done:

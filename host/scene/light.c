@@ -32,46 +32,47 @@ static double area_of(const clshear_light *light)
 }
 
 /* The same for what only shapes have. */
-static clshear_status check_shape(const clshear_light *light, cs_error *error)
+static clshear_status check_shape(const clshear_light *light, const char *name, cs_error *error)
 {
     const double area = area_of(light);
     if (light->kind == CLSHEAR_LIGHT_SPHERE && !(light->radius > 1e-15f && light->radius < 1e15f))
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: radius %g: must be above 0, up to 1e15",
-                       (double)light->radius);
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s: radius %g: must be above 0, up to 1e15",
+                       name, (double)light->radius);
     if (light->kind == CLSHEAR_LIGHT_QUAD && !(area > 1e-30 && area < 1e30))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "light: the two edges of a quad span an area of %g: must be above 0", area);
+                       "%s: the two edges of a quad span an area of %g: must be above 0", name,
+                       area);
     return CLSHEAR_OK;
 }
 
 /* Whether what the kind reads can be used. */
-static clshear_status check_light(const clshear_light *light, cs_error *error)
+static clshear_status check_light(const clshear_light *light, const char *name, cs_error *error)
 {
     const int has_place = light->kind != CLSHEAR_LIGHT_DIRECTIONAL;
     const int has_direction = is_directed(light);
     const float *place = light->position, *direction = light->direction;
     if (light->kind < CLSHEAR_LIGHT_POINT || light->kind > CLSHEAR_LIGHT_QUAD)
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: kind %d is not known",
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s: kind %d is not known", name,
                        (int)light->kind);
     for (int i = 0; i < 3; i++)
         if ((has_place && !isfinite(place[i])) || (has_direction && !isfinite(direction[i])))
-            return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: its position must be finite");
+            return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s: its position must be finite", name);
     if (!cs_is_colour(light->colour))
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: colour %g,%g,%g: must be 0 to 1e15",
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s: colour %g,%g,%g: must be 0 to 1e15", name,
                        (double)light->colour[0], (double)light->colour[1],
                        (double)light->colour[2]);
     if (has_direction && !(cs_vec_dot(direction, direction) > 0.0f))
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: its direction has no length");
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s: its direction has no length", name);
     if (!has_place && !(light->diameter_deg >= 0.0f && light->diameter_deg <= 180.0f))
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "light: diameter %g: must be 0 to 180 degrees",
-                       (double)light->diameter_deg);
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s: diameter %g: must be 0 to 180 degrees",
+                       name, (double)light->diameter_deg);
     if (light->kind == CLSHEAR_LIGHT_SPOT &&
         !(light->inner_deg >= 0.0f && light->outer_deg > light->inner_deg &&
           light->outer_deg <= 90.0f))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "light: cone %g to %g: must be 0 <= inner < outer <= 90 degrees",
+                       "%s: cone %g to %g: must be 0 <= inner < outer <= 90 degrees", name,
                        (double)light->inner_deg, (double)light->outer_deg);
-    return check_shape(light, error);
+    return check_shape(light, name, error);
 }
 
 /* Scale and offset as cs_sample_light_spot takes them, from cos b - cos a = 2 sin((a + b) / 2)
@@ -112,9 +113,10 @@ static void make_quad(const clshear_light *light, cs_light *made)
     }
 }
 
-clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_error *error)
+clshear_status cs_light_make(const clshear_light *light, const char *name, cs_light *made,
+                             cs_error *error)
 {
-    clshear_status status = check_light(light, error);
+    clshear_status status = check_light(light, name, error);
     if (status != CLSHEAR_OK) return status;
     const int has_direction = is_directed(light);
     const float length = sqrtf(cs_vec_dot(light->direction, light->direction));
@@ -140,7 +142,7 @@ clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_erro
 clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error)
 {
     cs_light made;
-    clshear_status status = cs_light_make(light, &made, error);
+    clshear_status status = cs_light_make(light, "light", &made, error);
     if (status != CLSHEAR_OK) return status;
     cs_light *added = cs_array_extend(&scene->lights, 1);
     if (added == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");

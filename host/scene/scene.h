@@ -100,8 +100,9 @@ cs_material_needs cs_scene_material_needs(const cs_scene *scene);
 /* Whether three numbers can be a colour: 0 to 1e15, whose squares and sums are still floats. */
 int cs_is_colour(const float *colour);
 
-/* Checks a light and converts it for the device. */
-clshear_status cs_light_make(const clshear_light *light, cs_light *made, cs_error *error);
+/* Checks a light and converts it for the device. name: what messages call it. */
+clshear_status cs_light_make(const clshear_light *light, const char *name, cs_light *made,
+                             cs_error *error);
 
 /* The same, appended to the scene. */
 clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error);

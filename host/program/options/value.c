@@ -94,10 +94,12 @@ const char *flag_expectation(program_options *options, const program_flag *row)
     const char *more = row->adds ? "; given at most 16 times" : "";
     const char *form = *row->form == '-' ? row->form + 2 : row->form;
     if (row->kind == FLAG_TEXT && *form == '\0') return "a text that is not empty";
-    if (row->kind == FLAG_TEXT && *form != '.') return options_text(options, "one of %s", form);
+    char words[256];
+    write_words(form, words, sizeof words);
+    if (row->kind == FLAG_TEXT && *form != '.') return options_text(options, "%s", words);
     if (row->kind == FLAG_TEXT)
-        return options_text(options, "%sa name that ends in one of %s%s",
-                            form != row->form ? "- or " : "", form, more);
+        return options_text(options, "%sa name that ends in %s%s", form != row->form ? "- or " : "",
+                            words, more);
     return options_text(options, "%s%sa %s, %.10g to %.10g",
                         row->values * row->most > 1 ? row->argument : "",
                         row->values * row->most > 1 ? ", each " : "", what, row->low, row->high);

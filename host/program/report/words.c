@@ -1,5 +1,6 @@
 #include "report/words.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -20,6 +21,20 @@ int has_word(const char *list, const char *word, size_t length)
         list += size;
     }
     return 0;
+}
+
+void write_words(const char *list, char *text, size_t size)
+{
+    size_t used = 0;
+    *text = '\0';
+    for (size_t length = next_word(&list); length > 0 && used < size;) {
+        const char *word = list;
+        const size_t its = length;
+        list += length;
+        length = next_word(&list);
+        const char *separator = used == 0 ? "" : length == 0 ? " or " : ", ";
+        used += (size_t)snprintf(text + used, size - used, "%s%.*s", separator, (int)its, word);
+    }
 }
 
 int has_ending(const char *endings, const char *path)
