@@ -40,5 +40,5 @@ chosen pthread
 with emulator pthread 1 "no OpenCL device but an emulator" -- $cornell $quiet --out film.exr
 with emulator pthread 0 "" -- $cornell $quiet --out film.exr --device 0
 with small pthread 1 "a buffer of 8 MB is too large (the device allows 1 MB)" -- $cornell $quiet --out film.exr
-CLSHEAR_DEVICE=toaster expect 1 'no OpenCL device "toaster"' -- $cornell $quiet --out film.exr
+CLSHEAR_DEVICE=toaster expect 1 'no OpenCL device is called "toaster"; there are: 0' -- $cornell $quiet --out film.exr
 finish
