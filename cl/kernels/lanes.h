@@ -19,8 +19,10 @@ static inline cs_vfloat cs_from_whole(cs_vint x)
     return CS_OVER_LANES(convert_float)(x);
 }
 
-/* A packet of what `of` is at each lane; of four neighbours at every fourth lane. Written
- * out: lanes that are stored one by one cannot be loaded as a packet before all stores are done. */
+/* CS_EACH_LANE(of) is the packet of the numbers of(lane). CS_NEIGHBOURS(of, i) is a packet of rows
+ * of four numbers: of(i), of(i + 4) and so on. CS_TRANSPOSED takes column i of the first rows of
+ * four packets, then column j of the second ones, and so on. All are written out: a packet cannot
+ * be loaded before the stores of its single lanes are done. */
 #if CS_PACKET == 16
 #define CS_EACH_LANE(of)                                                                      \
     (cs_vfloat)(of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7), of(8), of(9), of(10), \
@@ -57,8 +59,8 @@ static inline cs_vfloat cs_gather(CS_GLOBAL const cs_f32 *table, cs_vint index)
 static inline void cs_gather_four(CS_GLOBAL const cs_f32 *table, cs_vint index, cs_vfloat *found)
 {
 #if CS_PACKET >= 8
-    /* Rows of lanes whose numbers are 4 apart: what is within four lanes changes its place fastest.
-     */
+    /* Lanes 4 apart share a packet of rows: so numbers move within a quarter of a vector register,
+     * which is faster than a move across quarters. */
     cs_int_lanes place;
     place.all = index;
     cs_vfloat rows[4];

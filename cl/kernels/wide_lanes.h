@@ -33,10 +33,11 @@ static inline cs_u32 cs_mask_of_four(int4 mask)
 
 #if CS_PACKET == 16 && defined(CS_NATIVE) && defined(__AVX512F__) && defined(__AVX512DQ__)
 
-/* Writes references and distances of the children whose `enter` is below `limit`, in the order that
- * the node has for rays of an octant: those that are walked first last, which are the near ones, or
- * with `far_first` the far ones (as cs_walk_octant). Returns their number. Both arrays need room
- * for CS_WIDE entries: entries after the last child are overwritten with anything. */
+/* Writes references and distances of the children whose distance `enter` is below `limit` to the
+ * top of a stack, and returns the number of children. The nearest child, or with `far_first` the
+ * farthest, comes last, so that the walk takes it first. The order is the node's own for directions
+ * of `octant`. Both arrays need room for CS_WIDE entries: entries after the last child are
+ * overwritten with anything. */
 static inline int cs_push_children(CS_GLOBAL const cs_wide_node *node, int octant,
                                    const int far_first, const cs_float_lanes *enter, cs_f32 limit,
                                    cs_u32 *references, cs_f32 *enters)
@@ -109,7 +110,7 @@ static inline void cs_insert_child(ulong key, cs_u32 flip, int count, cs_u32 *re
     references[place] = (cs_u32)key;
 }
 
-/* The same, in the order of the distances. */
+/* As above, but the order is that of the distances, and `octant` is not used. */
 static inline int cs_push_children(CS_GLOBAL const cs_wide_node *node, int octant,
                                    const int far_first, const cs_float_lanes *enter, cs_f32 limit,
                                    cs_u32 *references, cs_f32 *enters)

@@ -5,7 +5,7 @@
 
 static atomic_uint_least64_t last_number;
 
-/* Counts a buffer among those that the device holds. */
+/* Adds the bytes of a new buffer to the device's count of bytes held. */
 static void count_in(cs_device *device, size_t size)
 {
     const size_t held = atomic_fetch_add(&device->held, size) + size;

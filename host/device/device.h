@@ -44,7 +44,7 @@ const char *cs_device_driver(const cs_device *device);
 int cs_device_packet(const cs_device *device);
 int cs_device_threads(const cs_device *device); /* its compute units */
 
-/* Bytes of its buffers: of those that there are, and the most that there were at once. */
+/* Bytes that all buffers of the device take at present, and the most that they took at once. */
 size_t cs_device_held(const cs_device *device);
 size_t cs_device_most_held(const cs_device *device);
 

@@ -62,12 +62,12 @@ clshear_status cs_adaptive_complete(struct cs_job *job, cs_error *error);
 /* Whether the job shares its samples out in this way. Needs its settings and its pattern. */
 int cs_adaptive_shares(const struct cs_job *job);
 
-/* Bytes of a pixel that such a job keeps on the host, and those that its beginnings take besides.
- */
+/* Bytes a pixel on the host: what a job that shares out keeps until its end, and what the first
+ * patterns of its pixels take besides while they are drawn. */
 size_t cs_adaptive_bytes(const struct cs_job *job);
 size_t cs_adaptive_begin_bytes(void);
 
-/* Reserves what a job takes that shares out in this way; does nothing for others. */
+/* Reserves the host memory of sharing out; does nothing for a job with even samples. */
 clshear_status cs_adaptive_plan(struct cs_job *job, cs_error *error);
 void cs_adaptive_free(cs_adaptive *adaptive);
 

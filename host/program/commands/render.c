@@ -185,7 +185,7 @@ static int is_on_line(const program_options *options, const char *name)
     return 0;
 }
 
-/* Flags of the line that do nothing without another one are told before the render. */
+/* Tells the flags of the command line that have no effect without another flag. */
 static void tell_idle_flags(const render_job *job)
 {
     const clshear_settings *settings = job->options.settings;
