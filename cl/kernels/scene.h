@@ -64,12 +64,12 @@ CS_SHARED_WORDS(cs_node, 16);
 /* A node of the wide hierarchy, for single rays: boxes of all children in bytes, relative to the
  * box around them. Four cache lines. */
 typedef struct cs_wide_node {
-    cs_u32 planes[3][2][CS_WIDE / 4]; /* axis, low and high, a byte for each child */
     cs_u32 child[CS_WIDE]; /* index of a node, or CS_LEAF | index of a leaf; 0: there is none */
-    cs_u32 order[8][2];    /* for each octant of directions, children from far to near: 4 bits each,
-                            * even places in the first word */
-    cs_f32 low[4];         /* where byte 0 is; three and padding */
-    cs_f32 step[4];        /* from one byte to the next; likewise */
+    cs_u32 planes[3][2][CS_WIDE / 4]; /* axis, low and high, a byte for each child */
+    cs_u32 order[8][2]; /* for each octant of directions, children from far to near: 4 bits each,
+                         * even places in the first word */
+    cs_f32 low[4];      /* where byte 0 is; three and padding */
+    cs_f32 step[4];     /* from one byte to the next; likewise */
 } cs_wide_node;
 CS_SHARED_WORDS(cs_wide_node, 64);
 

@@ -13,6 +13,7 @@
 /* Packets at any place of 4 bytes. */
 typedef cs_vfloat __attribute__((aligned(4))) cs_loose_float;
 typedef cs_vuint __attribute__((aligned(4))) cs_loose_uint;
+typedef cs_vint __attribute__((aligned(4))) cs_loose_int;
 
 /* Bytes as floats. */
 static inline cs_vfloat cs_bytes_at(CS_GLOBAL const uchar *bytes)
@@ -49,7 +50,7 @@ static inline int cs_push_children(CS_GLOBAL const cs_wide_node *node, int octan
                      (cs_vuint)(0, 0, 4, 4, 8, 8, 12, 12, 16, 16, 20, 20, 24, 24, 28, 28);
     cs_vfloat ordered = __builtin_ia32_permvarsf512(enter->all, as_int16(order));
     cs_vint child =
-        __builtin_ia32_permvarsi512(*(CS_GLOBAL const cs_vint *)node->child, as_int16(order));
+        __builtin_ia32_permvarsi512(*(CS_GLOBAL const cs_loose_int *)node->child, as_int16(order));
     ushort mask = __builtin_ia32_cvtd2mask512(ordered < limit);
     *(cs_loose_float *)enters = __builtin_ia32_compresssf512_mask(ordered, ordered, mask);
     *(cs_loose_uint *)references = as_uint16(__builtin_ia32_compresssi512_mask(child, child, mask));

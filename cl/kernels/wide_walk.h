@@ -48,7 +48,7 @@ static inline cs_vfloat cs_wide_enters(CS_GLOBAL const cs_wide_node *node, int f
     cs_vfloat leave = cs_min(cs_min(far_x, far_y), far_z);
     /* Far planes are moved away by the relative error of a slab test in floats (Ize 2013). */
     cs_vint hit = enter <= leave * 1.0000005f;
-    hit = hit & (*(CS_GLOBAL const cs_vint *)(node->child + first) != 0);
+    hit = hit & (*(CS_GLOBAL const cs_loose_int *)(node->child + first) != 0);
     return hit ? enter : (cs_vfloat)(INFINITY);
 }
 
