@@ -14,6 +14,13 @@ static inline cs_vint cs_whole(cs_vfloat x)
 
 #ifdef CS_DEVICE
 
+/* Packets, and four floats, at any place of 4 bytes: a pointer to the plain types promises that
+ * what it points at lies on as many bytes as it has, and processors may stop a program for less. */
+typedef cs_vfloat __attribute__((aligned(4))) cs_loose_float;
+typedef cs_vint __attribute__((aligned(4))) cs_loose_int;
+typedef cs_vuint __attribute__((aligned(4))) cs_loose_uint;
+typedef float4 __attribute__((aligned(4))) cs_loose_four;
+
 static inline cs_vfloat cs_from_whole(cs_vint x)
 {
     return CS_OVER_LANES(convert_float)(x);

@@ -2,6 +2,7 @@
 #include "clshear/device/lens.h"
 #include "clshear/device/shear.h"
 #include "kernels/kernel.h"
+#include "kernels/lanes.h"
 #include "kernels/motion.h"
 #include "kernels/path.h"
 #include "kernels/radiance.h"
@@ -51,7 +52,7 @@ CS_KERNEL void cs_radiance_at(const cs_launch launch, const uint x, const uint y
     cs_scene_buffers scene = CS_SCENE_VALUES;
     cs_vfloat point[CS_EVALUATED];
     for (int plane = 0; plane < CS_EVALUATED; plane++)
-        point[plane] = *(__global const cs_vfloat *)(points + (size_t)plane * count + first);
+        point[plane] = *(__global const cs_loose_float *)(points + (size_t)plane * count + first);
     if (tuples) cs_shear_point(&launch, lens_table, shear, velocity, point);
 #if CS_HAS(MOTION)
     const cs_vfloat time = cs_shutter_time(point[CS_DIMENSIONS], launch.shutter);
@@ -91,6 +92,6 @@ CS_KERNEL void cs_radiance_at(const cs_launch launch, const uint x, const uint y
                                           point[CS_AT_FILM] == point[CS_AT_FILM]);
 #endif
     for (int channel = 0; channel < 3; channel++)
-        *(__global cs_vfloat *)(radiance + (size_t)channel * count + first) =
+        *(__global cs_loose_float *)(radiance + (size_t)channel * count + first) =
             found.channel[channel];
 }

@@ -5,6 +5,7 @@
 #include "clshear/device/packet.h"
 #include "kernels/frequencies.h"
 #include "kernels/kernel.h"
+#include "kernels/lanes.h"
 
 /* Rows of the spectrum that a work-item sums up at once: their sums stay in registers. */
 #define CS_SPECTRUM_ROWS 8
@@ -35,8 +36,8 @@ CS_KERNEL void cs_exponentials(const uint count, const uint columns, const cs_fr
     }
     cs_vfloat half_turns = CS_OVER_LANES(convert_float)(cs_as_vint(turns)) * 0x1p-31f;
     size_t at = (size_t)point * columns + column;
-    *(__global cs_vfloat *)(real + at) = cospi(half_turns);
-    *(__global cs_vfloat *)(imaginary + at) = -sinpi(half_turns);
+    *(__global cs_loose_float *)(real + at) = cospi(half_turns);
+    *(__global cs_loose_float *)(imaginary + at) = -sinpi(half_turns);
 }
 
 /* Adds the points to the sums of CS_PACKET x CS_SPECTRUM_ROWS frequencies and, after a set's last
@@ -62,8 +63,9 @@ CS_KERNEL void cs_periodogram(const uint count, const uint columns, const uint r
         imaginary[i] = (cs_vfloat)(0.0f);
     }
     for (uint point = 0; point < count; point++) {
-        cs_vfloat a = *(__global const cs_vfloat *)(x_real + (size_t)point * columns + column);
-        cs_vfloat b = *(__global const cs_vfloat *)(x_imaginary + (size_t)point * columns + column);
+        cs_vfloat a = *(__global const cs_loose_float *)(x_real + (size_t)point * columns + column);
+        cs_vfloat b =
+            *(__global const cs_loose_float *)(x_imaginary + (size_t)point * columns + column);
         __global const float *c = y_real + (size_t)point * rows + row;
         __global const float *d = y_imaginary + (size_t)point * rows + row;
         __attribute__((opencl_unroll_hint(CS_SPECTRUM_ROWS))) for (int i = 0; i < CS_SPECTRUM_ROWS;
@@ -76,13 +78,13 @@ CS_KERNEL void cs_periodogram(const uint count, const uint columns, const uint r
     __attribute__((opencl_unroll_hint(CS_SPECTRUM_ROWS))) for (int i = 0; i < CS_SPECTRUM_ROWS; i++)
     {
         size_t at = (size_t)(row + (uint)i) * columns + column;
-        __global cs_vfloat *sum_real = (__global cs_vfloat *)(sums + at);
-        __global cs_vfloat *sum_imaginary =
-            (__global cs_vfloat *)(sums + (size_t)rows * columns + at);
+        __global cs_loose_float *sum_real = (__global cs_loose_float *)(sums + at);
+        __global cs_loose_float *sum_imaginary =
+            (__global cs_loose_float *)(sums + (size_t)rows * columns + at);
         cs_vfloat re = begins ? real[i] : *sum_real + real[i];
         cs_vfloat im = begins ? imaginary[i] : *sum_imaginary + imaginary[i];
         *sum_real = re;
         *sum_imaginary = im;
-        if (ends) *(__global cs_vfloat *)(power + at) += (re * re + im * im) * scale;
+        if (ends) *(__global cs_loose_float *)(power + at) += (re * re + im * im) * scale;
     }
 }

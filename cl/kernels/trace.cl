@@ -1,5 +1,6 @@
 /* Rays given by the caller, traced by the renderer's own traversal: for tests and benchmarks. */
 #include "kernels/kernel.h"
+#include "kernels/lanes.h"
 #include "kernels/traverse.h"
 #include "kernels/wide_walk.h"
 
@@ -38,12 +39,13 @@ CS_KERNEL void cs_trace(const uint rays, const int any_hit, __global const float
     scene.CS_TRACED_TRIANGLES = triangles;
     cs_ray ray;
     for (int axis = 0; axis < 3; axis++) {
-        ray.origin[axis] = *(__global const cs_vfloat *)(origins + (size_t)axis * rays + first);
+        ray.origin[axis] =
+            *(__global const cs_loose_float *)(origins + (size_t)axis * rays + first);
         ray.direction[axis] =
-            *(__global const cs_vfloat *)(directions + (size_t)axis * rays + first);
+            *(__global const cs_loose_float *)(directions + (size_t)axis * rays + first);
     }
     cs_hit hit;
-    hit.distance = *(__global const cs_vfloat *)(distances + first);
+    hit.distance = *(__global const cs_loose_float *)(distances + first);
     if (any_hit) {
         CS_TRACE(&scene, &ray, 1, &hit);
     } else {
@@ -54,5 +56,5 @@ CS_KERNEL void cs_trace(const uint rays, const int any_hit, __global const float
             hits[first + (size_t)lane] =
                 index.lane[lane] < 0 ? CS_NO_HIT : CS_TRACED_FACE(index.lane[lane]);
     }
-    *(__global cs_vfloat *)(distances + first) = hit.distance;
+    *(__global cs_loose_float *)(distances + first) = hit.distance;
 }

@@ -6,19 +6,17 @@
 #ifndef CS_KERNELS_WIDE_LANES_H
 #define CS_KERNELS_WIDE_LANES_H
 
+#include "kernels/lanes.h"
 #include "kernels/traverse.h"
 
 #if CS_WALKS_WIDE
 
-/* Packets at any place of 4 bytes. */
-typedef cs_vfloat __attribute__((aligned(4))) cs_loose_float;
-typedef cs_vuint __attribute__((aligned(4))) cs_loose_uint;
-typedef cs_vint __attribute__((aligned(4))) cs_loose_int;
+typedef CS_VECTOR(uchar) __attribute__((aligned(1))) cs_loose_bytes;
 
 /* Bytes as floats. */
 static inline cs_vfloat cs_bytes_at(CS_GLOBAL const uchar *bytes)
 {
-    return CS_OVER_LANES(convert_float)(*(CS_GLOBAL const CS_VECTOR(uchar) *)bytes);
+    return CS_OVER_LANES(convert_float)(*(CS_GLOBAL const cs_loose_bytes *)bytes);
 }
 
 /* The truth of comparisons, a bit each. */

@@ -57,8 +57,8 @@ static inline void cs_wide_enter(CS_GLOBAL const cs_wide_node *nodes, cs_wide_ra
                                  const int any_hit)
 {
     CS_GLOBAL const cs_wide_node *node = nodes + ray->next;
-    float4 scale = *(CS_GLOBAL const float4 *)node->step * ray->inverse;
-    float4 offset = (*(CS_GLOBAL const float4 *)node->low - ray->origin) * ray->inverse;
+    float4 scale = *(CS_GLOBAL const cs_loose_four *)node->step * ray->inverse;
+    float4 offset = (*(CS_GLOBAL const cs_loose_four *)node->low - ray->origin) * ray->inverse;
     cs_float_lanes enter[CS_WIDE / CS_PACKET];
     for (int i = 0; i < CS_WIDE / CS_PACKET; i++)
         enter[i].all = cs_wide_enters(node, i * CS_PACKET, ray, scale, offset);
@@ -67,7 +67,7 @@ static inline void cs_wide_enter(CS_GLOBAL const cs_wide_node *nodes, cs_wide_ra
 }
 
 /* A coordinate of four triangles. */
-#define CS_FOUR(of) (*(CS_GLOBAL const float4 *)(of))
+#define CS_FOUR(of) (*(CS_GLOBAL const cs_loose_four *)(of))
 
 /* Distances at which a ray meets a leaf's triangles, as cs_hit_triangle; returns the mask of those
  * that it meets before its limit. */
