@@ -7,7 +7,9 @@ bench/compare/mitsuba.sh bench/compare/twins/speed.py [--size PIXELS] [--spp N] 
 Processor time, summed over threads, says more than the clock on a machine that others use. Rounds
 are interleaved; a ratio is the median of theirs. Both times are the difference between a render with
 all samples and one with an eighth of them, so that loading and compiling are not counted. Each
-renderer has its own defaults: its sampler, its roulette, and clshear's light between facets.
+renderer has its own defaults: its sampler, its roulette, and clshear's light between facets; but
+clshear draws as many samples in each pixel, as Mitsuba does, since those that are shared out go
+where samples cost more.
 """
 import argparse
 import pathlib
@@ -30,7 +32,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 
 
 def of_clshear(options, folder, name, scene, spp, seed):
-    return run_clshear(options, folder, name, scene, ["--spp", spp, "--seed", seed], {})[1]
+    return run_clshear(options, folder, name, scene, ["--spp", spp, "--seed", seed, "--adaptive=0"], {})[1]
 
 
 def of_mitsuba(world, integrator, spp, seed):
