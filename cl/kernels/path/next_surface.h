@@ -26,11 +26,15 @@ static inline cs_vint cs_is_open(const cs_surface *surface, const cs_vfloat *tow
 }
 
 /* The nearest surfaces along the rays up to hit->distance; returns the lanes that have one. Lanes
- * without one get distance 0. lights: their number. */
-static inline cs_vint cs_find_surfaces(const cs_scene_buffers *scene, cs_u32 lights,
+ * without one get distance 0. lights: their number. camera: whether the rays come from the lens;
+ * they begin apart, but what they see they see by the pixel, so they walk together. */
+static inline cs_vint cs_find_surfaces(const cs_scene_buffers *scene, cs_u32 lights, int camera,
                                        const cs_ray *ray, cs_hit *hit, cs_surface *surface)
 {
-    cs_traverse_either(scene, ray, 0, hit);
+    if (camera)
+        cs_traverse(scene, ray, 0, hit);
+    else
+        cs_traverse_either(scene, ray, 0, hit);
 #if CS_HAS(LIGHTS)
     cs_meet_shapes(scene, lights, ray, 0, hit);
 #else
@@ -74,7 +78,9 @@ static inline cs_vuint cs_passing_bits(cs_vuint passing, cs_u32 passed)
 static inline cs_vint cs_path_hit(const cs_scene_buffers *scene, const cs_paths *paths,
                                   const cs_path *path, cs_hit *hit, cs_surface *surface)
 {
-    cs_vint seen = cs_find_surfaces(scene, paths->launch->lights, &path->ray, hit, surface);
+    const int camera = paths->depth == 0u;
+    const cs_u32 lights = paths->launch->lights;
+    cs_vint seen = cs_find_surfaces(scene, lights, camera, &path->ray, hit, surface);
 #if CS_HAS(MATERIALS)
     cs_vuint passing = cs_passing(paths, 0u, path->index);
     cs_vint passes = seen; /* lanes that stopped once have stopped */
@@ -90,7 +96,7 @@ static inline cs_vint cs_path_hit(const cs_scene_buffers *scene, const cs_paths 
             ray.origin[i] = passes ? from[i] : ray.origin[i];
         passed += passes ? hit->distance : (cs_vfloat)(0.0f);
         hit->distance = path->alive ? (cs_vfloat)(INFINITY) : (cs_vfloat)(-1.0f);
-        seen = cs_find_surfaces(scene, paths->launch->lights, &ray, hit, surface);
+        seen = cs_find_surfaces(scene, lights, camera, &ray, hit, surface);
     }
     hit->distance += passed;
 #endif

@@ -19,7 +19,7 @@ static inline void cs_shadow_through(const cs_scene_buffers *scene, const cs_pat
         cs_surface surface;
         cs_vfloat origin[3], from[3];
         hit->distance = left;
-        cs_vint seen = cs_find_surfaces(scene, paths->launch->lights, &ray, hit, &surface);
+        cs_vint seen = cs_find_surfaces(scene, paths->launch->lights, 0, &ray, hit, &surface);
         left = hit->triangle < (cs_vint)(CS_NO_HIT) ? (cs_vfloat)(-1.0f) : left;
         if (!cs_any(seen)) break;
         cs_vint passes = cs_passes(&surface, cs_passing_bits(shadow->passing, n));
