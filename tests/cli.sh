@@ -214,7 +214,7 @@ case $(oiiotool --info -v sampler.exr) in *"samplesPerPixel: 18"*) ;; *) wrong "
 # The oracle: rules, sharing out, and what the shear gains as a picture.
 # shellcheck disable=SC2086
 {
-    refuse 2 "--oracle delphi: must be centre, median, near, far or pilot" -- "$cornell" --oracle delphi
+    refuse 2 "--oracle delphi: must be centre, median, near, far, pilot or edge" -- "$cornell" --oracle delphi
     expect 0 "" -- "$cornell" --width 32 --height 32 --spp 128 --quiet --adaptive --gain gain.png \
         --out gain.exr
     [ -s gain.png ] || wrong "no picture of the gain"

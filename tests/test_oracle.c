@@ -45,6 +45,30 @@ static void rules_take_their_depths(void **state)
     assert_near(cs_oracle_shear(&camera, 0.0f, 0.0f, &depth, CS_RULE_CENTRE), 60.0f, 1e-4f);
 }
 
+/* An edge is where the shears of all depths differ by more than half the centre's and by more than
+ * a pixel, if the near surface is not the sharper one; rays that hit nothing see infinity, and one
+ * depth is no edge. */
+static void edges_take_the_nearest(void **state)
+{
+    (void)state;
+    const cs_camera camera = {.focal_distance = 4.0f, .pixel_width = 0.01f, .aperture_width = 0.2f};
+    const struct {
+        cs_depth depth;
+        cs_rule rule;
+    } cases[] = {{{2.0f, 1.0f, 2.0f, 8.0f, 0.0f}, CS_RULE_NEAR},   /* 60 to -10 */
+                 {{2.0f, 1.6f, 2.0f, 2.1f, 0.0f}, CS_RULE_NEAR},   /* 30 to 18.1 */
+                 {{2.0f, 1.9f, 2.0f, 2.1f, 0.0f}, CS_RULE_CENTRE}, /* 22.1 to 18.1 */
+                 {{2.0f, 1.9f, 2.0f, 2.1f, 0.1f}, CS_RULE_NEAR},   /* 22.1 to -20 */
+                 {{4.0f, 3.9f, 4.0f, 4.0f, 0.0f}, CS_RULE_CENTRE}, /* 0.5 to 0 */
+                 {{4.1f, 4.0f, 4.1f, 4.1f, 0.0f}, CS_RULE_NEAR},   /* 0 to -0.5 */
+                 {{INFINITY, INFINITY, INFINITY, INFINITY, 1.0f}, CS_RULE_CENTRE}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        assert_int_equal(cs_oracle_rule(CLSHEAR_ORACLE_EDGE, &camera, 0.0f, 0.0f, &cases[i].depth),
+                         cases[i].rule);
+    assert_int_equal(cs_oracle_rule(CLSHEAR_ORACLE_FAR, &camera, 0.0f, 0.0f, &cases[0].depth),
+                     CS_RULE_FAR);
+}
+
 enum {
     SIDE = 64,
     PIXELS = SIDE * SIDE
@@ -316,6 +340,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(depth_becomes_shear),
                                        cmocka_unit_test(rules_take_their_depths),
+                                       cmocka_unit_test(edges_take_the_nearest),
                                        cmocka_unit_test(clear_evidence_decides),
                                        cmocka_unit_test(without_evidence_the_prior_stays),
                                        cmocka_unit_test(allocation_keeps_limits),

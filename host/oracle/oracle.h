@@ -21,14 +21,18 @@ typedef enum cs_rule {
     CS_RULE_COUNT
 } cs_rule;
 
-/* The rule of an oracle. The pilot starts from the centre. */
-cs_rule cs_rule_of(clshear_oracle oracle);
-
 /* The shear for a rule: the signed circle of confusion of the rule's depth, in pixels, at raster
  * position (x, y), which is the middle of the pixel. If the centre ray hits nothing, the centre
  * rule takes the median depth. Returns 0 for an infinite depth. */
 cs_f32 cs_oracle_shear(const cs_camera *camera, cs_f32 x, cs_f32 y, const cs_depth *depth,
                        cs_rule rule);
+
+/* The rule of an oracle for a pixel with these depths, whose middle is at raster position (x, y).
+ * `edge` takes the nearest depth where the shears of all depths differ by more than half the
+ * centre's, and by more than a pixel or the near surface is the less blurred one: what makes the
+ * noise there is its edge. The pilot starts from the centre. */
+cs_rule cs_oracle_rule(clshear_oracle oracle, const cs_camera *camera, cs_f32 x, cs_f32 y,
+                       const cs_depth *depth);
 
 /* Whether the rule shears by the velocity, too, where there is motion. */
 int cs_rule_has_velocity(cs_rule rule);

@@ -160,6 +160,19 @@ done:
     return status;
 }
 
+/* Where something moves, only a pilot can tell what the samples should follow: a surface's motion,
+ * its depth, or both. */
+static clshear_status choose_oracle(cs_job *job, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const double pilot = CLSHEAR_ORACLE_PILOT;
+    if (!cs_is_set(&job->settings, ORACLE) && job->moves)
+        CS_TRY(cs_settings_set(&job->settings, CLSHEAR_ORACLE, &pilot, 1, error));
+    job->oracle = (clshear_oracle)cs_integer(&job->settings, ORACLE);
+done:
+    return status;
+}
+
 /* What the kernels must be compiled with. */
 static cs_u32 features_of(const cs_job *job)
 {
@@ -181,7 +194,6 @@ clshear_status cs_job_begin(cs_job *job, clshear_scene *scene, const clshear_set
     job->height = (int)cs_integer(&job->settings, HEIGHT);
     job->seed = (cs_u32)cs_integer(&job->settings, SEED);
     job->shear_kind = (clshear_shear)cs_integer(&job->settings, SHEAR);
-    job->oracle = (clshear_oracle)cs_integer(&job->settings, ORACLE);
     CS_TRY(check_window(job, error));
     CS_TRY(cs_camera_complete(scene, &job->settings, error));
     CS_TRY(cs_studio_complete(scene, &job->settings, error));
@@ -189,6 +201,7 @@ clshear_status cs_job_begin(cs_job *job, clshear_scene *scene, const clshear_set
     job->features = features_of(job);
     job->planes = cs_aov_planes(&job->settings);
     CS_TRY(make_camera(job, error));
+    CS_TRY(choose_oracle(job, error));
 done:
     return status;
 }

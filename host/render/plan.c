@@ -60,13 +60,26 @@ static clshear_status find_depths(cs_job *job, cs_error *error)
     return CLSHEAR_OK;
 }
 
-cs_f32 cs_job_shear(const cs_job *job, size_t index, cs_rule rule)
+/* The middle of a pixel on the raster. */
+static void find_middle(const cs_job *job, size_t index, cs_f32 *x, cs_f32 *y)
 {
     const size_t width = (size_t)(job->window[1] - job->window[0]);
-    const size_t x = (size_t)job->window[0] + index % width;
-    const size_t y = (size_t)job->window[2] + index / width;
-    return cs_oracle_shear(&job->camera, (cs_f32)x + 0.5f, (cs_f32)y + 0.5f, &job->depth[index],
-                           rule);
+    *x = (cs_f32)((size_t)job->window[0] + index % width) + 0.5f;
+    *y = (cs_f32)((size_t)job->window[2] + index / width) + 0.5f;
+}
+
+cs_f32 cs_job_shear(const cs_job *job, size_t index, cs_rule rule)
+{
+    cs_f32 x, y;
+    find_middle(job, index, &x, &y);
+    return cs_oracle_shear(&job->camera, x, y, &job->depth[index], rule);
+}
+
+static cs_rule rule_of(const cs_job *job, size_t index)
+{
+    cs_f32 x, y;
+    find_middle(job, index, &x, &y);
+    return cs_oracle_rule(job->oracle, &job->camera, x, y, &job->depth[index]);
 }
 
 /* Rules and shears of all pixels; those of the picture that is extended, if there is one. */
@@ -75,15 +88,14 @@ static clshear_status choose_shears(cs_job *job, cs_error *error)
     const float *extended = job->base != NULL ? cs_film_channel(job->base, "Shear") : NULL;
     const float *rules = job->base != NULL ? cs_film_channel(job->base, "Oracle") : NULL;
     const int is_given = cs_is_set(&job->settings, SHEAR_PX);
-    const cs_rule rule = cs_rule_of(job->oracle);
     for (size_t i = 0; i < job->pixel_count; i++) {
-        job->rule[i] = rules != NULL ? (uint8_t)rules[i] : (uint8_t)rule;
+        job->rule[i] = rules != NULL ? (uint8_t)rules[i] : (uint8_t)rule_of(job, i);
         if (extended != NULL)
             job->shear_px[i] = extended[i];
         else if (is_given)
             job->shear_px[i] = (cs_f32)cs_number(&job->settings, SHEAR_PX);
         else
-            job->shear_px[i] = cs_job_shear(job, i, rule);
+            job->shear_px[i] = cs_job_shear(job, i, (cs_rule)job->rule[i]);
     }
     return cs_pilot_chooses_shears(job) ? cs_pilot_shears(job, error) : CLSHEAR_OK;
 }

@@ -73,7 +73,7 @@ clshear_status cs_study_settings(const clshear_settings *given, const cs_study *
     CS_TRY(set(settings, CLSHEAR_ADAPTIVE, 0.0, error));
     CS_TRY(set(settings, CLSHEAR_GAIN, 0.0, error));
     CS_TRY(set(settings, CLSHEAR_EXTENDABLE, 0.0, error));
-    if (cs_integer(settings, ORACLE) == CLSHEAR_ORACLE_PILOT)
+    if (!cs_is_set(settings, ORACLE) || cs_integer(settings, ORACLE) == CLSHEAR_ORACLE_PILOT)
         CS_TRY(set(settings, CLSHEAR_ORACLE, CLSHEAR_ORACLE_CENTRE, error));
 done:
     return status;

@@ -112,8 +112,8 @@ CLSHEAR_API clshear_status clshear_pixel_motion(clshear_scene *scene,
                                                 const clshear_settings *settings, int x, int y,
                                                 int *moves, float velocity_px[2]);
 
-/* Computes the shear of pixel (x, y) by the settings' oracle, in pixels. The pilot is replaced by
- * the centre. */
+/* Computes the shear of pixel (x, y) by the settings' oracle, in pixels; by the centre if
+ * none is set, or the pilot. */
 CLSHEAR_API clshear_status clshear_pixel_shear(clshear_scene *scene,
                                                const clshear_settings *settings, int x, int y,
                                                float *shear_px);
