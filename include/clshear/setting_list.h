@@ -17,13 +17,14 @@
     X(EQUAL_AREA, 2, "equal-area",                                                     \
       "the first pair of the tuple becomes the fibre's place; no seams")
 
-#define CLSHEAR_ORACLE_LIST(X)                                                                \
-    X(CENTRE, 0, "centre", "the depth seen through the middles of pixel and lens")            \
-    X(MEDIAN, 1, "median", "the median depth of rays all over pixel and lens")                \
-    X(NEAR, 2, "near", "the nearest depth of these rays")                                     \
-    X(FAR, 3, "far", "the farthest depth of these rays")                                      \
-    X(PILOT, 4, "pilot",                                                                      \
-      "a small render tries centre, near, far and no shear, and takes the clearly best rule") \
+#define CLSHEAR_ORACLE_LIST(X)                                                                 \
+    X(CENTRE, 0, "centre", "the depth seen through the middles of pixel and lens")             \
+    X(MEDIAN, 1, "median", "the median depth of rays all over pixel and lens")                 \
+    X(NEAR, 2, "near", "the nearest depth of these rays")                                      \
+    X(FAR, 3, "far", "the farthest depth of these rays")                                       \
+    X(PILOT, 4, "pilot",                                                                       \
+      "a small render tries centre, near, far and no shear, and takes the clearly best rule; " \
+      "the default if something moves")                                                        \
     X(EDGE, 5, "edge", "near where a pixel sees depths that lie apart, else centre")
 
 #define CLSHEAR_FILTER_LIST(X)                                                       \
@@ -94,7 +95,7 @@
     X(SHEAR, 5, "shear", "", CHOICE, 1, 1, "equal-area", 0, 0, shear, RECIPE, "KIND", \
       "equal-area, toroidal or none") \
     X(ORACLE, 6, "oracle", "", CHOICE, 1, 1, "edge", 0, 0, oracle, RECIPE, "RULE", \
-      "edge, centre, median, near, far; pilot, the default if something moves") \
+      "edge, centre, median, near, far or pilot") \
     X(SHEAR_PX, 12, "shear-px", "", NUMBER, 1, 1, "", -1e6, 1e6, none, RECIPE, "S", \
       "shear by S pixels everywhere, not by the oracle") \
     X(LENS_RAYS, 7, "lens-rays", "", INTEGER, 1, 1, "16", 0, 256, none, RECIPE, "N", \
