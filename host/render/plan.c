@@ -64,8 +64,10 @@ static clshear_status find_depths(cs_job *job, cs_error *error)
 static void find_middle(const cs_job *job, size_t index, cs_f32 *x, cs_f32 *y)
 {
     const size_t width = (size_t)(job->window[1] - job->window[0]);
-    *x = (cs_f32)((size_t)job->window[0] + index % width) + 0.5f;
-    *y = (cs_f32)((size_t)job->window[2] + index / width) + 0.5f;
+    const size_t column = (size_t)job->window[0] + index % width;
+    const size_t row = (size_t)job->window[2] + index / width;
+    *x = (cs_f32)column + 0.5f;
+    *y = (cs_f32)row + 0.5f;
 }
 
 cs_f32 cs_job_shear(const cs_job *job, size_t index, cs_rule rule)
