@@ -49,6 +49,30 @@ static void the_choice_is_visible(void **state)
         clshear_film_free(rules[r]);
 }
 
+/* By default, what is at rest takes the nearest depth in some pixels and the centre's in the
+ * others, without a pilot, and what moves has one. */
+static void only_motion_needs_a_pilot(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = test_settings(made->settings, SIZE, SIZE, 64);
+    clshear_film *film = test_render(made->scene, settings);
+    const float *rule = clshear_film_channel(film, "Oracle");
+    int near = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        assert_true(rule[i] == 0.0f || rule[i] == 2.0f);
+        near += rule[i] == 2.0f;
+    }
+    assert_above(near, 0);
+    assert_below(near, PIXELS / 2);
+    assert_int_equal(test_film_info(film).pilot_samples, 0);
+    clshear_film_free(film);
+    test_set(settings, CLSHEAR_CAMERA_TO, "290,274,800,276,274,0");
+    film = test_render(made->scene, settings);
+    assert_above(test_film_info(film).pilot_samples, 0);
+    clshear_film_free(film);
+    clshear_settings_free(settings);
+}
+
 static void samples_are_counted(void **state)
 {
     test_fixture *made = *state;
@@ -337,6 +361,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_choice_is_visible),
+        cmocka_unit_test(only_motion_needs_a_pilot),
         cmocka_unit_test(samples_are_counted),
         cmocka_unit_test(interruption_leaves_no_holes),
         cmocka_unit_test(beginnings_do_not_bias),

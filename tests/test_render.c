@@ -134,8 +134,7 @@ static void a_crop_is_part_of_the_whole(void **state)
 {
     test_fixture *made = *state;
     clshear_settings *settings = small(made, 64, 2);
-    test_set(settings, CLSHEAR_ORACLE, "median"); /* a pilot has less evidence in a crop, ... */
-    test_set(settings, CLSHEAR_ADAPTIVE, "0");    /* ... and other pixels share its samples */
+    test_set(settings, CLSHEAR_ADAPTIVE, "0"); /* other pixels share a crop's samples */
     clshear_film *whole = test_render(made->scene, settings);
     test_set(settings, CLSHEAR_CROP, "5,30,11,22");
     clshear_film *part = render_once(made, settings);

@@ -31,6 +31,9 @@ import numpy as np
 
 mi.set_variant("llvm_ad_rgb")
 mi.set_log_level(mi.LogLevel.Error)
+sys.path.append(str(HERE / "twins"))
+
+from mitsuba_scene import make_sensor
 
 SAMPLERS = ["independent", "stratified", "multijitter", "orthogonal", "ldsampler"]
 CLSHEAR_SPP = [16, 32, 64, 128, 256, 512, 1024]
@@ -108,19 +111,6 @@ def make_mesh(name, positions, coordinates, corners, bsdf):
     return mesh
 
 
-def make_sensor(flags, size, sampler):
-    """The camera and thin lens of the flags, with one sampler."""
-    up = flags.get("up", [[0, 1, 0]])[0]
-    frame = mi.ScalarTransform4f().look_at(flags["eye"][0], flags["target"][0], up)
-    return mi.load_dict({
-        "type": "thinlens", "to_world": frame, "fov": flags["fov"][0][0], "fov_axis": "smaller",
-        "aperture_radius": flags["lens-radius"][0][0],
-        "focus_distance": flags["focal-distance"][0][0], "near_clip": 1e-2, "far_clip": 1e5,
-        "sampler": {"type": sampler},
-        "film": {"type": "hdrfilm", "width": size, "height": size, "pixel_format": "rgb",
-                 "component_format": "float32", "rfilter": {"type": "box"}}})
-
-
 class World:
     """A scene as both renderers have it."""
 
@@ -143,7 +133,8 @@ class World:
     def mitsuba(self, sampler, seed, integrator=None):
         """The pixels, how long they took, and the samples per pixel that the sampler made of it."""
         if sampler not in self.sensors:
-            self.sensors[sampler] = make_sensor(self.flags, self.options.size, sampler)
+            self.sensors[sampler] = make_sensor(self.flags, self.options.size,
+                                                self.options.size, sampler)
         sensor = self.sensors[sampler]
         dr.sync_thread()
         start = time.perf_counter()

@@ -136,7 +136,8 @@ def of_clshear(options, name, settings, folder):
 
 
 def compare(options, name, folder):
-    """Prints the scene's row; the logarithms of its two ratios."""
+    """Prints the scene's row; the logarithms of its two ratios, or nothing if the pictures are not
+    alike."""
     settings = twin_settings(name, folder)
     theirs = Mitsuba(options, name, settings)
     sampler, ladder, picture = theirs.best()
@@ -149,6 +150,9 @@ def compare(options, name, folder):
           f"| {at(ours, target.error, 'samples'):.0f} | {seconds:.2f} | **{ratios[0]:.1f}** "
           f"| {100 * final.error:.2f} % | {final.seconds:.2f} | {needed:.0f} | **{ratios[1]:.1f}** "
           f"| {mean / picture.mean():.3f} |", flush=True)
+    if abs(math.log(mean / picture.mean())) > math.log(1.25):
+        print(f"{name}: the pictures differ; not part of the geometric mean", file=sys.stderr)
+        return None
     return [math.log(ratio) for ratio in ratios]
 
 
@@ -169,7 +173,8 @@ def main():
     logs = []
     for name in options.scenes:
         try:
-            logs.append(compare(options, name, folder))
+            found = compare(options, name, folder)
+            logs += [found] if found else []
         except SystemExit as lacks:
             print(f"{name}: {lacks}", file=sys.stderr)
     if logs:

@@ -14,8 +14,8 @@ static inline cs_vint cs_whole(cs_vfloat x)
 
 #ifdef CS_DEVICE
 
-/* Packets, and four floats, at any place of 4 bytes: a pointer to the plain types promises that
- * what it points at lies on as many bytes as it has, and processors may stop a program for less. */
+/* Packets, and four floats, at addresses that are multiples of 4 bytes. A pointer to a plain vector
+ * promises a multiple of the vector's size; AVX-512 loads fault where that does not hold. */
 typedef cs_vfloat __attribute__((aligned(4))) cs_loose_float;
 typedef cs_vint __attribute__((aligned(4))) cs_loose_int;
 typedef cs_vuint __attribute__((aligned(4))) cs_loose_uint;

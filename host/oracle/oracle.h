@@ -28,9 +28,10 @@ cs_f32 cs_oracle_shear(const cs_camera *camera, cs_f32 x, cs_f32 y, const cs_dep
                        cs_rule rule);
 
 /* The rule of an oracle for a pixel with these depths, whose middle is at raster position (x, y).
- * `edge` takes the nearest depth where the shears of all depths differ by more than half the
- * centre's, and by more than a pixel or the near surface is the less blurred one: what makes the
- * noise there is its edge. The pilot starts from the centre. */
+ * `edge` takes the nearest depth at an edge, and the centre elsewhere. It is an edge if the shears
+ * of the nearest and the farthest depth differ by more than half the centre's shear, and either by
+ * more than 1 pixel or the nearest depth's shear is less than the centre's (absolute values). The
+ * pilot starts from the centre. */
 cs_rule cs_oracle_rule(clshear_oracle oracle, const cs_camera *camera, cs_f32 x, cs_f32 y,
                        const cs_depth *depth);
 

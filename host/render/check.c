@@ -160,8 +160,8 @@ done:
     return status;
 }
 
-/* Where something moves, only a pilot can tell what the samples should follow: a surface's motion,
- * its depth, or both. */
+/* The oracle, if none is given: the pilot for a scene that moves, since depths do not tell whether
+ * the shear should follow the motion, the depth or both; else `edge`. */
 static clshear_status choose_oracle(cs_job *job, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;

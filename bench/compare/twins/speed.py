@@ -32,7 +32,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 
 
 def of_clshear(options, folder, name, scene, spp, seed):
-    return run_clshear(options, folder, name, scene, ["--spp", spp, "--seed", seed, "--adaptive=0"], {})[1]
+    flags = ["--spp", spp, "--seed", seed, "--adaptive=0"]
+    return run_clshear(options, folder, name, scene, flags, {})[1]
 
 
 def of_mitsuba(world, integrator, spp, seed):
