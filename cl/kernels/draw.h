@@ -43,13 +43,13 @@ typedef struct cs_drawn {
 #if CS_HAS(MOTION)
     cs_vfloat time[CS_TOGETHER]; /* of the shutter, 0 to 1 */
 #endif
-    cs_pair light[CS_TOGETHER]; /* the tuple's slot, if there are area lights */
+    cs_pair light[CS_TOGETHER]; /* the tuple's slot, if cs_has_light_pair */
 #if CS_HAS(PATHS)
     cs_vuint index[CS_TOGETHER]; /* in the pattern */
 #endif
 } cs_drawn;
 
-/* Whether a light gets the lens's pair of a tuple: where the equal-area shear makes that pair move
+/* Whether the light gets the lens's pair of a tuple: where the equal-area shear makes that pair move
  * along fibres only, and with a pinhole, which has no use for it. A shear of exactly 0 is none:
  * that of a pixel whose rule is not to shear. */
 static inline int cs_exchanges_pairs(const cs_launch *launch, cs_f32 shear)
@@ -58,7 +58,7 @@ static inline int cs_exchanges_pairs(const cs_launch *launch, cs_f32 shear)
            (shear != 0.0f || launch->camera.aperture_width == 0.0f);
 }
 
-/* The pair of samples `index` for area lights. Where cs_exchanges_pairs, it takes the place of the
+/* The pair of samples `index` for the first surface's light. Where cs_exchanges_pairs, it takes the place of the
  * lens's pair in `point`, a tuple, and the lens gets the light's own: the first pair decides what
  * is seen and the light's pair whether it is lit, while the lens's only moves along the fibre. So
  * those two should be the pair that the sampler makes together. */
@@ -95,7 +95,7 @@ static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sampl
                               tuple[CS_END_LENS]};
     drawn->light[k].x = (cs_vfloat)(0.0f);
     drawn->light[k].y = (cs_vfloat)(0.0f);
-    if (launch->area_lights > 0u)
+    if (cs_has_light_pair(launch))
         drawn->light[k] =
             cs_draw_light(launch, sample_table, place->key, index, place->shear, &point);
     drawn->place[k] = number;
@@ -103,7 +103,7 @@ static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sampl
     drawn->active[k] = active;
 #if CS_HAS(MOTION)
     cs_vfloat time = cs_draw_time(&launch->pattern, sample_table, place->key, index,
-                                  launch->area_lights > 0u, &point);
+                                  cs_has_light_pair(launch), &point);
     cs_moving_sample moving =
         cs_shear_moving(point, time, launch->shear_mode, &launch->camera.optics, lens_table,
                         place->shear, place->velocity);

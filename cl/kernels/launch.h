@@ -46,14 +46,22 @@ typedef struct cs_launch {
     cs_u32 page_first;  /* number, in the buffer's order, of the pixel that it begins with */
     cs_u32 shear_mode;  /* CS_SHEAR_ */
     cs_u32 lights;
-    cs_u32 area_lights; /* 0: none of the lights needs a pair of the tuple */
+    cs_u32 area_lights; /* lights that are sampled by a pair of the tuple */
+    cs_u32 only_rays;   /* whether some surfaces shine that only rays are sure to find */
     cs_u32 bounces;     /* surfaces after the first one that scatter light */
     cs_u32 see_through; /* whether some surfaces let rays pass: alpha */
     cs_f32 clamp;       /* most that a bounce adds to a channel; 0: no limit */
     cs_u32 planes;      /* of AOVs that are kept: a set of CS_PLANE_ numbers */
     cs_u32 goes_on;     /* 1: more samples follow the pattern's last, so it is not finished */
 } cs_launch;
-CS_SHARED_WORDS(cs_launch, 94);
+CS_SHARED_WORDS(cs_launch, 95);
+
+/* Whether tuples have a pair for the first surface's light: the place on area lights, and opposite
+ * in the unit square, the direction that goes on. */
+static inline int cs_has_light_pair(const cs_launch *launch)
+{
+    return launch->area_lights > 0u || launch->bounces > 0u;
+}
 
 /* How many pixels a work-item draws, so that their packets make CS_TOGETHER.
  * blocks: of a pixel's pattern in the launch. packet: lanes. */

@@ -11,7 +11,17 @@
 #include "kernels/path/scatter.h"
 #include "kernels/path/shadow.h"
 
-/* What a surface on a path draws; the first one has the tuple's own pair for lights. */
+/* The points opposite in the unit square, by half its side along both axes. The points of a net and
+ * these make a net together, so both are as well stratified with the rest of their tuples. */
+static inline cs_pair cs_opposite(cs_pair pair)
+{
+    pair.x += pair.x < 0.5f ? 0.5f : -0.5f;
+    pair.y += pair.y < 0.5f ? 0.5f : -0.5f;
+    return pair;
+}
+
+/* What a surface on a path draws. The first one has the tuple's own pair for lights and, opposite
+ * of it, for the direction that goes on: what both find is added up, never multiplied. */
 static inline cs_numbers cs_draw_numbers(const cs_paths *paths, int p)
 {
     const cs_launch *launch = paths->launch;
@@ -20,7 +30,10 @@ static inline cs_numbers cs_draw_numbers(const cs_paths *paths, int p)
     numbers.light = paths->light[p];
     if (paths->depth > 0u && launch->area_lights > 0u)
         numbers.light = cs_draw_at(&draws, paths->depth, CS_DRAW_LIGHT);
-    numbers.bsdf = cs_draw_at(&draws, paths->depth, CS_DRAW_BSDF);
+    if (paths->depth == 0u && cs_has_light_pair(launch))
+        numbers.bsdf = cs_opposite(numbers.light);
+    else
+        numbers.bsdf = cs_draw_at(&draws, paths->depth, CS_DRAW_BSDF);
     numbers.choice = cs_draw_at(&draws, paths->depth, CS_DRAW_CHOICE);
     return numbers;
 }
@@ -71,7 +84,6 @@ static inline void cs_path_advance(const cs_scene_buffers *scene, cs_paths *path
     if (paths->depth == 0u) cs_note_surface(&surface, paths->found + p);
     cs_path_add_emission(scene, paths, path, &surface, hit.distance);
     path->alive = (cs_vint)(0);
-    /* The last ray only finds what the lights' samples of the last surface might. */
     if (paths->depth > launch->bounces) return;
     cs_vfloat origin[3], out[3];
     cs_leave_surface(&surface, hit.distance, origin);
@@ -79,12 +91,16 @@ static inline void cs_path_advance(const cs_scene_buffers *scene, cs_paths *path
         out[i] = -path->ray.direction[i];
     cs_bsdf_view view = cs_bsdf_view_of(&surface, out);
     cs_numbers numbers = cs_draw_numbers(paths, p);
+    /* The last ray only finds lights. */
+    const int last = paths->depth == launch->bounces;
+    cs_vint alone = last ? cs_lights_suffice(scene, launch, &view) : (cs_vint)(0);
     for (cs_u32 i = 0u; i < launch->lights; i++) {
         cs_light_sample light = cs_sample_light(scene, scene->lights + i, &surface, numbers.light);
-        cs_path_add_light(scene, paths, path, &view, origin, &light, i);
+        cs_path_add_light(scene, paths, path, &view, origin, &light, i, alone);
     }
-    if (paths->depth == launch->bounces && launch->area_lights == 0u) return;
+    if (last && !cs_any(seen & ~alone)) return;
     cs_path_scatter(paths, &view, origin, &numbers, path);
+    path->alive = path->alive & ~alone;
     paths->rays += path->alive ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
 }
 

@@ -29,6 +29,7 @@ cs_pass cs_job_pass(const cs_job *job)
                                 .shear_mode = cs_shear_mode(job->shear_kind),
                                 .lights = lighting->count,
                                 .area_lights = cs_area_lights(job),
+                                .only_rays = (cs_u32)needs->textured_emission,
                                 .see_through = (cs_u32)needs->see_through,
                                 .bounces = (cs_u32)cs_integer(&job->settings, BOUNCES),
                                 .clamp = (float)cs_number(&job->settings, CLAMP)},

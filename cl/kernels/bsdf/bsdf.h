@@ -89,6 +89,22 @@ static inline cs_bsdf_value cs_bsdf_eval(const cs_bsdf_view *view, const cs_vflo
     return value;
 }
 
+/* What no density with which cs_bsdf_sample draws a direction exceeds; INFINITY: there is no such
+ * number. */
+static inline cs_vfloat cs_bsdf_most_density(const cs_bsdf_view *view)
+{
+    cs_vfloat most = (cs_vfloat)(CS_INVERSE_PI);
+#if CS_HAS(MATERIALS)
+    cs_vint standard = cs_bsdf_lanes(view->surface, CS_BSDF_STANDARD);
+    if (cs_any(standard))
+        most = standard ? cs_standard_most_density(&view->standard) : most;
+    most = cs_bsdf_lanes(view->surface, CS_BSDF_GLASS) ? (cs_vfloat)(INFINITY) : most;
+#else
+    (void)view;
+#endif
+    return most;
+}
+
 /* Draws a direction `in` by a point of the unit square and a number, to choose a lobe by, in each
  * lane. */
 static inline cs_bsdf_direction cs_bsdf_sample(const cs_bsdf_view *view, cs_pair pair,

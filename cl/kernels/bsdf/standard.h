@@ -208,6 +208,17 @@ static inline cs_vfloat cs_standard_density(const cs_standard *s, const cs_meeti
     return m->cosine < 0.0f ? s->chance_through * facets + s->chance_behind * even : front;
 }
 
+/* What it never exceeds: facets are densest at the normal. */
+static inline cs_vfloat cs_standard_most_density(const cs_standard *s)
+{
+    cs_vfloat facets = (s->chance_facets + s->chance_through) * cs_facet_part(s->cosine, s->width) /
+                       (s->width * s->width);
+    if (s->has_coat)
+        facets += s->chance_coat * cs_facet_part(s->cosine, s->coat_width) /
+                  (s->coat_width * s->coat_width);
+    return (1.0f + facets) * CS_INVERSE_PI;
+}
+
 static inline cs_bsdf_value cs_standard_value(const cs_standard *s, const cs_surface *surface,
                                               const cs_vfloat *in)
 {

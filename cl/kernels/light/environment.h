@@ -24,40 +24,48 @@ static inline cs_light_sample cs_sample_light_sun(const cs_scene_buffers *scene,
     return sample;
 }
 
-/* Directions by an image. */
-static inline void cs_draw_lat_long(const cs_lat_long *image, cs_pair pair, cs_light_sample *sample)
+/* Directions as a diffuse surface draws them. */
+static inline void cs_draw_around(const cs_vfloat *normal, cs_pair pair, cs_light_sample *sample)
 {
-    cs_vfloat radiance[3];
-    sample->density = cs_lat_long_draw(image, &pair.x, &pair.y, sample->towards);
-    cs_lat_long_radiance(image, pair.x, pair.y, radiance);
-    for (int c = 0; c < 3; c++)
-        sample->colour[c] *= radiance[c];
+    cs_vfloat tangent[3];
+    cs_unit_disk(pair, &tangent[0], &tangent[1]);
+    cs_vfloat square = 1.0f - tangent[0] * tangent[0] - tangent[1] * tangent[1];
+    tangent[2] = sqrt(cs_max(square, (cs_vfloat)(0.0f)));
+    cs_from_local(normal, tangent, sample->towards);
+    sample->density = tangent[2] * CS_INVERSE_PI;
+    sample->weight = (cs_vfloat)(CS_PI);
+}
+
+/* Directions by the cells of an image; pair becomes their place in it. */
+static inline void cs_draw_texels(const cs_lat_long *image, const cs_vfloat *normal, cs_pair *pair,
+                                 cs_light_sample *sample)
+{
+    sample->density = cs_lat_long_draw(image, &pair->x, &pair->y, sample->towards);
+    sample->weight = sample->density > 0.0f ? cs_dot(normal, sample->towards) / sample->density
+                                            : (cs_vfloat)(0.0f);
 }
 
 /* colour: radiance, times the image's if there is one (light->count above 0, see cs_lat_long_of).
- * Without an image, directions are drawn as for a diffuse surface. */
+ * Directions are drawn by its cells if it has some. */
 static inline cs_light_sample cs_sample_light_environment(const cs_scene_buffers *scene,
                                                           CS_GLOBAL const cs_light *light,
                                                           const cs_surface *surface, cs_pair pair)
 {
     cs_light_sample sample;
+    cs_lat_long image = cs_lat_long_of(light, scene->environment);
     sample.reach = INFINITY;
     for (int i = 0; i < 3; i++)
         sample.colour[i] = (cs_vfloat)(light->colour[i]);
-    if (light->count == 0u) {
-        cs_vfloat tangent[3];
-        cs_unit_disk(pair, &tangent[0], &tangent[1]);
-        cs_vfloat square = 1.0f - tangent[0] * tangent[0] - tangent[1] * tangent[1];
-        tangent[2] = sqrt(cs_max(square, (cs_vfloat)(0.0f)));
-        cs_from_local(surface->normal, tangent, sample.towards);
-        sample.density = tangent[2] * CS_INVERSE_PI;
-        sample.weight = (cs_vfloat)(CS_PI);
-        return sample;
-    }
-    cs_lat_long image = cs_lat_long_of(light, scene->environment);
-    cs_draw_lat_long(&image, pair, &sample);
-    sample.weight = sample.density > 0.0f ? cs_dot(surface->normal, sample.towards) / sample.density
-                                          : (cs_vfloat)(0.0f);
+    if (image.cells_x > 0u)
+        cs_draw_texels(&image, surface->normal, &pair, &sample);
+    else
+        cs_draw_around(surface->normal, pair, &sample);
+    if (image.width == 0u) return sample;
+    cs_vfloat radiance[3];
+    if (image.cells_x == 0u) cs_lat_long_place(&image, sample.towards, &pair.x, &pair.y);
+    cs_lat_long_radiance(&image, pair.x, pair.y, radiance);
+    for (int c = 0; c < 3; c++)
+        sample.colour[c] *= radiance[c];
     return sample;
 }
 

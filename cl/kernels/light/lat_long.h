@@ -2,7 +2,8 @@
  *
  * +Y is up. The middle of the image is in the direction -Z, and +X is to the right of it. The
  * tables have a cell for some texels each; a cell is drawn in proportion to the light that it
- * gives, a direction in it uniformly (Pharr, Jakob & Humphreys 2023, section 12.5). */
+ * gives, a direction in it uniformly (Pharr, Jakob & Humphreys 2023, section 12.5). An image that
+ * is even enough has no tables: directions are drawn as a diffuse surface draws them. */
 #ifndef CS_LIGHT_LAT_LONG_H
 #define CS_LIGHT_LAT_LONG_H
 
@@ -16,7 +17,7 @@ typedef struct cs_lat_long {
     CS_GLOBAL const cs_f32 *columns; /* of each cell and all before it in its row, given the row */
     cs_u32 width;                    /* texels */
     cs_u32 height;
-    cs_u32 cells_x;
+    cs_u32 cells_x; /* 0: there are no tables */
     cs_u32 cells_y;
     cs_f32 cosine; /* of the angle by which the image is turned about +Y, seen from above against */
     cs_f32 sine;   /* the clock */

@@ -18,6 +18,24 @@ static inline cs_vfloat cs_quad_density(CS_GLOBAL const cs_light *light, const c
     return square * sqrt(square) / (light->parameters[3] * cs_max(facing, (cs_vfloat)(1e-20f)));
 }
 
+/* What that is at least, from `point`: the density at the nearest place of the circle around the
+ * quad. */
+static inline cs_vfloat cs_quad_least_density(CS_GLOBAL const cs_light *light,
+                                              const cs_vfloat *point)
+{
+    cs_f32 sum = 0.0f, difference = 0.0f;
+    cs_vfloat towards[3];
+    for (int i = 0; i < 3; i++) {
+        cs_f32 one = light->axis[i], other = light->parameters[i];
+        sum += (one + other) * (one + other);
+        difference += (one - other) * (one - other);
+        towards[i] = light->position[i] + 0.5f * (one + other) - point[i];
+    }
+    cs_f32 radius = 0.5f * sqrt(sum > difference ? sum : difference);
+    cs_vfloat near = cs_max(sqrt(cs_dot(towards, towards)) - radius, (cs_vfloat)(0.0f));
+    return near * near / light->parameters[3];
+}
+
 /* A uniform point. */
 static inline cs_light_sample cs_sample_light_quad(const cs_scene_buffers *scene,
                                                    CS_GLOBAL const cs_light *light,

@@ -4,7 +4,7 @@
 #ifndef CS_PATH_SHADOW_H
 #define CS_PATH_SHADOW_H
 
-#include "kernels/bsdf/bsdf.h"
+#include "kernels/light/suffice.h"
 #include "kernels/path/next_surface.h"
 #include "kernels/path/sort.h"
 
@@ -74,11 +74,12 @@ static inline void cs_trace_shadows(const cs_scene_buffers *scene, cs_paths *pat
 }
 
 /* Lets what light number `number` reflects towards the path wait for its shadow rays, as
- * cs_add_light adds it for direct light alone. */
+ * cs_add_light adds it for direct light alone. alone: lanes in which no ray of the BSDF shares it.
+ */
 static inline void cs_path_add_light(const cs_scene_buffers *scene, cs_paths *paths,
                                      const cs_path *path, const cs_bsdf_view *view,
                                      const cs_vfloat *origin, const cs_light_sample *light,
-                                     cs_u32 number)
+                                     cs_u32 number, cs_vint alone)
 {
     const cs_surface *surface = view->surface;
     cs_vint facing = cs_is_open(surface, light->towards) & (light->weight != 0.0f);
@@ -86,8 +87,9 @@ static inline void cs_path_add_light(const cs_scene_buffers *scene, cs_paths *pa
     cs_shadow *shadow = paths->shadow + paths->shadows;
     cs_bsdf_value bsdf = cs_bsdf_eval(view, light->towards);
     /* Lights that no direction finds have density 0: their sample counts whole. */
+    cs_vint shares = (light->density > 0.0f) & ~alone;
     cs_vfloat share =
-        light->density > 0.0f ? cs_power_weight(light->density, bsdf.density) : (cs_vfloat)(1.0f);
+        shares ? cs_power_weight(light->density, bsdf.density) : (cs_vfloat)(1.0f);
     cs_vfloat colour[3];
     for (int c = 0; c < 3; c++)
         colour[c] = light->colour[c] * bsdf.colour[c];

@@ -1,0 +1,43 @@
+/* Where lights' own samples do without the rays that BSDFs draw. Device only.
+ *
+ * Lights that look small are drawn so much more densely by their own samples that those have nearly
+ * all the weight (power heuristic). Where that is certain, they get all of it, and a ray that could
+ * only find lights is not traced. */
+#ifndef CS_LIGHT_SUFFICE_H
+#define CS_LIGHT_SUFFICE_H
+
+#include "kernels/bsdf/bsdf.h"
+#include "kernels/launch.h"
+#include "kernels/light/light.h"
+
+/* How much denser they are to be: the others' weight is less than 1 in 17. */
+#define CS_DENSE_ENOUGH 4.0f
+
+/* What the density of a light's samples, per steradian, is at least where it shines on `point`;
+ * INFINITY: no ray finds the light. */
+static inline cs_vfloat cs_least_density(CS_GLOBAL const cs_light *light, const cs_vfloat *point)
+{
+    switch (light->kind) {
+        case CS_LIGHT_POINT:
+        case CS_LIGHT_DIRECTIONAL:
+        case CS_LIGHT_SPOT: return (cs_vfloat)(INFINITY);
+        case CS_LIGHT_SUN: return cs_cone_density((cs_vfloat)(light->parameters[0]));
+        case CS_LIGHT_SPHERE: return cs_sphere_density(light, point);
+        case CS_LIGHT_QUAD: return cs_quad_least_density(light, point);
+        default: return (cs_vfloat)(0.0f);
+    }
+}
+
+/* Lanes in which the samples of all lights suffice. */
+static inline cs_vint cs_lights_suffice(const cs_scene_buffers *scene, const cs_launch *launch,
+                                        const cs_bsdf_view *view)
+{
+    if (launch->only_rays) return (cs_vint)(0);
+    cs_vint suffice = view->surface->hit;
+    cs_vfloat wanted = CS_DENSE_ENOUGH * cs_bsdf_most_density(view);
+    for (cs_u32 i = 0u; i < launch->lights && cs_any(suffice); i++)
+        suffice = suffice & (cs_least_density(scene->lights + i, view->surface->point) >= wanted);
+    return suffice;
+}
+
+#endif
