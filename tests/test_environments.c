@@ -47,23 +47,24 @@ static void even_environment(void **state)
     clshear_scene_free(scene);
 }
 
-/* A made-up image with a black part, a bright texel, and no symmetry. */
-static void fill_image(float *texels)
+/* A made-up image with a black part, a texel that may be brighter than all others, and no symmetry.
+ */
+static void fill_image(float brightest, float *texels)
 {
     for (cs_u32 i = 0; i < WIDTH * HEIGHT; i++)
         for (cs_u32 c = 0; c < 3; c++)
-            texels[3 * i + c] =
-                i % WIDTH < 4 ? 0.0f
-                              : (float)(cs_key(c, i) >> 8) * 0x1p-24f * (i == 45 ? 40.0f : 1.0f);
+            texels[3 * i + c] = i % WIDTH < 4 ? 0.0f
+                                              : (float)(cs_key(c, i) >> 8) * 0x1p-24f *
+                                                    (i == 45 ? brightest : 1.0f);
 }
 
-static cs_environment made_environment(double rotation_deg)
+static cs_environment made_environment(float brightest, double rotation_deg)
 {
     float texels[3 * WIDTH * HEIGHT];
     cs_error error;
     cs_environment made = {0};
     const cs_environment_view view = {.rotation_deg = rotation_deg, .strength = 1.0};
-    fill_image(texels);
+    fill_image(brightest, texels);
     assert_int_equal(cs_environment_make(texels, WIDTH, HEIGHT, &made, &error), CLSHEAR_OK);
     cs_environment_show(&view, &made.light);
     return made;
@@ -98,7 +99,7 @@ static void texels_are_where_they_should_be(void **state)
     static const double turns[] = {0.0, 90.0, -133.0};
     (void)state;
     for (size_t k = 0; k < 3; k++) {
-        cs_environment made = made_environment(turns[k]);
+        cs_environment made = made_environment(40.0f, turns[k]);
         const cs_lat_long image = cs_lat_long_of(&made.light, made.image.items);
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             float direction[3], radiance[3];
@@ -126,7 +127,7 @@ static void directions_follow_their_density(void **state)
         STEPS = 8
     };
     static double expected[ACROSS * DOWN], seen[ACROSS * DOWN];
-    cs_environment made = made_environment(37.0);
+    cs_environment made = made_environment(40.0f, 37.0);
     const cs_lat_long image = cs_lat_long_of(&made.light, made.image.items);
     double total = 0.0, square = 0.0;
     int boxes = 0;
@@ -254,19 +255,80 @@ static void environments_know_no_locale(void **state)
     clshear_scene_free(scene);
 }
 
+/* Mean, over ways that a surface can face, of the second moments that radiance times cosine by
+ * density has: directions by the cosine, and by luminance. */
+static void second_moments(const cs_lat_long *image, double *by_cosine, double *by_luminance)
+{
+    enum {
+        ACROSS = 64,
+        DOWN = 32,
+        FACINGS = 500
+    };
+    static float direction[ACROSS * DOWN][3];
+    static double luminance[ACROSS * DOWN], part[ACROSS * DOWN]; /* sr */
+    double whole = 0.0;
+    *by_cosine = *by_luminance = 0.0;
+    for (int i = 0; i < ACROSS * DOWN; i++) {
+        float radiance[3];
+        const double x = i % ACROSS + 0.5, y = i / ACROSS + 0.5;
+        texel_direction(x * WIDTH / ACROSS - 0.5, y * HEIGHT / DOWN - 0.5, 0.0, direction[i]);
+        look(image, direction[i], radiance);
+        luminance[i] = 0.2126 * (double)radiance[0] + 0.7152 * (double)radiance[1] +
+                       0.0722 * (double)radiance[2];
+        part[i] = 2.0 * pi / ACROSS * (pi / DOWN) * sin(pi * y / DOWN);
+        whole += luminance[i] * part[i];
+    }
+    for (cs_u32 f = 0; f < FACINGS; f++) {
+        const double up = 2.0 * (f + 0.5) / FACINGS - 1.0, turn = 2.399963 * f; /* golden angle */
+        const double facing[3] = {sqrt(1.0 - up * up) * cos(turn), up,
+                                  sqrt(1.0 - up * up) * sin(turn)};
+        for (int i = 0; i < ACROSS * DOWN; i++) {
+            double cosine = 0.0;
+            for (int k = 0; k < 3; k++)
+                cosine += facing[k] * (double)direction[i][k];
+            if (cosine <= 0.0) continue;
+            *by_cosine += pi * luminance[i] * luminance[i] * cosine * part[i] / FACINGS;
+            *by_luminance += whole * luminance[i] * cosine * cosine * part[i] / FACINGS;
+        }
+    }
+}
+
+/* An image has cells where directions by luminance have the lower second moment, and none where
+ * those of a diffuse surface do. Both occur; none is within a tenth of the other, so that the
+ * quadrature's error does not decide. */
+static void cells_are_for_uneven_images(void **state)
+{
+    static const float brightest[] = {1.0f, 3.0f, 6.0f, 20.0f, 40.0f};
+    int with = 0;
+    (void)state;
+    for (size_t i = 0; i < sizeof brightest / sizeof *brightest; i++) {
+        cs_environment made = made_environment(brightest[i], 0.0);
+        const cs_lat_long image = cs_lat_long_of(&made.light, made.image.items);
+        double by_cosine, by_luminance;
+        second_moments(&image, &by_cosine, &by_luminance);
+        print_message("brightest %g: %.3g by cosine, %.3g by luminance, %u cells across\n",
+                      (double)brightest[i], by_cosine, by_luminance, image.cells_x);
+        assert_above(fabs(log(by_cosine / by_luminance)), 0.1);
+        assert_int_equal(image.cells_x == 0, by_cosine < by_luminance);
+        with += image.cells_x > 0;
+        cs_environment_free(&made);
+    }
+    assert_in_range(with, 1, sizeof brightest / sizeof *brightest - 1);
+}
+
 /* The image as a file around a floor: the reflected radiance is albedo / pi times its irradiance,
- * by quadrature, from the light's samples alone and from both ways. */
-static void image_around_a_floor(void **state)
+ * by quadrature, from the light's samples alone and from both ways. brightest: of fill_image. */
+static void image_lights_a_floor(clshear_context *context, float brightest)
 {
     enum {
         STEPS = 400
     };
     float texels[3 * WIDTH * HEIGHT];
     const char *path = test_path("around.exr");
-    cs_environment made = made_environment(0.0);
+    cs_environment made = made_environment(brightest, 0.0);
     const cs_lat_long image = cs_lat_long_of(&made.light, made.image.items);
     double irradiance = 0.0;
-    fill_image(texels);
+    fill_image(brightest, texels);
     write_image(path, texels);
     for (int i = 0; i < STEPS * STEPS;
          i++) { /* uniform in the square of the sine: cosine-weighted */
@@ -278,7 +340,7 @@ static void image_around_a_floor(void **state)
         irradiance += pi * (double)radiance[0] / (STEPS * STEPS);
     }
     cs_environment_free(&made);
-    clshear_scene *scene = test_floor(*state, 100.0f, 0.5f);
+    clshear_scene *scene = test_floor(context, 100.0f, 0.5f);
     for (int bounces = 0; bounces < 3; bounces += 2) {
         clshear_settings *settings = test_looking_down(0.0, 4096);
         test_set(settings, CLSHEAR_ENVIRONMENT, "%s", path);
@@ -292,6 +354,13 @@ static void image_around_a_floor(void **state)
     clshear_scene_free(scene);
 }
 
+/* With cells, and without. */
+static void image_around_a_floor(void **state)
+{
+    image_lights_a_floor(*state, 40.0f);
+    image_lights_a_floor(*state, 1.0f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -300,6 +369,7 @@ int main(void)
         cmocka_unit_test(directions_follow_their_density),
         cmocka_unit_test(environment_files_are_kept),
         cmocka_unit_test(environments_know_no_locale),
+        cmocka_unit_test(cells_are_for_uneven_images),
         cmocka_unit_test(image_around_a_floor),
     };
     return cmocka_run_group_tests(tests, test_open_context, test_close_context);

@@ -155,6 +155,46 @@ static void samplers_agree(void **state)
     clshear_scene_free(scene);
 }
 
+/* What a sample sees and where its path goes on decide together what it finds: here a wall at a
+ * right angle to the floor, under a point light. The equal-area shear gives these two the four
+ * dimensions of `sz` and leaves the place on the lens to padding; without the shear the direction
+ * is padded. The variance without it is 20 times that with it, 1.4 times if the direction were
+ * padded always. Both are means over 16 pixels with 240 degrees of freedom, so that the ratio has a
+ * standard error of 13 %: the limit is 6 of them from either (false alarms below 1e-8). */
+static void first_bounce_is_paired_with_the_fibre(void **state)
+{
+    static const float floor_z[12] = {-50, -50, 0, 50, -50, 0, 50, 50, 0, -50, 50, 0};
+    static const float wall[12] = {0, -50, 0, 0, -50, 50, 0, 50, 50, 0, 50, 0};
+    clshear_mesh meshes[2] = {{.positions = floor_z,
+                               .indices = quad,
+                               .vertex_count = 4,
+                               .triangle_count = 2,
+                               .diffuse = {0.5f, 0.5f, 0.5f}},
+                              {.positions = wall,
+                               .indices = quad,
+                               .vertex_count = 4,
+                               .triangle_count = 2,
+                               .diffuse = {0.9f, 0.9f, 0.9f}}};
+    const clshear_light light = {
+        .kind = CLSHEAR_LIGHT_POINT, .position = {4, 0, 4}, .colour = {30, 30, 30}};
+    clshear_scene *scene = test_meshes(*state, meshes, 2);
+    test_add_light(scene, &light);
+    double error[2];
+    for (int sheared = 0; sheared < 2; sheared++) {
+        clshear_settings *settings = settings_at("6,0.5,4", "2,0.3,0", 40.0, 16 * 1024, 1);
+        test_set_number(settings, CLSHEAR_LENS_RADIUS, 0.3);
+        test_set_number(settings, CLSHEAR_FOCAL_DISTANCE, 3.0);
+        test_set(settings, CLSHEAR_SAMPLER, "sz");
+        test_set(settings, CLSHEAR_SHEAR, sheared ? "equal-area" : "none");
+        test_set(settings, CLSHEAR_ORACLE, "centre");
+        error[sheared] = test_mean_of_render(scene, settings, "R").error;
+    }
+    const double ratio = error[0] * error[0] / (error[1] * error[1]);
+    print_message("variance without shear over variance with it: %.2f\n", ratio);
+    assert_above(ratio, 4.0);
+    clshear_scene_free(scene);
+}
+
 /* Ripples of 18 432 triangles, in the neutral studio: enough for rays to walk alone. */
 static clshear_scene *ripples(clshear_context *context)
 {
@@ -252,6 +292,7 @@ int main(void)
         cmocka_unit_test(both_ways_to_find_a_light_agree),
         cmocka_unit_test(clamping_darkens),
         cmocka_unit_test(samplers_agree),
+        cmocka_unit_test(first_bounce_is_paired_with_the_fibre),
         cmocka_unit_test(sorting_changes_nothing),
         cmocka_unit_test(wide_walk_changes_nothing),
     };

@@ -49,19 +49,19 @@ typedef struct cs_drawn {
 #endif
 } cs_drawn;
 
-/* Whether the light gets the lens's pair of a tuple: where the equal-area shear makes that pair move
- * along fibres only, and with a pinhole, which has no use for it. A shear of exactly 0 is none:
- * that of a pixel whose rule is not to shear. */
+/* Whether the light gets the lens's pair of a tuple: where the equal-area shear makes that pair
+ * move along fibres only, and with a pinhole, which has no use for it. A shear of exactly 0 is
+ * none: that of a pixel whose rule is not to shear. */
 static inline int cs_exchanges_pairs(const cs_launch *launch, cs_f32 shear)
 {
     return launch->shear_mode == (cs_u32)CS_SHEAR_EQUAL_AREA &&
            (shear != 0.0f || launch->camera.aperture_width == 0.0f);
 }
 
-/* The pair of samples `index` for the first surface's light. Where cs_exchanges_pairs, it takes the place of the
- * lens's pair in `point`, a tuple, and the lens gets the light's own: the first pair decides what
- * is seen and the light's pair whether it is lit, while the lens's only moves along the fibre. So
- * those two should be the pair that the sampler makes together. */
+/* The pair of samples `index` for the first surface's light. Where cs_exchanges_pairs, it takes the
+ * place of the lens's pair in `point`, a tuple, and the lens gets the light's own: the first pair
+ * decides what is seen and the light's pair whether it is lit, while the lens's only moves along
+ * the fibre. So those two should be the pair that the sampler makes together. */
 static inline cs_pair cs_draw_light(const cs_launch *launch, cs_sample_table sample_table,
                                     cs_u32 key, cs_vuint index, cs_f32 shear,
                                     cs_camera_sample *point)

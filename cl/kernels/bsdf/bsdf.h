@@ -96,8 +96,7 @@ static inline cs_vfloat cs_bsdf_most_density(const cs_bsdf_view *view)
     cs_vfloat most = (cs_vfloat)(CS_INVERSE_PI);
 #if CS_HAS(MATERIALS)
     cs_vint standard = cs_bsdf_lanes(view->surface, CS_BSDF_STANDARD);
-    if (cs_any(standard))
-        most = standard ? cs_standard_most_density(&view->standard) : most;
+    if (cs_any(standard)) most = standard ? cs_standard_most_density(&view->standard) : most;
     most = cs_bsdf_lanes(view->surface, CS_BSDF_GLASS) ? (cs_vfloat)(INFINITY) : most;
 #else
     (void)view;

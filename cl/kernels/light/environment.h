@@ -38,7 +38,7 @@ static inline void cs_draw_around(const cs_vfloat *normal, cs_pair pair, cs_ligh
 
 /* Directions by the cells of an image; pair becomes their place in it. */
 static inline void cs_draw_texels(const cs_lat_long *image, const cs_vfloat *normal, cs_pair *pair,
-                                 cs_light_sample *sample)
+                                  cs_light_sample *sample)
 {
     sample->density = cs_lat_long_draw(image, &pair->x, &pair->y, sample->towards);
     sample->weight = sample->density > 0.0f ? cs_dot(normal, sample->towards) / sample->density

@@ -18,13 +18,18 @@
 static inline cs_vfloat cs_least_density(CS_GLOBAL const cs_light *light, const cs_vfloat *point)
 {
     switch (light->kind) {
-        case CS_LIGHT_POINT:
-        case CS_LIGHT_DIRECTIONAL:
-        case CS_LIGHT_SPOT: return (cs_vfloat)(INFINITY);
-        case CS_LIGHT_SUN: return cs_cone_density((cs_vfloat)(light->parameters[0]));
-        case CS_LIGHT_SPHERE: return cs_sphere_density(light, point);
-        case CS_LIGHT_QUAD: return cs_quad_least_density(light, point);
-        default: return (cs_vfloat)(0.0f);
+    case CS_LIGHT_POINT:
+    case CS_LIGHT_DIRECTIONAL:
+    case CS_LIGHT_SPOT:
+        return (cs_vfloat)(INFINITY);
+    case CS_LIGHT_SUN:
+        return cs_cone_density((cs_vfloat)(light->parameters[0]));
+    case CS_LIGHT_SPHERE:
+        return cs_sphere_density(light, point);
+    case CS_LIGHT_QUAD:
+        return cs_quad_least_density(light, point);
+    default:
+        return (cs_vfloat)(0.0f);
     }
 }
 

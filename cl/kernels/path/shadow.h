@@ -88,8 +88,7 @@ static inline void cs_path_add_light(const cs_scene_buffers *scene, cs_paths *pa
     cs_bsdf_value bsdf = cs_bsdf_eval(view, light->towards);
     /* Lights that no direction finds have density 0: their sample counts whole. */
     cs_vint shares = (light->density > 0.0f) & ~alone;
-    cs_vfloat share =
-        shares ? cs_power_weight(light->density, bsdf.density) : (cs_vfloat)(1.0f);
+    cs_vfloat share = shares ? cs_power_weight(light->density, bsdf.density) : (cs_vfloat)(1.0f);
     cs_vfloat colour[3];
     for (int c = 0; c < 3; c++)
         colour[c] = light->colour[c] * bsdf.colour[c];
