@@ -42,6 +42,11 @@ refuse 2 "--blades 2: must be" -- "$cornell" --blades 2
 refuse 2 "--anamorphic 0: must be" -- "$cornell" --anamorphic 0
 refuse 2 "--filter lanczos: must be box" -- "$cornell" --filter lanczos
 refuse 2 "--filter-width 0: must be" -- "$cornell" --filter-width 0
+refuse 2 "the scene's name is empty: give the file" -- ""
+for flag in gain extend settings environment to device record checkpoint display preview camera aperture; do
+    refuse 2 "--$flag is empty: give " -- "$cornell" --quiet --spp 1 --width 8 --height 8 --$flag ""
+done
+expect 2 "--out is empty: give FILE, or leave it out" -- "$cornell" --out=
 expect 2 "--out needs a value" -- "$cornell" --out
 expect 2 "--out picture.bmp: must be a name that ends in" -- "$cornell" --out picture.bmp
 
@@ -257,6 +262,7 @@ case $(oiiotool --info -v sampler.exr) in *"samplesPerPixel: 18"*) ;; *) wrong "
     refuse 1 "is no complete EXR of a shard" -- merge some.exr a.exr
     refuse 1 "gone.exr" -- merge some.exr gone.exr
     refuse 2 "no files given" -- merge
+    refuse 2 "a file's name is empty: give the file" -- merge some.exr ""
     expect 2 "no --out given" -- merge shard-1.exr
     refuse 1 "shard 4/3: must be K/N" -- "$cornell" $small --quiet --shard 4/3
 }

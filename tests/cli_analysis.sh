@@ -183,6 +183,10 @@ expect 2 "--dims xz: must be letters out of xyuvpqt" -- points --dims xz
     wrong "toroidal shear of time"
 expect 1 'coordinates "pt": must be different ones of "xyuvt"' -- points --dims pt
 expect 2 "scene.obj: not a flag" -- points scene.obj
+expect 2 "an empty word: not a flag" -- points ""
+expect 2 "--in is empty: give FILE" -- spectrum --in ""
+expect 2 "--reference is empty: give VALUE" -- converge "$cornell" --reference ""
+expect 2 "the scene's name is empty" -- slice "" --pixel 1,1
 expect 1 "must be 1 to 65536" -- points --sampler ccvt --n 70000
 "$program" points --out /dev/full 2>full.txt && wrong "full device: exit code"
 grep -q "/dev/full: cannot be written" full.txt || wrong "full device: $(cat full.txt)"

@@ -94,6 +94,27 @@ static void null_is_refused(void **state)
     clshear_settings_free(settings);
 }
 
+#define expect_nameless(call) test_refused((call), CLSHEAR_BAD_ARGUMENT, "path is empty: give ")
+
+/* A file without a name is refused as such, not as one that is not there. */
+static void empty_names_are_refused(void **state)
+{
+    test_fixture *made = *state;
+    clshear_scene *scene = NULL;
+    clshear_settings *settings = small(made);
+    clshear_film *read = NULL, *film = test_render(made->scene, settings);
+    expect_nameless(clshear_scene_load(made->context, "", NULL, &scene));
+    expect_nameless(clshear_settings_read(settings, "", NULL, NULL));
+    expect_nameless(clshear_film_read("", &read));
+    expect_nameless(clshear_film_write(film, ""));
+    expect_nameless(clshear_film_write_ratio(film, "R", ""));
+    expect_nameless(clshear_film_check_path("", SIZE, SIZE));
+    expect_nameless(clshear_file_write("", "a", 1));
+    assert_true(scene == NULL && read == NULL);
+    clshear_film_free(film);
+    clshear_settings_free(settings);
+}
+
 static void *fail_elsewhere(void *argument)
 {
     clshear_scene *scene = NULL;
@@ -329,6 +350,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_order_of_freeing_is_fine),
         cmocka_unit_test(null_is_refused),
+        cmocka_unit_test(empty_names_are_refused),
         cmocka_unit_test(messages_have_owners),
         cmocka_unit_test(scenes_must_be_complete),
         cmocka_unit_test(meshes_of_other_versions_are_taken),

@@ -129,8 +129,6 @@ static void kinds_are_enforced(void **state)
                  "device");
 }
 
-/* Printed values can be read and print the same again, fallbacks too. Unsetting restores the
- * fallbacks. */
 /* What is no number is refused in words, however many numbers the setting has. */
 static void expectations_have_words(void **state)
 {
@@ -145,6 +143,21 @@ static void expectations_have_words(void **state)
                  "must be twelve numbers");
 }
 
+/* A text that is empty names nothing: no file, no device, no camera. */
+static void empty_texts_are_refused(void **state)
+{
+    clshear_settings *settings = *state;
+    for (size_t i = 0; i < CS_SETTING_COUNT; i++) {
+        const cs_setting *entry = &cs_setting_table[i];
+        if (entry->kind != CLSHEAR_TEXT) continue;
+        test_refused(clshear_settings_set_text(settings, entry->setting, ""), CLSHEAR_BAD_ARGUMENT,
+                     "is empty: give ");
+        assert_false(clshear_settings_is_set(settings, entry->setting));
+    }
+}
+
+/* Printed values can be read and print the same again, fallbacks too. Unsetting restores the
+ * fallbacks. */
 static void texts_come_back(void **state)
 {
     clshear_settings *settings = *state, *other = fresh();
@@ -329,17 +342,12 @@ int main(void)
 {
 #define WITH_SETTINGS(test) cmocka_unit_test_setup_teardown(test, open_settings, close_settings)
     const struct CMUnitTest tests[] = {
-        WITH_SETTINGS(bounds_are_enforced),
-        WITH_SETTINGS(counts_are_enforced),
-        WITH_SETTINGS(kinds_are_enforced),
-        WITH_SETTINGS(expectations_have_words),
-        WITH_SETTINGS(texts_come_back),
-        WITH_SETTINGS(floats_survive_texts),
-        WITH_SETTINGS(the_last_answer_counts),
-        WITH_SETTINGS(unknown_settings_are_refused),
-        cmocka_unit_test(the_table_is_open),
-        cmocka_unit_test(copies_are_independent),
-        cmocka_unit_test(infos_fit_their_callers),
+        WITH_SETTINGS(bounds_are_enforced),          WITH_SETTINGS(counts_are_enforced),
+        WITH_SETTINGS(kinds_are_enforced),           WITH_SETTINGS(expectations_have_words),
+        WITH_SETTINGS(empty_texts_are_refused),      WITH_SETTINGS(texts_come_back),
+        WITH_SETTINGS(floats_survive_texts),         WITH_SETTINGS(the_last_answer_counts),
+        WITH_SETTINGS(unknown_settings_are_refused), cmocka_unit_test(the_table_is_open),
+        cmocka_unit_test(copies_are_independent),    cmocka_unit_test(infos_fit_their_callers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,6 +15,15 @@
                            #pointer);                                                           \
     } while (0)
 
+/* The same of a file's name, which must have a letter, too. */
+#define CS_NEEDS_NAME(path)                                                              \
+    do {                                                                                 \
+        CS_NEEDS(path);                                                                  \
+        if (*(path) == '\0')                                                             \
+            return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,                      \
+                           "%s: %s is empty: give the name of a file", __func__, #path); \
+    } while (0)
+
 /* Copies a versioned struct from the caller. Its size is its first member and may be that of an
  * older or newer version: missing members become zero and unknown ones are ignored. */
 static inline clshear_status cs_struct_in(void *copy, size_t size, const void *given,

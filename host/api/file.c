@@ -23,7 +23,7 @@ static int write_file(const char *path, const void *bytes, size_t size)
 
 clshear_status clshear_file_write(const char *path, const void *bytes, size_t size)
 {
-    CS_NEEDS(path);
+    CS_NEEDS_NAME(path);
     CS_NEEDS(bytes);
     const int is_standard = strcmp(path, "-") == 0;
     const int reason =

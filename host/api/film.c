@@ -82,7 +82,7 @@ void clshear_film_missing(const clshear_film *film, char *text, size_t size)
 
 clshear_status clshear_film_read(const char *path, clshear_film **film)
 {
-    CS_NEEDS(path);
+    CS_NEEDS_NAME(path);
     CS_NEEDS(film);
     return cs_film_read(path, cs_thread_error(), film);
 }
@@ -90,13 +90,13 @@ clshear_status clshear_film_read(const char *path, clshear_film **film)
 clshear_status clshear_film_write(clshear_film *film, const char *path)
 {
     CS_NEEDS(film);
-    CS_NEEDS(path);
+    CS_NEEDS_NAME(path);
     return cs_message_keep(&film->message, cs_film_write(film, path));
 }
 
 clshear_status clshear_film_check_path(const char *path, int width, int height)
 {
-    CS_NEEDS(path);
+    CS_NEEDS_NAME(path);
     return cs_image_check(path, width, height, cs_thread_error());
 }
 
@@ -104,7 +104,7 @@ clshear_status clshear_film_write_ratio(clshear_film *film, const char *channel,
 {
     CS_NEEDS(film);
     CS_NEEDS(channel);
-    CS_NEEDS(path);
+    CS_NEEDS_NAME(path);
     return cs_message_keep(&film->message, cs_film_write_ratio(film, channel, path));
 }
 

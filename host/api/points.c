@@ -44,7 +44,7 @@ clshear_status clshear_points_create(const float *values, size_t sets, size_t co
 
 clshear_status clshear_points_read(const char *path, clshear_points **points)
 {
-    CS_NEEDS(path);
+    CS_NEEDS_NAME(path);
     CS_NEEDS(points);
     clshear_points made = {0};
     return hand_over(cs_points_read(path, &made), &made, points);
@@ -83,7 +83,7 @@ clshear_status clshear_points_select(clshear_points *points, const char *names)
 clshear_status clshear_points_write(const clshear_points *points, const char *path)
 {
     CS_NEEDS(points);
-    CS_NEEDS(path);
+    CS_NEEDS_NAME(path);
     return cs_points_write(points, path);
 }
 

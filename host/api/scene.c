@@ -13,7 +13,7 @@ clshear_status clshear_scene_load(clshear_context *context, const char *path,
     cs_error *error = cs_thread_error();
     clshear_scene *scene = NULL;
     CS_NEEDS(context);
-    CS_NEEDS(path);
+    CS_NEEDS_NAME(path);
     CS_NEEDS(result);
     CS_TRY(cs_scene_new(context, &scene, error));
     CS_TRY(cs_scene_read(scene, path, settings, error));

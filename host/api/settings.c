@@ -211,7 +211,7 @@ clshear_status clshear_settings_read(clshear_settings *settings, const char *pat
                                      void *user)
 {
     CS_NEEDS(settings);
-    CS_NEEDS(path);
+    CS_NEEDS_NAME(path);
     return cs_settings_read(settings, path, other, user, cs_thread_error());
 }
 

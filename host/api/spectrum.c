@@ -67,14 +67,14 @@ clshear_status clshear_spectrum_write(const clshear_spectrum *spectrum, int keep
                                       const char *path)
 {
     CS_NEEDS(spectrum);
-    CS_NEEDS(path);
+    CS_NEEDS_NAME(path);
     return cs_spectrum_write(spectrum, keep_dc, path);
 }
 
 clshear_status clshear_image_write(const char *path, int width, int height, size_t channels,
                                    const char *const *names, const float *const *planes)
 {
-    CS_NEEDS(path);
+    CS_NEEDS_NAME(path);
     CS_NEEDS(names);
     CS_NEEDS(planes);
     return cs_planes_write(path, width, height, channels, names, planes);

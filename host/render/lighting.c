@@ -109,7 +109,7 @@ static clshear_status add_environment(const clshear_scene *scene, const clshear_
                                       .strength = cs_number(settings, ENVIRONMENT_STRENGTH)};
     const char *text = cs_text(settings, ENVIRONMENT);
     cs_light light;
-    if (text == NULL || *text == '\0' || strcmp(text, "none") == 0) return CLSHEAR_OK;
+    if (text == NULL || strcmp(text, "none") == 0) return CLSHEAR_OK;
     CS_TRY(cs_environment_cache_find(&scene->context->environments, scene->context->device, text,
                                      &light, &lighting->environment,
                                      &lighting->environment_fingerprint, error));

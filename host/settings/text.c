@@ -161,6 +161,9 @@ clshear_status cs_settings_set_text(clshear_settings *settings, size_t index, co
         return refuse(entry, text, error);
     }
     if (entry->kind != CLSHEAR_TEXT) return set_numbers(settings, index, text, error);
+    if (*text == '\0')
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s is empty: give %s, or leave it out",
+                       entry->name, entry->argument);
     char *copy = strdup(text);
     if (copy == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for settings");
     cs_settings_keep_text(settings, index, copy);

@@ -61,7 +61,8 @@ CLSHEAR_API clshear_status clshear_settings_set_numbers(clshear_settings *settin
                                                         const double *numbers, size_t count);
 
 /* Sets a value of any kind from text in the form of the command line: "256", "sobol", "0,1,-4". For
- * CLSHEAR_APERTURE the text may also be the path of an image file, which is read at once. */
+ * CLSHEAR_APERTURE the text may also be the path of an image file, which is read at once. An empty
+ * text is refused; clshear_settings_unset leaves a setting out. */
 CLSHEAR_API clshear_status clshear_settings_set_text(clshear_settings *settings,
                                                      clshear_setting setting, const char *text);
 

@@ -130,6 +130,9 @@ static int apply(const parser *p, const char *place, const named_flag *flag, con
     const char *argument = argument_of(flag);
     if (*argument != '\0' && value == NULL)
         return complain(EXIT_USAGE, "%s--%s needs a value: %s", place, name, argument);
+    if (*argument != '\0' && *value == '\0')
+        return complain(EXIT_USAGE, "%s--%s is empty: give %s, or leave it out", place, name,
+                        argument);
     if (row != NULL && *argument == '\0' && value != NULL)
         return complain(EXIT_USAGE, "%s--%s takes no value, not \"%s\"", place, name, value);
     if (row == NULL) {
@@ -193,6 +196,26 @@ static int read_file(parser *p, const char *path)
     return complain_status(status, "");
 }
 
+/* Takes a word that is no flag: the scene, or one of the files. */
+static int take_name(const parser *p, const char *word)
+{
+    program_options *options = p->options;
+    const int takes_files = p->command->takes_files;
+    if (!takes_files && !p->command->takes_scene)
+        return complain(EXIT_USAGE, "%s: not a flag", *word != '\0' ? word : "an empty word");
+    if (*word == '\0')
+        return complain(EXIT_USAGE, "%s is empty: give the file that is to be read",
+                        takes_files ? "a file's name" : "the scene's name");
+    if (takes_files) {
+        options->files[options->file_count++] = word;
+        return EXIT_DONE;
+    }
+    if (options->scene != NULL)
+        return complain(EXIT_USAGE, "more than one scene: %s and %s", options->scene, word);
+    options->scene = word;
+    return EXIT_DONE;
+}
+
 static int read_line(parser *p, int argc, char **argv)
 {
     program_options *options = p->options;
@@ -200,14 +223,8 @@ static int read_line(parser *p, int argc, char **argv)
         named_flag flag;
         const char *word = argv[i], *nearest;
         if (word[0] != '-' || word[1] == '\0') {
-            if (p->command->takes_files) {
-                options->files[options->file_count++] = word;
-                continue;
-            }
-            if (!p->command->takes_scene) return complain(EXIT_USAGE, "%s: not a flag", word);
-            if (options->scene != NULL)
-                return complain(EXIT_USAGE, "more than one scene: %s and %s", options->scene, word);
-            options->scene = word;
+            const int code = take_name(p, word);
+            if (code != EXIT_DONE) return code;
             continue;
         }
         word += word[1] == '-' ? 2 : 1;
