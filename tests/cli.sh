@@ -55,7 +55,7 @@ refuse 1 "nowhere.obj: cannot be opened: No such file" -- nowhere.obj
 refuse 1 "no OpenCL device is called \"toaster\"; there are: 0 " -- "$cornell" --quiet --device toaster
 refuse 2 "--crop 0,0,0,0: must be four whole numbers, X0,X1,Y0,Y1, with X0 < X1" -- "$cornell" --crop 0,0,0,0
 refuse 1 "crop 0,99,0,9" -- "$cornell" --quiet --width 32 --height 32 --crop 0,99,0,9
-refuse 1 "pixel 40,2 is outside" -- "$cornell" --quiet --width 32 --height 32 --focus-pixel 40,2
+refuse 1 "focus-pixel 40,2 is outside the 32 x 32 image: give X 0 to 31 and Y 0 to 31" -- "$cornell" --quiet --width 32 --height 32 --focus-pixel 40,2
 refuse 1 "replicates" -- "$cornell" --quiet --spp 2 --replicates 3
 expect 1 "folder no/such/ cannot be written" -- "$cornell" --out no/such/folder.exr
 output=$(OCL_ICD_VENDORS=/nonexistent "$program" "$cornell" --quiet --out refused.exr 2>&1)

@@ -52,12 +52,9 @@ static clshear_status point_at(const clshear_scene *scene, const clshear_setting
                                int y, float *point, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    const int width = (int)cs_integer(settings, WIDTH), height = (int)cs_integer(settings, HEIGHT);
     const int window[4] = {x, x + 1, y, y + 1};
     cs_camera camera;
     cs_depth found;
-    CS_REQUIRE(x >= 0 && y >= 0 && x < width && y < height, CLSHEAR_BAD_ARGUMENT,
-               "pixel %d,%d is outside the %d x %d image", x, y, width, height);
     CS_TRY(frame_pinhole(scene, settings, &camera, error));
     CS_TRY(cs_accel_depth(scene->accel, NULL, &camera, NULL, window, 0, &found, error));
     const float spread = camera.orthographic ? 1.0f : found.centre / camera.focal_distance;
@@ -68,15 +65,20 @@ done:
     return status;
 }
 
-/* The same, of a pixel that must see something. */
+/* The same, of a pixel that must be there and see something. `name` is what the caller calls it. */
 static clshear_status seen_point(const clshear_scene *scene, const clshear_settings *settings,
-                                 int x, int y, float *point, cs_error *error)
+                                 const char *name, int x, int y, float *point, cs_error *error)
 {
-    clshear_status status = point_at(scene, settings, x, y, point, error);
+    const int width = (int)cs_integer(settings, WIDTH), height = (int)cs_integer(settings, HEIGHT);
+    if (x < 0 || y < 0 || x >= width || y >= height)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "%s %d,%d is outside the %d x %d image: give X 0 to %d and Y 0 to %d", name,
+                       x, y, width, height, width - 1, height - 1);
+    const clshear_status status = point_at(scene, settings, x, y, point, error);
     if (status == CLSHEAR_OK && !isfinite(point[2]))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "pixel %d,%d sees nothing to focus on; choose another or give a distance", x,
-                       y);
+                       "%s %d,%d sees nothing to focus on; choose another or give a distance", name,
+                       x, y);
     return status;
 }
 
@@ -84,7 +86,7 @@ clshear_status cs_camera_focus(const clshear_scene *scene, clshear_settings *set
                                cs_error *error)
 {
     float point[3] = {0.0f, 0.0f, 0.0f};
-    const clshear_status status = seen_point(scene, settings, x, y, point, error);
+    const clshear_status status = seen_point(scene, settings, "pixel", x, y, point, error);
     return status == CLSHEAR_OK ? focus_through(settings, point, error) : status;
 }
 
@@ -148,7 +150,8 @@ clshear_status cs_choose_focus(const clshear_scene *scene, clshear_settings *set
     if (cs_is_set(settings, FOCAL_DISTANCE)) return CLSHEAR_OK;
     const double *pixel = cs_numbers(settings, FOCUS_PIXEL);
     if (cs_is_set(settings, FOCUS_PIXEL))
-        status = seen_point(scene, settings, (int)pixel[0], (int)pixel[1], point, error);
+        status =
+            seen_point(scene, settings, "focus-pixel", (int)pixel[0], (int)pixel[1], point, error);
     else if (cs_is_set(settings, FOCUS_POINT))
         status = named_point(scene, settings, point, error);
     else
