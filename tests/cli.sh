@@ -235,8 +235,15 @@ case $(oiiotool --info -v sampler.exr) in *"samplesPerPixel: 18"*) ;; *) wrong "
     expect 0 "" -- "$cornell" $small --quiet --extendable --out more.exr
     expect 0 "" -- "$cornell" $small --quiet --extend more.exr --spp 64 --out more.exr
     case $(oiiotool --info -v more.exr) in *"samplesPerPixel: 64"*) ;; *) wrong "not extended" ;; esac
-    refuse 1 "another seed" -- "$cornell" $small --quiet --extend more.exr --spp 128 --seed 4
-    refuse 1 "rendered with --extendable" -- "$cornell" $small --quiet --extend a.exr --spp 128
+    refuse 1 "more.exr: was made with another seed" -- "$cornell" $small --quiet --extend more.exr --spp 128 --seed 4
+    refuse 1 "more.exr: has 64 samples per pixel already" -- "$cornell" $small --quiet --extend more.exr
+    refuse 1 "more.exr: shows other pixels" -- "$cornell" $small --quiet --extend more.exr --spp 128 --crop 0,8,0,8
+    refuse 1 "more.exr: has no channel Albedo.R" -- "$cornell" $small --quiet --extend more.exr --spp 128 --aov albedo
+    refuse 1 "more.exr: an adaptive render cannot extend it" -- "$cornell" $small --quiet --extend more.exr --spp 128 --adaptive
+    refuse 1 "more.exr: sampler mj cannot extend it" -- "$cornell" $small --quiet --extend more.exr --spp 128 --sampler mj
+    refuse 1 "more.exr: a shard cannot extend it" -- "$cornell" $small --quiet --extend more.exr --spp 128 --shard 1/2
+    refuse 1 "a.exr: lacks the means of its patterns; it must be a complete EXR rendered with --extendable" -- \
+        "$cornell" $small --quiet --extend a.exr --spp 128
     refuse 1 "gone.exr" -- "$cornell" $small --quiet --extend gone.exr --spp 128
 }
 

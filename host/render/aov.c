@@ -129,7 +129,7 @@ clshear_status cs_aov_check(const cs_job *job, cs_error *error)
     for (size_t k = 0; k < set.count; k++)
         if (set.planes[k].continued == NULL)
             return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                           "the image to extend has no channel %s; give the --aov it was made with",
+                           "has no channel %s; give the --aov it was made with",
                            set.planes[k].name);
     return CLSHEAR_OK;
 }

@@ -8,6 +8,7 @@
 #include "render/camera_choice.h"
 #include "render/motion.h"
 #include "render/render_job.h"
+#include "render/resume.h"
 #include "render/studio.h"
 #include "scene/camera.h"
 #include "settings/view.h"
@@ -51,7 +52,8 @@ static clshear_status check_shard(cs_job *job, cs_error *error)
     if (held != 1)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "shard %.40s: a render is one of them", text);
     if (job->base != NULL)
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "a shard cannot extend a render");
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "%s: a shard cannot extend it; leave out --shard", cs_resume_name(job));
     for (size_t i = 0; i < sizeof excluded / sizeof *excluded; i++)
         if (*job->settings.values[excluded[i]].numbers > 0.0) /* those that are not set are 0 */
             return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "a shard cannot have %s",

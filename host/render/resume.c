@@ -38,47 +38,64 @@ static int holds_state(const clshear_film *base, uint32_t replicates, int *sampl
     return good;
 }
 
-clshear_status cs_resume_check(cs_job *job, cs_error *error)
+const char *cs_resume_name(const cs_job *job)
+{
+    return job->base->path != NULL ? job->base->path : "the image to extend";
+}
+
+/* Whether patterns can be extended: those of this job, or by them. */
+static clshear_status check_patterns(const cs_job *job, cs_error *error)
+{
+    const char *is_wrong = job->base != NULL ? "cannot extend it" : "cannot be extended";
+    if (cs_integer(&job->settings, ADAPTIVE) != 0)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "an adaptive render %s; leave out --adaptive",
+                       is_wrong);
+    if (!cs_sampler_is_progressive(job->pattern.sampler))
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "sampler %s %s: its points depend on their number; progressive ones can",
+                       cs_sampler_name(job->pattern.sampler), is_wrong);
+    return CLSHEAR_OK;
+}
+
+/* Whether the picture to extend is one of this job's, with all that is needed of it, and fewer
+ * samples; the job then draws the rest of its pattern. */
+static clshear_status check_base(cs_job *job, cs_error *error)
 {
     const clshear_film *base = job->base;
     char mine[CS_RECIPE_SIZE], name[32];
     int samples = 0;
-    if (base == NULL && !is_extendable(job)) return CLSHEAR_OK;
-    if (cs_integer(&job->settings, ADAPTIVE) != 0)
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "an adaptive render cannot be extended");
-    if (!cs_sampler_is_progressive(job->pattern.sampler))
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "sampler %s cannot extend a render: its points depend on their number; "
-                       "progressive ones can",
-                       cs_sampler_name(job->pattern.sampler));
-    if (base == NULL) return CLSHEAR_OK;
     cs_recipe_of(job, mine, sizeof mine);
     const char *theirs = cs_film_text(base, "clshear.recipe");
     if (theirs == NULL ||
         (strcmp(mine, theirs) == 0 && !holds_state(base, job->replicates, &samples)))
-        return cs_fail(
-            error, CLSHEAR_BAD_ARGUMENT,
-            "the image to extend lacks the means of its patterns; it must be a complete EXR "
-            "rendered with --extendable");
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "lacks the means of its patterns; it must be a complete EXR rendered with "
+                       "--extendable");
     if (strcmp(mine, theirs) != 0) {
         cs_recipe_difference(theirs, mine, name, sizeof name);
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "the image to extend was made with another %s; give all flags as before, "
-                       "but for --spp",
-                       name);
+                       "was made with another %s; give all flags as before, but for --spp", name);
     }
     if (memcmp(base->window, job->window, sizeof job->window) != 0)
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "the image to extend shows other pixels; give the same --crop");
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "shows other pixels; give the same --crop");
     const clshear_status status = cs_aov_check(job, error);
     if (status != CLSHEAR_OK) return status;
     const uint32_t had = (uint32_t)samples / job->replicates;
     if (job->pattern.grid.count <= had)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
-                       "the image to extend has %d samples per pixel already; ask for more",
-                       samples);
+                       "has %d samples per pixel already; ask for more", samples);
     job->pattern = cs_pattern_of(job->pattern.sampler, had, job->pattern.grid.count - had);
     return CLSHEAR_OK;
+}
+
+clshear_status cs_resume_check(cs_job *job, cs_error *error)
+{
+    cs_error reason;
+    if (job->base == NULL) return is_extendable(job) ? check_patterns(job, error) : CLSHEAR_OK;
+    clshear_status status = check_patterns(job, &reason);
+    if (status == CLSHEAR_OK) status = check_base(job, &reason);
+    if (status == CLSHEAR_OK) return CLSHEAR_OK;
+    return cs_fail(error, status, "%s: %s", cs_resume_name(job), reason.message);
 }
 
 /* Puts the picture's samples of a replicate into the pixel; before the first, its moments too. */

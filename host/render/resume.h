@@ -5,6 +5,9 @@
 
 #include "render/render_job.h"
 
+/* What messages call the picture that a job extends: its path, if it was read from a file. */
+const char *cs_resume_name(const cs_job *job);
+
 /* Whether the job continues the picture it is to extend; makes its pattern begin where that one's
  * ends. */
 clshear_status cs_resume_check(cs_job *job, cs_error *error);
