@@ -146,6 +146,18 @@ END
     expect 0 "" -- bare.obj $small --fstop 2.8 --unit 0.01 --focus-pixel 16,16 --out f.exr
 }
 
+# Half a camera: the other half is told, and may be copied.
+# shellcheck disable=SC2086
+{
+    expect 0 "no target given, the camera looks near the middle of the scene: --target " -- bare.obj $small --eye 1,2,5 \
+        --out half.exr
+    target=$(echo "$output" | sed -n 's/.*no target given.*--target //p')
+    expect 0 "" -- bare.obj $small --eye 1,2,5 --target "$target" --out copied.exr
+    case $output in *"no target"*) wrong "a target that is given is told: $output" ;; esac
+    cmp -s <(oiiotool --dumpdata half.exr | tail -n +2) <(oiiotool --dumpdata copied.exr | tail -n +2) ||
+        wrong "the target that is told is another"
+}
+
 # What the settings file says of the lens gives way to either way of saying it.
 # shellcheck disable=SC2086
 {

@@ -20,6 +20,7 @@ static void alarm_user(void *user, const char *line)
 /* What the settings say before the camera is completed. */
 typedef struct given_settings {
     int has_eye;
+    int has_target;
     int has_focus;
     int has_focus_pixel;
     int has_lens;
@@ -30,6 +31,7 @@ static given_settings given_by(const clshear_settings *settings)
 {
     return (given_settings){
         .has_eye = clshear_settings_is_set(settings, CLSHEAR_EYE),
+        .has_target = clshear_settings_is_set(settings, CLSHEAR_TARGET),
         .has_focus = clshear_settings_is_set(settings, CLSHEAR_FOCAL_DISTANCE) ||
                      clshear_settings_is_set(settings, CLSHEAR_FOCUS_PIXEL) ||
                      clshear_settings_is_set(settings, CLSHEAR_FOCUS_POINT),
@@ -67,6 +69,25 @@ static void tell_flags(const clshear_settings *settings, const char *words,
     fprintf(stderr, "\n");
 }
 
+/* Tells what the camera has that file and flags left open. */
+static void tell_camera(const clshear_settings *settings, const given_settings *given,
+                        int has_file_camera)
+{
+    static const named_setting eye = {CLSHEAR_EYE, "eye"}, target = {CLSHEAR_TARGET, "target"};
+    if (!has_file_camera && !given->has_eye)
+        tell_flags(settings, "no camera given, the scene is framed:", camera_parts,
+                   sizeof camera_parts / sizeof *camera_parts);
+    else if (given->has_eye && !given->has_target)
+        tell_flags(settings,
+                   has_file_camera
+                       ? "no target given, the camera looks where the file's camera does:"
+                       : "no target given, the camera looks near the middle of the scene:",
+                   &target, 1);
+    else if (given->has_target && !given->has_eye)
+        tell_flags(settings, "no eye given, the camera stands where the file's camera does:", &eye,
+                   1);
+}
+
 /* Tells what file and flags left open. */
 static void tell_choices(const program_options *options, const clshear_scene *scene,
                          const given_settings *given)
@@ -85,9 +106,7 @@ static void tell_choices(const program_options *options, const clshear_scene *sc
     if (given->has_focus_pixel)
         fprintf(stderr, "clshear: the surface at that pixel is in focus: --focal-distance %.9g\n",
                 distance);
-    if (!info.file_camera && !given->has_eye)
-        tell_flags(settings, "no camera given, the scene is framed:", camera_parts,
-                   sizeof camera_parts / sizeof *camera_parts);
+    tell_camera(settings, given, info.file_camera != 0);
     if (!given->has_environment && clshear_settings_is_set(settings, CLSHEAR_ENVIRONMENT))
         tell_flags(settings, "no light given, a neutral studio:", light_parts,
                    sizeof light_parts / sizeof *light_parts);
