@@ -159,6 +159,10 @@ static void kinds_of_renders(void **state)
     test_set_number(channels, CLSHEAR_EXTENDABLE, 1);
     test_set_number(channels, CLSHEAR_GAIN, 1);
     check("with more channels", box->scene, channels);
+
+    clshear_settings *both = test_settings(box->settings, 640, 480, 64);
+    test_set(both, CLSHEAR_AOV, "albedo,normal,position,direct");
+    check("with more channels, shared out", box->scene, both);
 }
 
 /* The wide hierarchy: expected, made as by the first render with bounces, and then described. */
