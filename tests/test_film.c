@@ -113,12 +113,33 @@ static void failures_leave_files_alone(void **state)
 
 static const char *const kinds[] = {"exr", "png", "jpg", "tif"};
 
-/* A limit on the size of files stands for a full disk. libjpeg would end the process. */
+/* Writes where something precious is, and files may have so many bytes: refused, without a trace.
+ * The limit stands for a full disk. */
+static void expect_no_room(clshear_film *film, const char *kept, rlim_t bytes)
+{
+    struct rlimit before;
+    FILE *stream = fopen(kept, "w");
+    fputs("precious", stream);
+    fclose(stream);
+    signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before);
+    setrlimit(RLIMIT_FSIZE, &(struct rlimit){bytes, before.rlim_max});
+    const clshear_status status = clshear_film_write(film, kept);
+    setrlimit(RLIMIT_FSIZE, &before);
+    assert_int_equal(status, CLSHEAR_BAD_FILE);
+    assert_non_null(strstr(clshear_film_message(film), kept));
+    assert_non_null(strstr(clshear_film_message(film), ": cannot be written: File too large"));
+    assert_string_equal(output_of("cat '%s'", kept), "precious");
+    assert_string_equal(output_of("ls '%s'.part* 2>/dev/null", kept), "");
+}
+
+/* In the middle, where libjpeg would end the process, and in the last bytes, of which OpenEXR and
+ * libtiff do not tell. */
 static void full_disks_are_noticed(void **state)
 {
     const int window[4] = {0, 300, 0, 200};
     clshear_film *film = NULL;
-    struct rlimit before;
+    struct stat whole;
     (void)state;
     assert_int_equal(cs_film_create(window, 300, 200, &error, &film), CLSHEAR_OK);
     for (int c = 0; c < 3; c++) {
@@ -130,18 +151,12 @@ static void full_disks_are_noticed(void **state)
         char name[16];
         snprintf(name, sizeof name, "kept.%s", kinds[i]);
         const char *kept = test_path(name);
-        FILE *stream = fopen(kept, "w");
-        fputs("precious", stream);
-        fclose(stream);
-        signal(SIGXFSZ, SIG_IGN);
-        getrlimit(RLIMIT_FSIZE, &before);
-        setrlimit(RLIMIT_FSIZE, &(struct rlimit){8192, before.rlim_max});
-        const clshear_status status = clshear_film_write(film, kept);
-        setrlimit(RLIMIT_FSIZE, &before);
-        assert_int_equal(status, CLSHEAR_BAD_FILE);
-        assert_non_null(strstr(clshear_film_message(film), kept));
-        assert_string_equal(output_of("cat '%s'", kept), "precious");
-        assert_string_equal(output_of("ls '%s'.part* 2>/dev/null", kept), "");
+        test_ok(clshear_film_write(film, kept));
+        assert_int_equal(stat(kept, &whole), 0);
+        const rlim_t size = (rlim_t)whole.st_size;
+        const rlim_t limits[] = {0, 8192, size - 5000, size - 300, size - 1};
+        for (size_t k = 0; k < sizeof limits / sizeof *limits; k++)
+            expect_no_room(film, kept, limits[k]);
         remove(kept);
     }
     clshear_film_free(film);
@@ -158,40 +173,63 @@ static void *count_bytes(void *argument)
     return &count;
 }
 
-/* Pipes are written in place, and a link still leads to its file. */
+/* Writes into a pipe, which stays one. */
+static void expect_pipe_stays(clshear_film *film, const char *kind)
+{
+    char path[1024], name[16];
+    pthread_t reader;
+    void *count;
+    struct stat about;
+    snprintf(name, sizeof name, "pipe.%s", kind);
+    snprintf(path, sizeof path, "%s", test_path(name));
+    remove(path);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    assert_int_equal(pthread_create(&reader, NULL, count_bytes, path), 0);
+    assert_int_equal(clshear_film_write(film, path), CLSHEAR_OK);
+    pthread_join(reader, &count);
+    assert_above(*(size_t *)count, 100);
+    assert_int_equal(stat(path, &about), 0);
+    assert_true(S_ISFIFO(about.st_mode));
+    remove(path);
+}
+
+/* Writes through a link, which stays one. */
+static void expect_link_stays(clshear_film *film, const char *kind)
+{
+    char path[1024], file[1024], name[16];
+    struct stat about;
+    snprintf(name, sizeof name, "link.%s", kind);
+    snprintf(path, sizeof path, "%s", test_path(name));
+    snprintf(name, sizeof name, "real.%s", kind);
+    snprintf(file, sizeof file, "%s", test_path(name));
+    fclose(fopen(file, "w"));
+    remove(path);
+    assert_int_equal(symlink(file, path), 0);
+    assert_int_equal(clshear_film_write(film, path), CLSHEAR_OK);
+    assert_int_equal(lstat(path, &about), 0);
+    assert_true(S_ISLNK(about.st_mode));
+    assert_int_equal(stat(file, &about), 0);
+    assert_above(about.st_size, 100);
+    remove(path);
+    remove(file);
+}
+
+/* Pipes are written in place, and a link still leads to its file. TIFF needs to be read while it is
+ * written: devices and pipes are refused, where it was broken without a word. */
 static void pipes_and_links_stay(void **state)
 {
     clshear_film *film = make_film();
-    struct stat about;
     (void)state;
     for (int i = 0; i < 4; i++) {
-        char path[1024], file[1024], name[16];
-        pthread_t reader;
-        void *count;
-        snprintf(name, sizeof name, "pipe.%s", kinds[i]);
-        snprintf(path, sizeof path, "%s", test_path(name));
-        remove(path);
-        assert_int_equal(mkfifo(path, 0600), 0);
-        assert_int_equal(pthread_create(&reader, NULL, count_bytes, path), 0);
-        assert_int_equal(clshear_film_write(film, path), CLSHEAR_OK);
-        pthread_join(reader, &count);
-        assert_above(*(size_t *)count, 100);
-        assert_int_equal(stat(path, &about), 0);
-        assert_true(S_ISFIFO(about.st_mode));
-        remove(path);
-
-        snprintf(name, sizeof name, "real.%s", kinds[i]);
-        snprintf(file, sizeof file, "%s", test_path(name));
-        fclose(fopen(file, "w"));
-        assert_int_equal(symlink(file, path), 0);
-        assert_int_equal(clshear_film_write(film, path), CLSHEAR_OK);
-        assert_int_equal(lstat(path, &about), 0);
-        assert_true(S_ISLNK(about.st_mode));
-        assert_int_equal(stat(file, &about), 0);
-        assert_above(about.st_size, 100);
-        remove(path);
-        remove(file);
+        if (strcmp(kinds[i], "tif") != 0) expect_pipe_stays(film, kinds[i]);
+        expect_link_stays(film, kinds[i]);
     }
+    const char *device = test_path("device.tif");
+    remove(device);
+    assert_int_equal(symlink("/dev/null", device), 0);
+    test_refused(clshear_film_write(film, device), CLSHEAR_BAD_FILE,
+                 "device.tif: TIFF goes into files only; write PNG or EXR there");
+    remove(device);
     clshear_film_free(film);
 }
 

@@ -2,10 +2,12 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <vector>
 
 #include "base/output_file.h"
@@ -46,6 +48,11 @@ std::string extension_of(const char *path)
     return extension;
 }
 
+bool is_tiff(const std::string &extension)
+{
+    return extension == "tif" || extension == "tiff";
+}
+
 /* What is written: the channels of `planes` in their order, under the tone curve unless exr. */
 struct Encoding {
     const cs_picture *picture;
@@ -69,8 +76,7 @@ Encoding encoding_of(const std::string &extension, const cs_picture *picture)
     for (const char *name : {"R", "G", "B"})
         for (size_t i = 0; i < picture->channel_count && !made.is_exr; i++)
             if (std::strcmp(picture->names[i], name) == 0) add(i);
-    const bool is_tiff = extension == "tif" || extension == "tiff";
-    const auto depth = is_tiff ? TypeDesc::UINT16 : TypeDesc::UINT8;
+    const auto depth = is_tiff(extension) ? TypeDesc::UINT16 : TypeDesc::UINT8;
     made.spec = ImageSpec(picture->width, picture->height, static_cast<int>(names.size()),
                           made.is_exr ? TypeDesc::FLOAT : depth);
     made.spec.x = picture->x;
@@ -105,14 +111,64 @@ ImageBuf rows_of(const Encoding &encoding, int begin, int end)
     return OIIO::ImageBufAlgo::colorconvert(rows, "linear", "sRGB", false);
 }
 
-/* Encodes into the file `path`, or into `memory` unless it is NULL. Returns an error message, empty
- * on success. */
+/* A file that remembers why writing to it failed. Encoders say it in words of their own, and of
+ * what they write when they end, not at all. */
+class Target final : public OIIO::Filesystem::IOProxy
+{
+  public:
+    explicit Target(FILE *file) : IOProxy("", Write), stream(file) {}
+    const char *proxytype() const override { return "clshear"; }
+    size_t size() const override { return static_cast<size_t>(end); }
+    int failure() const { return reason; } /* errno of the first; 0: none */
+
+    size_t write(const void *bytes, size_t count) override
+    {
+        errno = 0;
+        const size_t written = std::fwrite(bytes, 1, count, stream);
+        note(written == count);
+        m_pos += static_cast<int64_t>(written);
+        end = std::max(end, m_pos);
+        return written;
+    }
+
+    bool seek(int64_t offset) override
+    {
+        errno = 0;
+        const bool good = fseeko(stream, offset, SEEK_SET) == 0;
+        note(good);
+        if (good) m_pos = offset;
+        return good;
+    }
+
+    /* Tries to make the file larger. */
+    void probe()
+    {
+        const std::vector<char> more(1 << 16);
+        errno = 0;
+        note(fseeko(stream, 0, SEEK_END) == 0 &&
+             std::fwrite(more.data(), 1, more.size(), stream) == more.size() &&
+             std::fflush(stream) == 0);
+    }
+
+  private:
+    FILE *stream;
+    int64_t end = 0; /* bytes of the file */
+    int reason = 0;
+
+    void note(bool good)
+    {
+        if (!good && reason == 0) reason = errno != 0 ? errno : EIO;
+    }
+};
+
+/* Encodes into `target`, or into the file `path` where that is NULL. Returns an error message,
+ * empty on success. */
 std::string encode(const std::string &extension, const Encoding &encoding, const std::string &path,
-                   OIIO::Filesystem::IOProxy *memory)
+                   OIIO::Filesystem::IOProxy *target)
 {
     auto output = OIIO::ImageOutput::create(extension);
     if (output == nullptr) return "this image format cannot be written";
-    if (memory != nullptr) output->set_ioproxy(memory);
+    if (target != nullptr) output->set_ioproxy(target);
     if (!output->open(path, encoding.spec)) return first_line(output->geterror());
     const int height = encoding.spec.height, top = encoding.spec.y;
     for (int begin = 0; begin < height; begin += rows_at_once) {
@@ -128,38 +184,76 @@ std::string encode(const std::string &extension, const Encoding &encoding, const
 
 /* Encodes in memory first: OpenImageIO loses libpng's write errors, and libjpeg ends the process
  * when the disk is full. Pipes and devices cannot seek, so encoders must not write to them. */
-std::string write_by_memory(const std::string &extension, const Encoding &encoding,
-                            const std::string &path)
+std::string encode_by_memory(const std::string &extension, const Encoding &encoding,
+                             const std::string &path, Target *target)
 {
     OIIO::Filesystem::IOVecOutput memory;
     std::string failure = encode(extension, encoding, path, &memory);
-    if (!failure.empty()) return failure;
-    FILE *stream = std::fopen(path.c_str(), "wb");
-    if (stream == nullptr) return std::strerror(errno);
-    const auto &bytes = memory.buffer();
-    errno = 0;
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
-    const int reason = errno;
-    if (std::fclose(stream) != 0 && written) return std::strerror(errno);
-    return written ? std::string() : std::strerror(reason);
+    if (failure.empty()) target->write(memory.buffer().data(), memory.buffer().size());
+    return failure;
+}
+
+/* Whether all rows of a TIFF can be read. */
+bool reads_well(const std::string &path, const ImageSpec &wanted)
+{
+    ImageSpec spec;
+    const auto input = OIIO::ImageInput::create("tif");
+    if (input == nullptr || !input->open(path, spec)) return false;
+    if (spec.height != wanted.height || spec.nchannels != wanted.nchannels) return false;
+    std::vector<char> rows(spec.scanline_bytes() * rows_at_once);
+    for (int begin = 0; begin < spec.height; begin += rows_at_once) {
+        const int end = std::min(spec.height, begin + rows_at_once);
+        if (!input->read_scanlines(0, 0, spec.y + begin, spec.y + end, 0, 0, spec.nchannels,
+                                   spec.format, rows.data()))
+            return false;
+    }
+    return true;
+}
+
+/* Encodes into the file `path` by the encoder's own means, since it reads what it wrote. It does
+ * not tell when its last writes fail: the file is read again, and of one that is broken `target`,
+ * the same file, finds why. */
+std::string encode_tiff(const Encoding &encoding, const std::string &path, Target *target)
+{
+    std::string failure = encode("tif", encoding, path, nullptr);
+    if (failure.empty() && reads_well(path, encoding.spec)) return failure;
+    target->probe();
+    return failure.empty() ? "it is not whole" : failure;
 }
 
 /* Pixels a side, beyond which libjpeg ends the process. */
 constexpr int most_of_jpeg = 65500;
 
+/* Encodes in the way that suits the format and the place. */
+std::string encode_into(const std::string &extension, const Encoding &encoding, bool is_special,
+                        cs_output_file *file, Target *target)
+{
+    if (is_tiff(extension)) return encode_tiff(encoding, file->part, target);
+    if (extension == "exr" && !is_special) return encode(extension, encoding, file->part, target);
+    return encode_by_memory(extension, encoding, file->part, target);
+}
+
 clshear_status write_picture(const char *path, const cs_picture *picture, cs_error *error)
 {
     const std::string extension = extension_of(path);
-    const bool is_large = extension != "png" && extension != "jpg" && extension != "jpeg";
     const Encoding encoding = encoding_of(extension, picture);
-    cs_output_file file;
-    if (cs_output_begin(path, &file) != 0)
-        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
-    std::string failure = is_large && !cs_is_special_file(path)
-                              ? encode(extension, encoding, file.part, nullptr)
-                              : write_by_memory(extension, encoding, file.part);
-    const int reason = cs_output_end(&file, failure.empty());
-    if (failure.empty() && reason != 0) failure = std::strerror(reason);
+    const bool is_special = cs_is_special_file(path) != 0;
+    std::string failure;
+    cs_output_file file = {};
+    /* An exception leaves no part of a file. */
+    const auto drop = [](cs_output_file *unfinished) {
+        if (unfinished->part != nullptr) cs_output_end(unfinished, 0);
+    };
+    const std::unique_ptr<cs_output_file, decltype(drop)> guard(&file, drop);
+    int reason = cs_output_open(path, &file);
+    if (reason == 0) {
+        Target target(file.stream);
+        failure = encode_into(extension, encoding, is_special, &file, &target);
+        reason = target.failure();
+        const int ended = cs_output_end(&file, failure.empty() && reason == 0);
+        if (reason == 0) reason = ended;
+    }
+    if (reason != 0) failure = std::strerror(reason);
     if (failure.empty()) return CLSHEAR_OK;
     return cs_fail(error, CLSHEAR_BAD_FILE, "%s: cannot be written: %s", path, failure.c_str());
 }
@@ -176,6 +270,9 @@ extern "C" clshear_status cs_image_check(const char *path, int width, int height
         if (!known)
             return cs_fail(error, CLSHEAR_BAD_FILE,
                            "%s: unknown image format; use .exr, .png, .jpg or .tif", path);
+        if (is_tiff(extension) && cs_is_special_file(path))
+            return cs_fail(error, CLSHEAR_BAD_FILE,
+                           "%s: TIFF goes into files only; write PNG or EXR there", path);
         const bool is_jpeg = extension == "jpg" || extension == "jpeg";
         if (is_jpeg && (width > most_of_jpeg || height > most_of_jpeg))
             return cs_fail(error, CLSHEAR_BAD_FILE,
