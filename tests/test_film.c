@@ -133,6 +133,25 @@ static void expect_no_room(clshear_film *film, const char *kept, rlim_t bytes)
     assert_string_equal(output_of("ls '%s'.part* 2>/dev/null", kept), "");
 }
 
+/* A large file of bytes says why it cannot be written, too. */
+static void full_disks_have_their_reason(void **state)
+{
+    const size_t size = 1 << 20;
+    char *bytes = calloc(size, 1);
+    const char *kept = test_file("kept.npy", "precious");
+    struct rlimit before;
+    (void)state;
+    signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before);
+    setrlimit(RLIMIT_FSIZE, &(struct rlimit){8192, before.rlim_max});
+    const clshear_status status = clshear_file_write(kept, bytes, size);
+    setrlimit(RLIMIT_FSIZE, &before);
+    test_refused(status, CLSHEAR_BAD_FILE, "kept.npy: cannot be written: File too large");
+    assert_string_equal(output_of("cat '%s'", kept), "precious");
+    assert_string_equal(output_of("ls '%s'.part* 2>/dev/null", kept), "");
+    free(bytes);
+}
+
 /* In the middle, where libjpeg would end the process, and in the last bytes, of which OpenEXR and
  * libtiff do not tell. */
 static void full_disks_are_noticed(void **state)
@@ -265,6 +284,7 @@ int main(void)
         cmocka_unit_test(pictures_are_srgb),
         cmocka_unit_test(failures_leave_files_alone),
         cmocka_unit_test(full_disks_are_noticed),
+        cmocka_unit_test(full_disks_have_their_reason),
         cmocka_unit_test(pipes_and_links_stay),
         cmocka_unit_test(no_channel_is_lost),
     };

@@ -17,8 +17,11 @@ static int write_file(const char *path, const void *bytes, size_t size)
     cs_output_file file;
     const int reason = cs_output_open(path, &file);
     if (reason != 0) return reason;
-    fwrite(bytes, 1, size, file.stream);
-    return cs_output_end(&file, 1);
+    errno = 0; /* the stream keeps that a write failed, but not why */
+    const int good = fwrite(bytes, 1, size, file.stream) == size;
+    const int failure = good ? 0 : errno != 0 ? errno : EIO;
+    const int ended = cs_output_end(&file, good);
+    return good ? ended : failure;
 }
 
 clshear_status clshear_file_write(const char *path, const void *bytes, size_t size)
