@@ -13,24 +13,32 @@
 /* How much denser they are to be: the others' weight is less than 1 in 17. */
 #define CS_DENSE_ENOUGH 4.0f
 
-/* What the density of a light's samples, per steradian, is at least where it shines on `point`;
- * INFINITY: no ray finds the light. */
+/* What the density of an area light's samples, per steradian, is at least where it shines on
+ * `point`; 0: nothing is known of it. */
+static inline cs_vfloat cs_least_area_density(CS_GLOBAL const cs_light *light,
+                                              const cs_vfloat *point)
+{
+    if (light->kind == CS_LIGHT_SUN) return cs_cone_density((cs_vfloat)(light->parameters[0]));
+    if (light->kind == CS_LIGHT_SPHERE) return cs_sphere_density(light, point);
+    if (light->kind == CS_LIGHT_QUAD) return cs_quad_least_density(light, point);
+    return (cs_vfloat)(0.0f);
+}
+
+/* The same of any light; INFINITY where no ray finds it. */
 static inline cs_vfloat cs_least_density(CS_GLOBAL const cs_light *light, const cs_vfloat *point)
 {
+#define DELTA (cs_vfloat)(INFINITY)
+#define AREA cs_least_area_density(light, point)
+#define CS_LEAST_CASE(identifier, name, suffix, extent) \
+    case CS_LIGHT_##identifier:                         \
+        return extent;
     switch (light->kind) {
-    case CS_LIGHT_POINT:
-    case CS_LIGHT_DIRECTIONAL:
-    case CS_LIGHT_SPOT:
-        return (cs_vfloat)(INFINITY);
-    case CS_LIGHT_SUN:
-        return cs_cone_density((cs_vfloat)(light->parameters[0]));
-    case CS_LIGHT_SPHERE:
-        return cs_sphere_density(light, point);
-    case CS_LIGHT_QUAD:
-        return cs_quad_least_density(light, point);
-    default:
-        return (cs_vfloat)(0.0f);
+        CS_LIGHT_LIST(CS_LEAST_CASE)
     }
+#undef CS_LEAST_CASE
+#undef AREA
+#undef DELTA
+    return (cs_vfloat)(0.0f);
 }
 
 /* Lanes in which the samples of all lights suffice. */
