@@ -273,6 +273,34 @@ static void sorting_changes_nothing(void **state)
     clshear_film_free(alone);
 }
 
+/* Nor do the pixels whose paths are followed together: sixteen with patterns of 32, whose pools are
+ * of eight of them, and each pixel alone. */
+static void pools_change_nothing(void **state)
+{
+    static const char *const samplers[] = {"sobol", "sz", "mj"}; /* the last knows no pools */
+    clshear_scene *scene = closed_cube(*state, 0.8f, 0.5f);
+    for (size_t i = 0; i < sizeof samplers / sizeof *samplers; i++) {
+        clshear_settings *settings = settings_at("0.1,0.2,0.3", "0,0.4,-1", 60.0, 64, 5);
+        test_set_number(settings, CLSHEAR_REPLICATES, 2);
+        test_set_number(settings, CLSHEAR_ADAPTIVE, 0);
+        test_set(settings, CLSHEAR_SAMPLER, "%s", samplers[i]);
+        clshear_film *whole = test_render(scene, settings);
+        for (int pixel = 0; pixel < 16; pixel++) {
+            test_set(settings, CLSHEAR_CROP, "%d,%d,%d,%d", pixel % 4, pixel % 4 + 1, pixel / 4,
+                     pixel / 4 + 1);
+            clshear_film *alone = test_render(scene, settings);
+            assert_memory_equal(clshear_film_channel(whole, "R") + pixel,
+                                clshear_film_channel(alone, "R"), sizeof(float));
+            assert_memory_equal(clshear_film_channel(whole, "Variance.G") + pixel,
+                                clshear_film_channel(alone, "Variance.G"), sizeof(float));
+            clshear_film_free(alone);
+        }
+        clshear_film_free(whole);
+        clshear_settings_free(settings);
+    }
+    clshear_scene_free(scene);
+}
+
 /* Neither does it which hierarchy they walk: with packets of 16, rays among many triangles walk the
  * wide one. */
 static void wide_walk_changes_nothing(void **state)
@@ -294,6 +322,7 @@ int main(void)
         cmocka_unit_test(samplers_agree),
         cmocka_unit_test(first_bounce_is_paired_with_the_fibre),
         cmocka_unit_test(sorting_changes_nothing),
+        cmocka_unit_test(pools_change_nothing),
         cmocka_unit_test(wide_walk_changes_nothing),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -118,14 +118,14 @@ static inline void cs_draw_packet(const cs_launch *launch, cs_sample_table sampl
 #endif
 }
 
-/* Draws the next packets of a few pixels from place `start` of their order on, up to `end`: of one
- * pixel as many as fit, of several all that there are. */
+/* Draws the next packets of pixels `first` to `last` - 1 from place `start` of their order on, up
+ * to `end`: of one pixel as many as fit, of several all that there are. */
 static inline void cs_draw_packets(const cs_launch *launch, cs_sample_table sample_table,
-                                   cs_optics_table lens_table, const cs_place *places, int count,
-                                   cs_u32 start, cs_u32 end, cs_drawn *drawn)
+                                   cs_optics_table lens_table, const cs_place *places, int first,
+                                   int last, cs_u32 start, cs_u32 end, cs_drawn *drawn)
 {
     drawn->count = 0;
-    for (int number = 0; number < count; number++)
+    for (int number = first; number < last; number++)
         for (cs_u32 at = start; drawn->count < CS_TOGETHER && at < end; at += (cs_u32)CS_PACKET)
             cs_draw_packet(launch, sample_table, lens_table, places, number, at, end, drawn);
 #if !CS_HAS(MOTION)

@@ -12,11 +12,11 @@ enum {
     CS_DRAW_PURPOSES
 };
 
-/* The samples that a packet traces. */
+/* The samples that a packet traces: of one pattern, or, where cs_pads_lanes, of several. */
 typedef struct cs_draws {
     const cs_pattern *pattern;
     cs_sample_table table;
-    cs_u32 key;
+    cs_vuint key; /* of each sample's pattern */
     cs_vuint index;
 } cs_draws;
 
@@ -30,8 +30,13 @@ typedef struct cs_numbers {
  * stratified as the pairs of a tuple. */
 static inline cs_pair cs_draw_at(const cs_draws *draws, cs_u32 depth, cs_u32 purpose)
 {
-    cs_u32 key = cs_key(draws->key, CS_KEY_BOUNCES + depth * (cs_u32)CS_DRAW_PURPOSES + purpose);
-    return cs_draw_padding(draws->pattern, draws->table, key, draws->index, CS_SLOT_LIGHT);
+    cs_uint_lanes key;
+    cs_u32 number = CS_KEY_BOUNCES + depth * (cs_u32)CS_DRAW_PURPOSES + purpose;
+    key.all = cs_key_families(draws->key, (cs_vuint)(number));
+    if (cs_pads_lanes(draws->pattern->sampler))
+        return cs_draw_padding_lanes(draws->pattern, draws->table, key.all, draws->index,
+                                     CS_SLOT_LIGHT);
+    return cs_draw_padding(draws->pattern, draws->table, key.lane[0], draws->index, CS_SLOT_LIGHT);
 }
 
 #endif

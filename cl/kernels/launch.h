@@ -11,7 +11,10 @@ enum {
     /* Floats that the points kernel writes for each sample: the tuple, then x, y, u, v, time. */
     CS_POINT_VALUES = CS_DIMENSIONS + CS_MAIN_DIMENSIONS + 1,
     /* Floats of a point at which the radiance kernel evaluates: a tuple and the time. */
-    CS_EVALUATED = CS_DIMENSIONS + 1
+    CS_EVALUATED = CS_DIMENSIONS + 1,
+    /* Updates of pixels' states, of CS_FLUSH_BLOCKS blocks each, whose paths are followed together,
+     * but with packets of one lane. */
+    CS_POOL_FLUSHES = 4
 };
 
 /* How the camera moves while the shutter is open: eye, line of sight and up direction change
@@ -63,13 +66,15 @@ static inline int cs_has_light_pair(const cs_launch *launch)
     return launch->area_lights > 0u || launch->bounces > 0u;
 }
 
-/* How many pixels a work-item draws, so that their packets make CS_TOGETHER.
- * blocks: of a pixel's pattern in the launch. packet: lanes. */
-static inline cs_u32 cs_pixels_together(cs_u32 blocks, cs_u32 packet)
+/* How many pixels a work-item draws, so that their packets make CS_TOGETHER, or CS_POOL_FLUSHES
+ * times as many if paths of several pixels may be followed together.
+ * blocks: of a pixel's pattern in the launch. packet: lanes. pools: whether they may. */
+static inline cs_u32 cs_pixels_together(cs_u32 blocks, cs_u32 packet, int pools)
 {
     cs_u32 together = packet > 1u ? (cs_u32)(CS_FLUSH_BLOCKS * CS_BLOCK) / packet : 1u;
     cs_u32 packets = (blocks * (cs_u32)CS_BLOCK + packet - 1u) / packet;
-    return packets > 0u && packets < together ? together / packets : 1u;
+    if (packet == 1u || packets == 0u || packets > together) return 1u;
+    return together / packets * (pools ? (cs_u32)CS_POOL_FLUSHES : 1u);
 }
 
 /* Raster index (row by row) of the pixel that is number `order` in a walk through tiles of 8 x 8

@@ -25,7 +25,8 @@ static inline cs_pair cs_opposite(cs_pair pair)
 static inline cs_numbers cs_draw_numbers(const cs_paths *paths, int p)
 {
     const cs_launch *launch = paths->launch;
-    const cs_draws draws = {&launch->pattern, paths->table, paths->key, paths->path[p].index};
+    const cs_path *path = paths->path + p;
+    const cs_draws draws = {&launch->pattern, paths->table, path->key, path->index};
     cs_numbers numbers;
     numbers.light = paths->light[p];
     if (paths->depth > 0u && launch->area_lights > 0u)
@@ -47,6 +48,7 @@ static inline void cs_path_begin(cs_paths *paths, int p, const cs_ray *ray, cs_p
     path->ray = *ray;
     path->alive = active;
     path->home = p * CS_PACKET + cs_as_vint(CS_LANE_INDEX);
+    path->key = draws->key;
     path->index = draws->index;
     path->density = (cs_vfloat)(0.0f);
     path->cosine = (cs_vfloat)(0.0f);
@@ -56,7 +58,6 @@ static inline void cs_path_begin(cs_paths *paths, int p, const cs_ray *ray, cs_p
     for (int c = 0; c < 3; c++)
         path->throughput[c] = (cs_vfloat)(1.0f);
     paths->table = draws->table;
-    paths->key = draws->key;
     paths->light[p] = light;
     paths->found[p] = cs_radiance_begin();
 }

@@ -16,7 +16,7 @@ typedef struct cs_pixel {
     cs_u32 samples; /* of all patterns */
     cs_u32 pending; /* of the unfinished pattern */
     cs_u32 patterns;
-    cs_u32 shadow_rays;
+    cs_u32 shadow_rays; /* of all pixels of the pools that begin with this one */
 } cs_pixel;
 CS_SHARED_WORDS(cs_pixel, 25);
 

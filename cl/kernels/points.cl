@@ -65,7 +65,7 @@ CS_KERNEL void cs_draw_sum(const cs_launch launch, const float shear,
     cs_u32 end = launch.pattern.blocks * (cs_u32)CS_BLOCK;
     for (cs_u32 start = 0u; start < end; start += (cs_u32)(CS_TOGETHER * CS_PACKET)) {
         cs_drawn drawn;
-        cs_draw_packets(&launch, sample_table, lens_table, &place, 1, start, end, &drawn);
+        cs_draw_packets(&launch, sample_table, lens_table, &place, 0, 1, start, end, &drawn);
         for (int packet = 0; packet < drawn.count; packet++) {
             cs_camera_sample point = drawn.point[packet];
             sum += drawn.active[packet] ? point.x + point.y + point.u + point.v : (cs_vfloat)(0.0f);

@@ -78,7 +78,7 @@ CS_KERNEL void cs_radiance_at(const cs_launch launch, const uint x, const uint y
 #if CS_HAS(MOTION)
     number = cs_hash_lanes(number + cs_as_vuint(point[CS_DIMENSIONS]));
 #endif
-    cs_draws draws = {&launch.pattern, 0, launch.seed, number};
+    cs_draws draws = {&launch.pattern, 0, (cs_vuint)(launch.seed), number};
     cs_paths paths;
     paths.launch = &launch;
     cs_path_begin(&paths, 0, &ray, light, &draws, point[CS_AT_FILM] == point[CS_AT_FILM]);

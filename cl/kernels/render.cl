@@ -32,28 +32,30 @@ static inline cs_ray cs_camera_ray(const cs_launch *launch, const cs_eye *eye,
 #endif
 }
 
-/* Updates of a pixel whose samples are traced together. */
+/* Updates of pixels whose samples are traced together. */
 #if CS_HAS(PATHS)
-#define CS_FLUSHES CS_POOL_FLUSHES
+#define CS_UPDATES CS_FLUSHES
 #else
-#define CS_FLUSHES 1
+#define CS_UPDATES 1
 #endif
 
 #if CS_HAS(PATHS)
-/* Traces the packets of CS_FLUSHES updates of one pixel, or of one of several pixels. radiance: of
- * each packet, CS_TOGETHER for each update. */
+/* Traces the packets of up to CS_UPDATES updates, of one pixel or of several. Their paths are
+ * followed together, or pixel by pixel where samplers do not know several. radiance: of each packet,
+ * CS_TOGETHER for each update. */
 static inline void cs_trace_packets(const cs_launch *launch, const cs_scene_buffers *scene,
                                     cs_sample_table sample_table, const cs_place *places,
                                     const cs_drawn *drawn, int flushes, cs_radiance *radiance)
 {
     cs_paths paths;
     cs_radiance *wanted[CS_POOL];
-    int count = 0;
+    int count = 0, pools = cs_pads_lanes(launch->pattern.sampler);
     paths.launch = launch;
     for (int f = 0; f < flushes; f++)
         for (int packet = 0; packet < drawn[f].count; packet++) {
             const cs_place *place = places + drawn[f].place[packet];
-            cs_draws draws = {&launch->pattern, sample_table, place->key, drawn[f].index[packet]};
+            cs_draws draws = {&launch->pattern, sample_table, (cs_vuint)(place->key),
+                              drawn[f].index[packet]};
             const cs_eye eye = cs_eye_of(launch, drawn + f, packet);
             cs_ray ray = cs_camera_ray(launch, &eye, place, drawn[f].point[packet]);
             cs_path_begin(&paths, count, &ray, drawn[f].light[packet], &draws,
@@ -63,7 +65,7 @@ static inline void cs_trace_packets(const cs_launch *launch, const cs_scene_buff
 #endif
             wanted[count++] = radiance + f * CS_TOGETHER + packet;
             int is_last = packet + 1 < drawn[f].count
-                              ? drawn[f].place[packet + 1] != drawn[f].place[packet]
+                              ? !pools && drawn[f].place[packet + 1] != drawn[f].place[packet]
                               : f + 1 == flushes;
             if (!is_last) continue;
             cs_follow_paths(scene, &paths, count);
@@ -131,23 +133,35 @@ static inline void cs_gather_packets(const cs_launch *launch, const cs_place *pl
     }
 }
 
+/* Of how many of `count` pixels the samples at places `start` to `end` make an update. */
+static inline int cs_pixels_drawn(int count, cs_u32 start, cs_u32 end)
+{
+    int packets = (int)((end - start + (cs_u32)CS_PACKET - 1u) / (cs_u32)CS_PACKET);
+    return count > 1 && packets > 0 && packets <= CS_TOGETHER ? CS_TOGETHER / packets : 1;
+}
+
 /* Samples at places `start` to `end` of the order of a few pixels, gathered and merged into them:
- * of one pixel as many as CS_FLUSHES updates have, of several no more than are drawn together. */
+ * of one pixel any number, of several no more than an update has. */
 static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *scene,
                              cs_sample_table sample_table, cs_optics_table lens_table,
                              const cs_place *places, int count, cs_u32 start, cs_u32 end,
                              CS_GLOBAL cs_pixel *pixels, CS_GLOBAL cs_exact_sum *aovs)
 {
     const cs_u32 step = (cs_u32)(CS_TOGETHER * CS_PACKET);
-    cs_drawn drawn[CS_FLUSHES];
-    cs_radiance radiance[CS_FLUSHES * CS_TOGETHER];
+    cs_drawn drawn[CS_UPDATES];
+    cs_radiance radiance[CS_UPDATES * CS_TOGETHER];
     cs_gathered gathered;
+    int first = 0, each = cs_pixels_drawn(count, start, end);
     gathered.first = 1;
     while (start < end) {
         int draws = 0;
-        for (; draws < CS_FLUSHES && start < end; start += step)
-            cs_draw_packets(launch, sample_table, lens_table, places, count, start, end,
+        while (draws < CS_UPDATES && start < end) {
+            int last = first + each < count ? first + each : count;
+            cs_draw_packets(launch, sample_table, lens_table, places, first, last, start, end,
                             drawn + draws++);
+            first = last < count ? last : 0;
+            start += first == 0 ? step : 0u;
+        }
         cs_trace_packets(launch, scene, sample_table, places, drawn, draws, radiance);
         /* An update is what is drawn together, but with one lane: there it is all. */
         int goes_on = CS_PACKET == 1 && count == 1 && start < end;
@@ -177,7 +191,7 @@ CS_KERNEL void cs_render(const cs_launch launch, __global cs_pixel *pixels,
     cs_u32 begin = (cs_u32)get_global_id(0) * launch.pixels_each;
     if (begin >= launch.pixel_count) return;
     const cs_scene_buffers scene = CS_SCENE_VALUES;
-    cs_place places[CS_TOGETHER];
+    cs_place places[CS_UPDATES * CS_TOGETHER];
     int count = (int)min(launch.pixels_each, launch.pixel_count - begin);
     for (int i = 0; i < count; i++) {
         cs_u32 number = order[launch.first_pixel + begin + (cs_u32)i];
@@ -189,7 +203,7 @@ CS_KERNEL void cs_render(const cs_launch launch, __global cs_pixel *pixels,
         (void)velocities;
 #endif
     }
-    const cs_u32 step = (cs_u32)(CS_FLUSHES * CS_FLUSH_BLOCKS);
+    const cs_u32 step = (cs_u32)(CS_UPDATES * CS_FLUSH_BLOCKS);
     for (cs_u32 block = launch.first_block; block < launch.last_block; block += step) {
         cs_u32 end = min(block + step, launch.last_block) * (cs_u32)CS_BLOCK;
         cs_sample(&launch, &scene, sample_table, lens_table, places, count,

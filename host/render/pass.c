@@ -147,8 +147,10 @@ static clshear_status pass_batch(cs_pass *pass, const cs_batch *batch, cs_u32 fi
     launch.first_block = first;
     launch.last_block = last;
     launch.compact = (cs_u32)batch->compact;
-    launch.pixels_each =
-        cs_pixels_together(last - first, (cs_u32)cs_device_packet(pass->scene->context->device));
+    const int pools =
+        (pass->features & CS_FEATURE_PATHS) != 0 && cs_pads_lanes(batch->pattern.sampler);
+    launch.pixels_each = cs_pixels_together(
+        last - first, (cs_u32)cs_device_packet(pass->scene->context->device), pools);
     size_t page = 0;
     while (pass->place.pixel < batch->pixel_count) {
         const size_t pixel = pass->place.pixel;

@@ -135,21 +135,22 @@ clshear_status cs_environment_make(const float *texels, size_t width, size_t hei
 {
     clshear_status status = CLSHEAR_OK;
     const float white[3] = {1.0f, 1.0f, 1.0f};
+    if (width == 0 || height == 0)
+        return cs_fail(error, CLSHEAR_BAD_FILE, "environment: an image without texels");
     const int even = is_even(texels, width, height);
-    const size_t across = even ? 0 : cells_of(width, MOST_CELLS);
-    const size_t down = even ? 0 : cells_of(height, MOST_CELLS / 2);
-    double *weights = malloc((across + down + 1) * sizeof *weights);
+    const size_t across = cells_of(width, MOST_CELLS), down = cells_of(height, MOST_CELLS / 2);
+    double *weights = malloc((across + down) * sizeof *weights);
     environment->image = (cs_array){.item_size = sizeof(cs_f32)};
     /* One number at least behind the texels, which are read four at a time. */
-    float *buffer =
-        cs_array_extend(&environment->image, 3 * width * height + down + down * across + 1);
+    float *buffer = cs_array_extend(&environment->image,
+                                    3 * width * height + (even ? 1 : down + down * across));
     CS_REQUIRE(weights != NULL && buffer != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory for an environment of %zu x %zu texels", width, height);
     describe(white, &environment->light);
     environment->light.count = (cs_u32)width;
     environment->light.parameters[0] = (float)height;
-    environment->light.parameters[1] = (float)across;
-    environment->light.parameters[2] = (float)down;
+    environment->light.parameters[1] = even ? 0.0f : (float)across;
+    environment->light.parameters[2] = even ? 0.0f : (float)down;
     copy_texels(texels, width * height, buffer);
     if (!even)
         tabulate(buffer, width, height, across, down, weights, weights + down,

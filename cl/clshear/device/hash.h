@@ -23,16 +23,16 @@ CS_DEFINE_HASH(cs_hash, cs_u32)
 CS_DEFINE_HASH(cs_hash_lanes, cs_vuint)
 
 /* Key number `index` of the family `seed`, any 32 bits. Different indices give different keys. */
-static inline cs_u32 cs_key(cs_u32 seed, cs_u32 index)
-{
-    return cs_hash(seed + 0x9e3779b9u * (index + 1u));
-}
+#define CS_DEFINE_KEY(name, type, seed_type, index_type, hash) \
+    static inline type name(seed_type seed, index_type index)  \
+    {                                                          \
+        return hash(seed + 0x9e3779b9u * (index + 1u));        \
+    }
 
-/* The same for an index in each lane. */
-static inline cs_vuint cs_key_lanes(cs_u32 seed, cs_vuint index)
-{
-    return cs_hash_lanes(seed + 0x9e3779b9u * (index + 1u));
-}
+/* Of one family; for an index in each lane; and of a family in each lane. */
+CS_DEFINE_KEY(cs_key, cs_u32, cs_u32, cs_u32, cs_hash)
+CS_DEFINE_KEY(cs_key_lanes, cs_vuint, cs_u32, cs_vuint, cs_hash_lanes)
+CS_DEFINE_KEY(cs_key_families, cs_vuint, cs_vuint, cs_vuint, cs_hash_lanes)
 
 /* A box [0, mask] of a power of two of integers, in which cs_permute works. */
 typedef struct cs_domain {

@@ -60,10 +60,10 @@ static inline cs_vint cs_passes(const cs_surface *surface, cs_vuint bits)
 
 /* Random bits for the choices to pass surfaces on the way of the ray that goes on (0), or to a
  * light (from 1 on); apart from all patterns of a path. */
-static inline cs_vuint cs_passing(const cs_paths *paths, cs_u32 ray, cs_vuint index)
+static inline cs_vuint cs_passing(const cs_paths *paths, cs_u32 ray, const cs_path *path)
 {
     cs_u32 key = 0x70617373u + paths->depth * 0x10000u + ray;
-    return cs_key_lanes(cs_key(paths->key, key), index);
+    return cs_key_families(cs_key_families(path->key, (cs_vuint)(key)), path->index);
 }
 
 /* Those for surface number `passed`. */
@@ -82,7 +82,7 @@ static inline cs_vint cs_path_hit(const cs_scene_buffers *scene, const cs_paths 
     const cs_u32 lights = paths->launch->lights;
     cs_vint seen = cs_find_surfaces(scene, lights, camera, &path->ray, hit, surface);
 #if CS_HAS(MATERIALS)
-    cs_vuint passing = cs_passing(paths, 0u, path->index);
+    cs_vuint passing = cs_passing(paths, 0u, path);
     cs_vint passes = seen; /* lanes that stopped once have stopped */
     cs_vfloat passed = (cs_vfloat)(0.0f);
     cs_ray ray = path->ray;

@@ -105,7 +105,7 @@ static inline void cs_path_add_light(const cs_scene_buffers *scene, cs_paths *pa
     shadow->reach = facing ? (cs_vfloat)(light->reach) : (cs_vfloat)(-1.0f);
     shadow->home = path->home;
 #if CS_HAS(MATERIALS)
-    shadow->passing = cs_passing(paths, number + 1u, path->index);
+    shadow->passing = cs_passing(paths, number + 1u, path);
 #endif
 #if CS_HAS(MOVING)
     shadow->time = path->time;

@@ -1,6 +1,6 @@
 /* Paths: where they are, what they carry, and where what they find is kept. Device only.
  *
- * A packet's paths may be of any samples of the pixel: they are sorted anew at every surface
+ * A packet's paths may be of any samples of the pool: they are sorted anew at every surface
  * (sort.h). */
 #ifndef CS_PATH_STATE_H
 #define CS_PATH_STATE_H
@@ -15,6 +15,7 @@ typedef struct cs_path {
     cs_ray ray;
     cs_vint alive;           /* lanes whose ray is to be followed */
     cs_vint home;            /* the sample: CS_PACKET times its packet, and its lane there */
+    cs_vuint key;            /* of the sample's pattern */
     cs_vuint index;          /* of the sample in the pattern */
     cs_vfloat throughput[3]; /* radiance at the lens for one at the end of the ray */
     cs_vfloat density;       /* with which the BSDF drew the ray; of camera rays it is not used */
@@ -30,7 +31,7 @@ typedef struct cs_path {
 #endif
 } cs_path;
 
-/* Rays to lights, of any samples of the pixel. Lanes only, too. */
+/* Rays to lights, of any samples of the pool. Lanes only, too. */
 typedef struct cs_shadow {
     cs_ray ray;
     cs_vfloat reach;    /* where the light is, in lengths of the direction; negative: no ray */
@@ -48,22 +49,21 @@ typedef struct cs_shadow {
  * each other: many, since few paths are left behind the first surfaces. */
 #if CS_PACKET == 1
 enum {
-    CS_POOL_FLUSHES = 1, /* updates of the pixel's state that they are for */
+    CS_FLUSHES = 1, /* updates of pixels' states that they are for */
     CS_SHADOWS = 1
 };
 #else
 enum {
-    CS_POOL_FLUSHES = 4,
+    CS_FLUSHES = CS_POOL_FLUSHES,
     CS_SHADOWS = 8
 };
 #endif
-#define CS_POOL (CS_POOL_FLUSHES * CS_TOGETHER)
+#define CS_POOL (CS_FLUSHES * CS_TOGETHER)
 
-/* The paths of the samples of one pixel, all of them at the same depth. */
+/* The paths of the samples of a pixel, or of several, all of them at the same depth. */
 typedef struct cs_paths {
     const cs_launch *launch;
     cs_sample_table table;
-    cs_u32 key;                 /* of the pixel's pattern */
     cs_pair light[CS_POOL];     /* of each packet of samples: the tuples' pairs for lights */
     cs_radiance found[CS_POOL]; /* of each, so far */
     cs_path path[CS_POOL];

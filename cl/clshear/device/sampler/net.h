@@ -12,15 +12,19 @@
 
 /* Nested uniform scrambling of reversed digits: the hash of Laine & Karras 2011 with constants by
  * N. Vegdahl ("Building a Better LK Hash", 2021), as Burley 2020 uses it. `seed` is a hash. */
-static inline cs_vuint cs_scramble_reversed(cs_vuint digits, cs_u32 seed)
-{
-    digits ^= digits * 0x3d20adeau;
-    digits += seed;
-    digits *= seed >> 16 | 1u;
-    digits ^= digits * 0x05526c56u;
-    digits ^= digits * 0x53a22864u;
-    return digits;
-}
+#define CS_DEFINE_SCRAMBLE(name, seed_type)                      \
+    static inline cs_vuint name(cs_vuint digits, seed_type seed) \
+    {                                                            \
+        digits ^= digits * 0x3d20adeau;                          \
+        digits += seed;                                          \
+        digits *= seed >> 16 | 1u;                               \
+        digits ^= digits * 0x05526c56u;                          \
+        digits ^= digits * 0x53a22864u;                          \
+        return digits;                                           \
+    }
+
+CS_DEFINE_SCRAMBLE(cs_scramble_reversed, cs_u32)
+CS_DEFINE_SCRAMBLE(cs_scramble_reversed_lanes, cs_vuint)
 
 /* The 32 bits of x in reverse order. */
 static inline cs_vuint cs_reverse_bits(cs_vuint x)
@@ -45,24 +49,32 @@ static inline cs_vuint cs_pascal(cs_vuint index)
 }
 
 /* A coordinate in [0, 1) from its reversed digits. `dimension` is its number among all slots. */
-static inline cs_vfloat cs_scrambled(cs_vuint digits, cs_u32 key, cs_u32 dimension)
-{
-    cs_u32 seed = cs_key(key, CS_KEY_DIMENSION + dimension);
-    return cs_unit(cs_reverse_bits(cs_scramble_reversed(digits, seed)));
-}
+#define CS_DEFINE_SCRAMBLED(name, key_type, key_of, scramble)                          \
+    static inline cs_vfloat name(cs_vuint digits, key_type key, cs_u32 dimension)      \
+    {                                                                                  \
+        return cs_unit(cs_reverse_bits(                                                \
+            scramble(digits, key_of(key, (key_type)(CS_KEY_DIMENSION + dimension))))); \
+    }
+
+CS_DEFINE_SCRAMBLED(cs_scrambled, cs_u32, cs_key, cs_scramble_reversed)
+CS_DEFINE_SCRAMBLED(cs_scrambled_lanes, cs_vuint, cs_key_families, cs_scramble_reversed_lanes)
 
 /* A (0,2)-pair of slot `slot` for element `element`. The element's place in the sequence is
  * shuffled so that every aligned run of 2^k elements stays one. */
-static inline cs_pair cs_shuffled_pair(cs_vuint element, cs_u32 key, cs_u32 slot)
-{
-    cs_vuint reversed =
-        cs_scramble_reversed(cs_reverse_bits(element), cs_key(key, CS_KEY_PAIRING + slot));
-    cs_vuint shuffled = cs_reverse_bits(reversed);
-    cs_pair point;
-    point.x = cs_scrambled(shuffled, key, CS_SLOT_WIDEST * slot);
-    point.y = cs_scrambled(cs_pascal(shuffled), key, CS_SLOT_WIDEST * slot + 1u);
-    return point;
-}
+#define CS_DEFINE_SHUFFLED_PAIR(name, key_type, key_of, scramble, scrambled)                     \
+    static inline cs_pair name(cs_vuint element, key_type key, cs_u32 slot)                      \
+    {                                                                                            \
+        cs_vuint shuffled = cs_reverse_bits(                                                     \
+            scramble(cs_reverse_bits(element), key_of(key, (key_type)(CS_KEY_PAIRING + slot)))); \
+        cs_pair point;                                                                           \
+        point.x = scrambled(shuffled, key, CS_SLOT_WIDEST * slot);                               \
+        point.y = scrambled(cs_pascal(shuffled), key, CS_SLOT_WIDEST * slot + 1u);               \
+        return point;                                                                            \
+    }
+
+CS_DEFINE_SHUFFLED_PAIR(cs_shuffled_pair, cs_u32, cs_key, cs_scramble_reversed, cs_scrambled)
+CS_DEFINE_SHUFFLED_PAIR(cs_shuffled_pair_lanes, cs_vuint, cs_key_families,
+                        cs_scramble_reversed_lanes, cs_scrambled_lanes)
 
 /* A (0,2)-pair of slot `slot`. Word 0 of the table must be the sample's element number. */
 static inline cs_pair cs_extra_net_pair(const cs_pattern *pattern, cs_sample_table table,

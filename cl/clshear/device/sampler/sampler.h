@@ -71,6 +71,37 @@ static inline cs_pair cs_draw_padding(const cs_pattern *pattern, cs_sample_table
     return point;
 }
 
+/* Whether cs_draw_padding_lanes knows the sampler's padding: that of nets. */
+static inline int cs_pads_lanes(cs_u32 sampler)
+{
+#define CS_PADS_net_pair 1
+#define CS_PADS_random 0
+#define CS_PADS_jittered 0
+#define CS_PADS_nrooks 0
+#define CS_PADS_multijittered 0
+#define CS_PADS_correlated 0
+#define CS_PADS_strong_array 0
+#define CS_PADS_partner 0
+#define CS_PADS_point_set 0
+#define CS_PADS_CASE(identifier, name, draw, light, extra, shape, words, progressive, about) \
+    case CS_SAMPLER_##identifier:                                                            \
+        return CS_PADS_##extra;
+    switch (sampler) {
+        CS_SAMPLER_LIST(CS_PADS_CASE)
+    }
+#undef CS_PADS_CASE
+    return 0;
+}
+
+/* As cs_draw_padding, for samples of several patterns: a key in each lane. Only where
+ * cs_pads_lanes.
+ */
+static inline cs_pair cs_draw_padding_lanes(const cs_pattern *pattern, cs_sample_table table,
+                                            cs_vuint key, cs_vuint index, cs_u32 slot)
+{
+    return cs_shuffled_pair_lanes(cs_sample_word_anywhere(pattern, table, 0u, index), key, slot);
+}
+
 /* The coordinates, in [0, 1), of slot `slot` of samples `index`: CS_SLOT_LIGHT or a later slot. The
  * preconditions are those of cs_draw. A slot of one coordinate has it in x. */
 static inline cs_pair cs_draw_extra(const cs_pattern *pattern, cs_sample_table table, cs_u32 key,
