@@ -290,6 +290,29 @@ static void wrong_materials_are_refused(void **state)
     clshear_scene_free(scene);
 }
 
+/* A roof that shines, where its material has it, is no light whose samples go by power: only rays
+ * find it, beside a sun behind the roof as well. By the tree it is one, and the floor is as bright:
+ * 5 standard errors, false alarms 1e-6. */
+static void rays_find_what_masks_let_shine(void **state)
+{
+    test_estimate found[2];
+    clshear_material roof = material_of(0.0f, 1.0f);
+    for (int c = 0; c < 3; c++)
+        roof.emission[c] = 1.0f;
+    roof.alpha_mode = CLSHEAR_ALPHA_MASK;
+    clshear_scene *scene = scene_of(*state, NULL, &roof);
+    for (int by_power = 0; by_power < 2; by_power++) {
+        clshear_settings *settings = looking_at_floor(1.0, 0.5, 0);
+        test_set(settings, CLSHEAR_SUN, "0,1,0,2,2,2,0.5");
+        test_set(settings, CLSHEAR_EMITTERS, by_power ? "power" : "tree");
+        found[by_power] = mean_of_render(scene, settings);
+    }
+    print_message("by the tree %.4f, by power %.4f\n", found[0].mean, found[1].mean);
+    assert_above(found[0].mean, 0.5);
+    assert_near(found[0].mean, found[1].mean, 5.0 * hypot(found[0].error, found[1].error));
+    clshear_scene_free(scene);
+}
+
 /* A floor under a light; beside it may be a quad, near the floor and all but black, that only
  * both ways to find it together do justice to. */
 typedef struct lit_floor {
@@ -352,6 +375,7 @@ int main(void)
         cmocka_unit_test(no_reflection_is_lambert),
         cmocka_unit_test(maps_say_what_they_should),
         cmocka_unit_test(slab_of_glass),
+        cmocka_unit_test(rays_find_what_masks_let_shine),
         cmocka_unit_test(small_lights_need_no_last_ray),
         cmocka_unit_test(wrong_materials_are_refused),
     };

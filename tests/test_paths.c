@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "clshear/integrands.h"
 #include "kernels/scene.h"
 
 static const uint32_t quad[6] = {0, 1, 2, 0, 2, 3};
@@ -83,6 +84,42 @@ static void light_in_a_closed_cube(void **state)
         clshear_film_free(film);
         clshear_settings_free(settings);
     }
+    clshear_scene_free(scene);
+}
+
+/* Paths from single points find what those of a picture find, on average: they draw all numbers but
+ * the points' own. A point light, since those have a fixed place on area lights. 5 standard errors
+ * of 4096 points and 4096 samples: false alarms 1e-6. */
+static void points_have_all_paths(void **state)
+{
+    enum {
+        POINTS = 4096
+    };
+    static float points[POINTS][4], found[POINTS][3];
+    double sum = 0.0, square = 0.0;
+    const clshear_light light = {
+        .kind = CLSHEAR_LIGHT_POINT, .position = {0.2f, -0.1f, 0.4f}, .colour = {1, 1, 1}};
+    clshear_scene *scene = closed_cube(*state, 0.8f, 0.0f);
+    test_add_light(scene, &light);
+    clshear_settings *settings = settings_at("0.1,0.2,0.3", "0,0.4,-1", 60.0, POINTS, 3);
+    for (int i = 0; i < POINTS; i++) {
+        points[i][0] = ((float)(i % 64) + 0.5f) / 64.0f;
+        points[i][1] = ((float)(i / 64) + 0.5f) / 64.0f;
+    }
+    test_ok(clshear_radiance(scene, settings, 1, 2, points[0], POINTS, found[0]));
+    for (int i = 0; i < POINTS; i++) {
+        sum += (double)found[i][0] / POINTS;
+        square += (double)found[i][0] * (double)found[i][0] / POINTS;
+    }
+    clshear_film *film = test_render(scene, settings);
+    const double picture = (double)clshear_film_channel(film, "R")[2 * 4 + 1];
+    const double error = sqrt((square - sum * sum) / POINTS +
+                              (double)clshear_film_channel(film, "Variance.R")[2 * 4 + 1]);
+    print_message("points %.5f, picture %.5f, error %.5f\n", sum, picture, error);
+    assert_near(sum, picture, 5.0 * error);
+    assert_below(error, 0.03 * picture);
+    clshear_film_free(film);
+    clshear_settings_free(settings);
     clshear_scene_free(scene);
 }
 
@@ -317,6 +354,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(light_in_a_closed_cube),
+        cmocka_unit_test(points_have_all_paths),
         cmocka_unit_test(both_ways_to_find_a_light_agree),
         cmocka_unit_test(clamping_darkens),
         cmocka_unit_test(samplers_agree),

@@ -7,7 +7,7 @@
 /* What a surface on a path needs pairs of numbers for. */
 enum {
     CS_DRAW_LIGHT,  /* the place on area lights; the first surface has the tuple's own slot */
-    CS_DRAW_BSDF,   /* the direction that goes on */
+    CS_DRAW_BSDF,   /* the direction that goes on; likewise, if that is drawn with the tuple */
     CS_DRAW_CHOICE, /* between the lobes of a BSDF; whether the path goes on */
     CS_DRAW_PURPOSES
 };

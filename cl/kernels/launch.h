@@ -13,7 +13,7 @@ enum {
     /* Floats of a point at which the radiance kernel evaluates: a tuple and the time. */
     CS_EVALUATED = CS_DIMENSIONS + 1,
     /* Updates of pixels' states, of CS_FLUSH_BLOCKS blocks each, whose paths are followed together,
-     * but with packets of one lane. */
+     * except with packets of one lane. */
     CS_POOL_FLUSHES = 4
 };
 
@@ -49,7 +49,7 @@ typedef struct cs_launch {
     cs_u32 page_first;  /* number, in the buffer's order, of the pixel that it begins with */
     cs_u32 shear_mode;  /* CS_SHEAR_ */
     cs_u32 lights;
-    cs_u32 area_lights; /* lights that are sampled by a pair of the tuple */
+    cs_u32 area_lights; /* lights that are sampled by a pair of the tuple, or that rays find */
     cs_u32 only_rays;   /* whether some surfaces shine that only rays are sure to find */
     cs_u32 bounces;     /* surfaces after the first one that scatter light */
     cs_u32 see_through; /* whether some surfaces let rays pass: alpha */

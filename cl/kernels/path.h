@@ -11,8 +11,8 @@
 #include "kernels/path/scatter.h"
 #include "kernels/path/shadow.h"
 
-/* The points opposite in the unit square, by half its side along both axes. The points of a net and
- * these make a net together, so both are as well stratified with the rest of their tuples. */
+/* The points opposite in the unit square, by half its side along both axes. That takes the boxes of
+ * a net to each other, so these points are as well stratified with the rest of their tuples. */
 static inline cs_pair cs_opposite(cs_pair pair)
 {
     pair.x += pair.x < 0.5f ? 0.5f : -0.5f;
@@ -31,7 +31,7 @@ static inline cs_numbers cs_draw_numbers(const cs_paths *paths, int p)
     numbers.light = paths->light[p];
     if (paths->depth > 0u && launch->area_lights > 0u)
         numbers.light = cs_draw_at(&draws, paths->depth, CS_DRAW_LIGHT);
-    if (paths->depth == 0u && cs_has_light_pair(launch))
+    if (paths->depth == 0u && paths->paired)
         numbers.bsdf = cs_opposite(numbers.light);
     else
         numbers.bsdf = cs_draw_at(&draws, paths->depth, CS_DRAW_BSDF);

@@ -81,6 +81,7 @@ CS_KERNEL void cs_radiance_at(const cs_launch launch, const uint x, const uint y
     cs_draws draws = {&launch.pattern, 0, (cs_vuint)(launch.seed), number};
     cs_paths paths;
     paths.launch = &launch;
+    paths.paired = 0;
     cs_path_begin(&paths, 0, &ray, light, &draws, point[CS_AT_FILM] == point[CS_AT_FILM]);
 #if CS_HAS(MOVING)
     paths.path[0].time = scene.time;

@@ -41,8 +41,8 @@ static inline cs_ray cs_camera_ray(const cs_launch *launch, const cs_eye *eye,
 
 #if CS_HAS(PATHS)
 /* Traces the packets of up to CS_UPDATES updates, of one pixel or of several. Their paths are
- * followed together, or pixel by pixel where samplers do not know several. radiance: of each packet,
- * CS_TOGETHER for each update. */
+ * followed together, or pixel by pixel where samplers do not know several. radiance: of each
+ * packet, CS_TOGETHER for each update. */
 static inline void cs_trace_packets(const cs_launch *launch, const cs_scene_buffers *scene,
                                     cs_sample_table sample_table, const cs_place *places,
                                     const cs_drawn *drawn, int flushes, cs_radiance *radiance)
@@ -51,6 +51,7 @@ static inline void cs_trace_packets(const cs_launch *launch, const cs_scene_buff
     cs_radiance *wanted[CS_POOL];
     int count = 0, pools = cs_pads_lanes(launch->pattern.sampler);
     paths.launch = launch;
+    paths.paired = cs_has_light_pair(launch);
     for (int f = 0; f < flushes; f++)
         for (int packet = 0; packet < drawn[f].count; packet++) {
             const cs_place *place = places + drawn[f].place[packet];

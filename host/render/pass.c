@@ -141,7 +141,6 @@ static clshear_status timed_launch(cs_pass *pass, const cs_batch *batch, const c
 static clshear_status pass_batch(cs_pass *pass, const cs_batch *batch, cs_u32 first, cs_u32 last,
                                  cs_error *error)
 {
-    const size_t least = 64;
     cs_launch launch = pass->launch;
     launch.pattern = batch->pattern;
     launch.first_block = first;
@@ -151,6 +150,7 @@ static clshear_status pass_batch(cs_pass *pass, const cs_batch *batch, cs_u32 fi
         (pass->features & CS_FEATURE_PATHS) != 0 && cs_pads_lanes(batch->pattern.sampler);
     launch.pixels_each = cs_pixels_together(
         last - first, (cs_u32)cs_device_packet(pass->scene->context->device), pools);
+    const size_t least = (size_t)64 * launch.pixels_each;
     size_t page = 0;
     while (pass->place.pixel < batch->pixel_count) {
         const size_t pixel = pass->place.pixel;

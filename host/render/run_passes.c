@@ -12,6 +12,15 @@ cs_u32 cs_area_lights(const cs_job *job)
     return job->lighting.area_count + (cs_u32)job->scene->device_scene.needs.textured_emission;
 }
 
+/* Whether some surfaces shine that lights' samples leave out: by power, all whose radiance varies.
+ */
+static int shines_for_rays_only(const cs_job *job)
+{
+    const cs_device_scene *world = &job->scene->device_scene;
+    const int by_power = cs_integer(&job->settings, EMITTERS) == CLSHEAR_EMITTERS_POWER;
+    return world->needs.textured_emission || (by_power && world->emitters > world->even_emitters);
+}
+
 cs_pass cs_job_pass(const cs_job *job)
 {
     const cs_lighting *lighting = &job->lighting;
@@ -29,7 +38,7 @@ cs_pass cs_job_pass(const cs_job *job)
                                 .shear_mode = cs_shear_mode(job->shear_kind),
                                 .lights = lighting->count,
                                 .area_lights = cs_area_lights(job),
-                                .only_rays = (cs_u32)needs->textured_emission,
+                                .only_rays = (cs_u32)shines_for_rays_only(job),
                                 .see_through = (cs_u32)needs->see_through,
                                 .bounces = (cs_u32)cs_integer(&job->settings, BOUNCES),
                                 .clamp = (float)cs_number(&job->settings, CLAMP)},

@@ -93,13 +93,11 @@ static inline cs_bsdf_value cs_bsdf_eval(const cs_bsdf_view *view, const cs_vflo
  * number. */
 static inline cs_vfloat cs_bsdf_most_density(const cs_bsdf_view *view)
 {
-    cs_vfloat most = (cs_vfloat)(CS_INVERSE_PI);
+    cs_vint lambert = cs_bsdf_lanes(view->surface, CS_BSDF_LAMBERT);
+    cs_vfloat most = lambert ? (cs_vfloat)(CS_INVERSE_PI) : (cs_vfloat)(INFINITY);
 #if CS_HAS(MATERIALS)
     cs_vint standard = cs_bsdf_lanes(view->surface, CS_BSDF_STANDARD);
     if (cs_any(standard)) most = standard ? cs_standard_most_density(&view->standard) : most;
-    most = cs_bsdf_lanes(view->surface, CS_BSDF_GLASS) ? (cs_vfloat)(INFINITY) : most;
-#else
-    (void)view;
 #endif
     return most;
 }

@@ -10,7 +10,7 @@
 #include "kernels/launch.h"
 #include "kernels/light/light.h"
 
-/* How much denser they are to be: the others' weight is less than 1 in 17. */
+/* How much denser they are to be: the others' weight is at most 1 in 17. */
 #define CS_DENSE_ENOUGH 4.0f
 
 /* What the density of an area light's samples, per steradian, is at least where it shines on

@@ -64,6 +64,7 @@ enum {
 typedef struct cs_paths {
     const cs_launch *launch;
     cs_sample_table table;
+    int paired; /* whether `light` is drawn with the tuples, so that its opposite may be used too */
     cs_pair light[CS_POOL];     /* of each packet of samples: the tuples' pairs for lights */
     cs_radiance found[CS_POOL]; /* of each, so far */
     cs_path path[CS_POOL];
