@@ -170,9 +170,10 @@ static void addresses_are_checked(void **state)
     test_fixture *made = *state;
     clshear_settings *settings = settings_of(made, 1);
     clshear_film *film = NULL;
-    static const char *const bad[] = {
-        "",     "localhost", ":14158",    "localhost:", "a:0",     "a:65536",
-        "a:1x", "a:-1",      "::1:14158", "a:999999",   "[]:14158"};
+    static const char *const bad[] = {"localhost", ":14158", "localhost:", "a:0",      "a:65536",
+                                      "a:1x",      "a:-1",   "::1:14158",  "a:999999", "[]:14158"};
+    test_refused(clshear_settings_set_text(settings, CLSHEAR_DISPLAY, ""), CLSHEAR_BAD_ARGUMENT,
+                 "display is empty");
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         test_set(settings, CLSHEAR_DISPLAY, "%s", bad[i]);
         test_refused(clshear_render(made->scene, settings, &film), CLSHEAR_BAD_ARGUMENT,
