@@ -205,7 +205,7 @@ static plan choose_plan(const cs_pilot_picture *pilot, const measure *by, const 
                         const cs_range *range, census *all)
 {
     static const double weights[] = {1.0, 0.3, 0.1};
-    const double clear = 1.1; /* the least gain for which bright pixels may have less than even */
+    const double clear = 1.03; /* the least gain for which bright pixels may have less than even */
     const double pixels = (double)pilot->width * (double)pilot->height;
     plan best = {.least = range->even, .even = range->even, .weight = weights[0]};
     best.most = cs_power_of_two(range->most / 16 < range->mean ? range->most : 16 * range->mean);

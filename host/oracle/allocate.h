@@ -42,7 +42,7 @@ cs_u32 cs_power_of_two(cs_u32 count);
  *
  * Certain pixels get the fewest, and what they leave goes to the others. Of these none gets less
  * than `even`, so that none is worse than with equal samples, whatever the pilot has overlooked;
- * but where less than `even` in bright pixels promises a gain of 10 % at least, in the root of the
+ * but where less than `even` in bright pixels promises a gain of 3 % at least, in the root of the
  * product of absolute and relative error, and neither of them to rise, these may get `least`. Dark
  * ones may not: half the picture's mean intensity or less can hide a rare bright sample that
  * decides the relative error.
