@@ -12,8 +12,8 @@ cs_u32 cs_area_lights(const cs_job *job)
     return job->lighting.area_count + (cs_u32)job->scene->device_scene.needs.textured_emission;
 }
 
-/* Whether some surfaces shine that lights' samples leave out: by power, all whose radiance varies.
- */
+/* Whether some surfaces shine that no light's samples find. If emitters are sampled by power, those
+ * are the ones whose radiance varies or whose material lets rays pass. */
 static int shines_for_rays_only(const cs_job *job)
 {
     const cs_device_scene *world = &job->scene->device_scene;

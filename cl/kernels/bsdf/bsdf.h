@@ -89,8 +89,8 @@ static inline cs_bsdf_value cs_bsdf_eval(const cs_bsdf_view *view, const cs_vflo
     return value;
 }
 
-/* What no density with which cs_bsdf_sample draws a direction exceeds; INFINITY: there is no such
- * number. */
+/* An upper bound of the density, per steradian, with which cs_bsdf_sample draws any direction;
+ * INFINITY if none is known. */
 static inline cs_vfloat cs_bsdf_most_density(const cs_bsdf_view *view)
 {
     cs_vint lambert = cs_bsdf_lanes(view->surface, CS_BSDF_LAMBERT);

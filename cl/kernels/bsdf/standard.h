@@ -208,7 +208,8 @@ static inline cs_vfloat cs_standard_density(const cs_standard *s, const cs_meeti
     return m->cosine < 0.0f ? s->chance_through * facets + s->chance_behind * even : front;
 }
 
-/* What it never exceeds: facets are densest at the normal. */
+/* An upper bound of cs_standard_density over all directions `in`. The distribution of facets is
+ * greatest at the surface's normal, where it is 1 / (pi width^2). */
 static inline cs_vfloat cs_standard_most_density(const cs_standard *s)
 {
     cs_vfloat facets = (s->chance_facets + s->chance_through) * cs_facet_part(s->cosine, s->width) /

@@ -146,7 +146,8 @@ static inline void cs_lat_long_radiance(const cs_lat_long *image, cs_vfloat x, c
     cs_vfloat down = place_y - cs_from_whole(above);
     cs_vint right = left + 1 < width ? left + 1 : (cs_vint)(0);
     cs_vint upper = above * width, lower = above + 1 < height ? upper + width : upper;
-    /* Four numbers of the three: what follows the last texel are the tables, or a number. */
+    /* Each load reads four numbers, a texel has three. The tables, or one unused number, follow the
+     * last texel. */
     cs_vfloat near[4], far[4];
     cs_blend_four(image->texels, 3 * (upper + left), 3 * (lower + left), down, near);
     cs_blend_four(image->texels, 3 * (upper + right), 3 * (lower + right), down, far);

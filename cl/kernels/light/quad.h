@@ -18,8 +18,8 @@ static inline cs_vfloat cs_quad_density(CS_GLOBAL const cs_light *light, const c
     return square * sqrt(square) / (light->parameters[3] * cs_max(facing, (cs_vfloat)(1e-20f)));
 }
 
-/* What that is at least, from `point`: of the nearest place of the sphere around the quad, as if it
- * faced the point. */
+/* A lower bound, per steradian, of cs_quad_density at `point` over all places of the quad. It takes
+ * the least distance of a sphere around the quad, and the quad as facing the point. */
 static inline cs_vfloat cs_quad_least_density(CS_GLOBAL const cs_light *light,
                                               const cs_vfloat *point)
 {

@@ -1,8 +1,9 @@
-/* Where lights' own samples do without the rays that BSDFs draw. Device only.
+/* Whether the samples of lights suffice without the rays that BSDFs draw. Device only.
  *
- * Lights that look small are drawn so much more densely by their own samples that those have nearly
- * all the weight (power heuristic). Where that is certain, they get all of it, and a ray that could
- * only find lights is not traced. */
+ * The power heuristic weighs both by the squares of their densities. A light that looks small has
+ * much the greater density by its own samples. Where bounds of both densities prove that, the
+ * light's samples get the whole weight, and a path's last ray, which only finds lights, is not
+ * traced. */
 #ifndef CS_LIGHT_SUFFICE_H
 #define CS_LIGHT_SUFFICE_H
 
@@ -10,11 +11,11 @@
 #include "kernels/launch.h"
 #include "kernels/light/light.h"
 
-/* How much denser they are to be: the others' weight is at most 1 in 17. */
+/* Least ratio of a light's density to the BSDF's. The BSDF's weight is then at most 1 / 17. */
 #define CS_DENSE_ENOUGH 4.0f
 
-/* What the density of an area light's samples, per steradian, is at least where it shines on
- * `point`; 0: nothing is known of it. */
+/* A lower bound of the density, per steradian, of an area light's samples for `point`; 0 if none is
+ * known. */
 static inline cs_vfloat cs_least_area_density(CS_GLOBAL const cs_light *light,
                                               const cs_vfloat *point)
 {
@@ -24,7 +25,7 @@ static inline cs_vfloat cs_least_area_density(CS_GLOBAL const cs_light *light,
     return (cs_vfloat)(0.0f);
 }
 
-/* The same of any light; INFINITY where no ray finds it. */
+/* The same for any light; INFINITY for one that no ray finds. */
 static inline cs_vfloat cs_least_density(CS_GLOBAL const cs_light *light, const cs_vfloat *point)
 {
 #define DELTA (cs_vfloat)(INFINITY)
@@ -41,7 +42,7 @@ static inline cs_vfloat cs_least_density(CS_GLOBAL const cs_light *light, const 
     return (cs_vfloat)(0.0f);
 }
 
-/* Lanes in which the samples of all lights suffice. */
+/* Lanes in which the samples of all lights suffice. view: of the surface that they light. */
 static inline cs_vint cs_lights_suffice(const cs_scene_buffers *scene, const cs_launch *launch,
                                         const cs_bsdf_view *view)
 {

@@ -26,8 +26,8 @@ static inline cs_vint cs_is_open(const cs_surface *surface, const cs_vfloat *tow
 }
 
 /* The nearest surfaces along the rays up to hit->distance; returns the lanes that have one. Lanes
- * without one get distance 0. lights: their number. camera: 1 for rays from the
- * lens. These walk together: the pixel's footprint in the scene is small, however wide the lens. */
+ * without one get distance 0. lights: their number. camera: 1 for rays from the lens. These walk
+ * together: the pixel's footprint in the scene is small, however wide the lens. */
 static inline cs_vint cs_find_surfaces(const cs_scene_buffers *scene, cs_u32 lights, int camera,
                                        const cs_ray *ray, cs_hit *hit, cs_surface *surface)
 {

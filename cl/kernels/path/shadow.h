@@ -74,8 +74,8 @@ static inline void cs_trace_shadows(const cs_scene_buffers *scene, cs_paths *pat
 }
 
 /* Lets what light number `number` reflects towards the path wait for its shadow rays, as
- * cs_add_light adds it for direct light alone. alone: lanes in which no ray of the BSDF shares it.
- */
+ * cs_add_light adds it for direct light alone. alone: lanes in which the light's samples have the
+ * whole weight, since no ray of the BSDF follows. */
 static inline void cs_path_add_light(const cs_scene_buffers *scene, cs_paths *paths,
                                      const cs_path *path, const cs_bsdf_view *view,
                                      const cs_vfloat *origin, const cs_light_sample *light,

@@ -71,7 +71,8 @@ static inline cs_pair cs_draw_padding(const cs_pattern *pattern, cs_sample_table
     return point;
 }
 
-/* Whether cs_draw_padding_lanes knows the sampler's padding: that of nets. */
+/* 1 if cs_draw_padding_lanes draws the sampler's padding, which is that of nets; else 0. A new
+ * function for padding gets a line here. */
 static inline int cs_pads_lanes(cs_u32 sampler)
 {
 #define CS_PADS_net_pair 1
@@ -93,9 +94,8 @@ static inline int cs_pads_lanes(cs_u32 sampler)
     return 0;
 }
 
-/* As cs_draw_padding, for samples of several patterns: a key in each lane. Only where
- * cs_pads_lanes.
- */
+/* As cs_draw_padding, for samples of several patterns, with the key of each lane's pattern. The
+ * sampler must be one for which cs_pads_lanes is 1. */
 static inline cs_pair cs_draw_padding_lanes(const cs_pattern *pattern, cs_sample_table table,
                                             cs_vuint key, cs_vuint index, cs_u32 slot)
 {
