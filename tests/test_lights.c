@@ -211,6 +211,29 @@ static void studio_lights_what_has_no_light(void **state)
     clshear_scene_free(scene);
 }
 
+/* A camera among things in the open, within their bounding box, has the sky's light: one in the eye
+ * would burn what is near it. */
+static void studio_leaves_the_open_to_the_sky(void **state)
+{
+    static const float corners[27] = {-9, 0, -9, 9, 0,  -9, 9,  0,  9, -9, 0, 9,    8, 0,
+                                      8,  8, 9,  8, -8, 0,  -8, -8, 9, -8, 8, 0.5f, 8};
+    static const uint32_t faces[12] = {0, 1, 2, 0, 2, 3, 4, 5, 8, 6, 7, 0};
+    const clshear_mesh mesh = {.positions = corners,
+                               .indices = faces,
+                               .vertex_count = 9,
+                               .triangle_count = 4,
+                               .diffuse = {0.5f, 0.5f, 0.5f}};
+    clshear_scene *scene = test_meshes(*state, &mesh, 1);
+    clshear_settings *settings = test_looking_down(0.0, 64);
+    test_set(settings, CLSHEAR_EYE, "0,0.5,0");
+    test_set(settings, CLSHEAR_TARGET, "0,0,0");
+    test_ok(clshear_light_complete(scene, settings));
+    assert_true(clshear_settings_is_set(settings, CLSHEAR_SUN));
+    assert_false(clshear_settings_is_set(settings, CLSHEAR_LIGHT));
+    clshear_settings_free(settings);
+    clshear_scene_free(scene);
+}
+
 /* In a closed box there is no sky: the light in the eye. */
 static void studio_lights_the_inside(void **state)
 {
@@ -242,6 +265,7 @@ int main(void)
         cmocka_unit_test(sun_from_the_side),
         cmocka_unit_test(studio_lights_what_has_no_light),
         cmocka_unit_test(studio_lights_the_inside),
+        cmocka_unit_test(studio_leaves_the_open_to_the_sky),
         cmocka_unit_test(wrong_lights_are_refused),
     };
     return cmocka_run_group_tests(tests, test_open_context, test_close_context);

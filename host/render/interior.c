@@ -85,12 +85,18 @@ static float distance_of(const interior *in, const float *from, const float *dir
     return near;
 }
 
-static int is_enclosed(const interior *in, const float *point)
+/* The part of the rays from a point, all around, that leave the scene. */
+static float part_leaving(const interior *in, const float *point)
 {
     int left = 0;
     for (int i = 0; i < DIRECTIONS; i++)
         left += !isfinite(distance_of(in, point, in->directions[i], INFINITY));
-    return (float)left <= most_leaving * DIRECTIONS;
+    return (float)left / DIRECTIONS;
+}
+
+static int is_enclosed(const interior *in, const float *point)
+{
+    return part_leaving(in, point) <= most_leaving;
 }
 
 static void find_things(interior *in, const uint32_t *parts)
@@ -232,18 +238,37 @@ static place choose_place(const interior *in)
     return best;
 }
 
+/* Fills in all but the things. */
+static interior interior_of(const clshear_scene *scene, int z_up)
+{
+    interior in = {.scene = scene, .up = z_up ? 2 : 1, .across = {0, z_up ? 1 : 2}};
+    float extent[3];
+    cs_vec_subtract(scene->scene.bounds[1], scene->scene.bounds[0], extent);
+    in.size = sqrtf(cs_vec_dot(extent, extent));
+    spread(in.directions);
+    return in;
+}
+
+float cs_interior_distance(const clshear_scene *scene, const float *from, const float *direction)
+{
+    const interior in = interior_of(scene, 0);
+    return distance_of(&in, from, direction, INFINITY);
+}
+
+float cs_interior_sky(const clshear_scene *scene, const float *point)
+{
+    const interior in = interior_of(scene, 0);
+    return part_leaving(&in, point);
+}
+
 clshear_status cs_interior_view(const clshear_scene *scene, int z_up, int *is_room, cs_view *view,
                                 cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_array parts = {.item_size = sizeof(uint32_t)};
-    interior in = {.scene = scene, .up = z_up ? 2 : 1, .across = {0, z_up ? 1 : 2}};
-    float extent[3];
+    interior in = interior_of(scene, z_up);
     *is_room = 0;
     CS_TRY(cs_scene_parts(&scene->scene, &parts, error));
-    cs_vec_subtract(scene->scene.bounds[1], scene->scene.bounds[0], extent);
-    in.size = sqrtf(cs_vec_dot(extent, extent));
-    spread(in.directions);
     find_things(&in, parts.items);
     if (in.count < LEAST_ENCLOSED) goto done;
     const place best = choose_place(&in);

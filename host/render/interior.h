@@ -10,4 +10,12 @@
 clshear_status cs_interior_view(const clshear_scene *scene, int z_up, int *is_room, cs_view *view,
                                 cs_error *error);
 
+/* The part of the directions around a point, 0 to 1, in which nothing hides the sky: surfaces with
+ * alpha do not. The point is relative to the scene's origin. */
+float cs_interior_sky(const clshear_scene *scene, const float *point);
+
+/* The distance, in lengths of `direction`, of the first surface without alpha; INFINITY if there is
+ * none. `from` is relative to the scene's origin. */
+float cs_interior_distance(const clshear_scene *scene, const float *from, const float *direction);
+
 #endif
