@@ -127,14 +127,18 @@ static clshear_status add_colours(gltf_primitive *primitive, long long accessor)
     gltf_reader *reader = primitive->reader;
     float *values = NULL;
     size_t given = 0, count = 0;
-    clshear_status status = gltf_read_floats(reader, accessor, 3, &values, &count, &given);
+    const cs_material_description *material =
+        (const cs_material_description *)reader->model->materials.items + primitive->material;
+    const int is_opaque = material->alpha_mode == CS_ALPHA_OPAQUE;
+    clshear_status status = gltf_read_floats(reader, accessor, 4, &values, &count, &given);
     if (status != CLSHEAR_OK) return status;
     if (count != primitive->count) status = wrong_count(primitive, "colours", count);
     for (size_t i = 0; i < count && status == CLSHEAR_OK; i++) {
+        float *colour = values + 4 * i;
         for (size_t c = 0; c < 3; c++)
-            if (!(values[3 * i + c] >= 0.0f && values[3 * i + c] <= 1e15f))
-                values[3 * i + c] = 0.0f;
-        status = cs_model_set_colour(reader->model, primitive->first_position + i, values + 3 * i,
+            if (!(colour[c] >= 0.0f && colour[c] <= 1e15f)) colour[c] = 0.0f;
+        reader->model->fades |= given == 4 && colour[3] < 1.0f && !is_opaque;
+        status = cs_model_set_colour(reader->model, primitive->first_position + i, colour,
                                      reader->error);
     }
     free(values);
