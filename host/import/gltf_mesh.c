@@ -163,19 +163,31 @@ static clshear_status corner_of(const gltf_primitive *primitive, const uint32_t 
     return CLSHEAR_OK;
 }
 
+/* Whether the node mirrors its mesh: the front of a triangle is then where its corners go round
+ * clockwise, as solids need it. Joints, which move a skin in the node's place, are taken not to. */
+static int turns_over(const gltf_primitive *primitive)
+{
+    const double *m = primitive->matrix;
+    double across[3];
+    cs_vec_cross_double(m, m + 4, across);
+    return primitive->skin->which == NULL && cs_vec_dot_double(across, m + 8) < 0.0;
+}
+
 /* Triangles (4), a strip (5) or a fan (6) of `count` corners. */
 static clshear_status add_triangles(const gltf_primitive *primitive, int mode,
                                     const uint32_t *indices, size_t count)
 {
     gltf_reader *reader = primitive->reader;
     const size_t triangles = mode == 4 ? count / 3 : count > 2 ? count - 2 : 0;
+    const int is_mirrored = turns_over(primitive);
     for (size_t i = 0; i < triangles; i++) {
         size_t places[3] = {i, i + 1 + (i & 1), i + 2 - (i & 1)};
         cs_corner corners[3];
         for (size_t k = 0; k < 3; k++) {
             if (mode == 4) places[k] = 3 * i + k;
             if (mode == 6) places[k] = k == 0 ? 0 : i + k;
-            clshear_status status = corner_of(primitive, indices, places[k], &corners[k]);
+            const size_t at = is_mirrored ? 2 - k : k;
+            clshear_status status = corner_of(primitive, indices, places[k], &corners[at]);
             if (status != CLSHEAR_OK) return status;
         }
         clshear_status status =
@@ -226,6 +238,11 @@ static clshear_status bind_skin(gltf_primitive *primitive, const json_t *attribu
     const json_t *accessor = gltf_at(primitive->reader, "accessors", position);
     if (accessor == NULL) return CLSHEAR_BAD_FILE;
     const long long count = gltf_index(accessor, "count");
+    if (primitive->skin->joint_count > 0 && json_object_get(attributes, "JOINTS_1") != NULL)
+        cs_warn(primitive->reader->model->log,
+                "%s: %s: more than four joints of a vertex are not supported; the first four move "
+                "it",
+                primitive->reader->model->path, primitive->place);
     return gltf_skin_bind(primitive->reader, attributes, count > 0 ? (size_t)count : 0,
                           primitive->skin);
 }
@@ -239,7 +256,8 @@ static clshear_status add_primitive(gltf_primitive *primitive, const json_t *jso
     const long long position = gltf_index(attributes, "POSITION");
     char set[16];
     primitive->first_normal = primitive->first_texture = CS_NO_INDEX;
-    if (gltf_extension(json, "KHR_draco_mesh_compression") != NULL && position == -1)
+    if (gltf_extension(json, "KHR_draco_mesh_compression") != NULL &&
+        !gltf_has_bytes(reader, position))
         return gltf_complain(reader, primitive->place, -1,
                              "needs KHR_draco_mesh_compression, which is not supported");
     if (position == -1) return CLSHEAR_OK;
