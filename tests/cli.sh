@@ -18,6 +18,9 @@ refuse 2 "no scene given" --
 refuse 2 "did you mean --fov?" -- "$cornell" --fvo 30
 refuse 2 "did you mean --spp?" -- "$cornell" --sp 30
 refuse 2 "unknown flag --zzzzzzzzzz" -- "$cornell" --zzzzzzzzzz
+refuse 2 "unknown flag -x; see" -- "$cornell" -x
+cp "$cornell" ./-dash.obj
+expect 0 "" -- --width 8 --height 8 --spp 1 --out dash.exr -- -dash.obj
 refuse 2 "--spp 0: must be a whole number" -- "$cornell" --spp 0
 refuse 2 "--spp 1e99: must be" -- "$cornell" --spp 1e99
 refuse 2 "--spp -4: must be" -- "$cornell" --spp -4

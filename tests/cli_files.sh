@@ -14,9 +14,9 @@ case $output in *"100 %"*) ;; *) wrong "terminal: $output" ;; esac
 longest=$(echo "$output" | tr '\r' '\n' | awk '/ %/ && length > most { most = length } END { print most }')
 [ "$longest" -le 19 ] || wrong "a line of progress has $longest columns of 20"
 
-# Ctrl-C, kill and a closed terminal: what was done is written, with true counts, and the exit code
-# says so.
-for signal in INT:130 TERM:143 HUP:129; do
+# Ctrl-C, kill, a closed terminal and a spent limit of processor time: what was done is written, with
+# true counts, and the exit code says so.
+for signal in INT:130 TERM:143 HUP:129 XCPU:152; do
     rm -f h.exr h.txt
     "$program" "$cornell" --spp 200000 --width 64 --height 64 --out h.exr 2>h.txt &
     child=$!
@@ -28,6 +28,17 @@ for signal in INT:130 TERM:143 HUP:129; do
     [ -s h.exr ] || wrong "$signal: no picture"
     oiiotool --info h.exr | grep -q "64 x   64, 13 channel" || wrong "$signal: bad file"
 done
+
+# A limit on the size of files is told, and costs no picture.
+"$program" "$cornell" --quiet --spp 1 --replicates 1 --width 400 --height 400 --out big.exr
+cp big.exr kept.exr
+output=$(
+    ulimit -f 2048 # PoCL's cache stays below
+    "$program" "$cornell" --quiet --spp 1 --replicates 1 --width 400 --height 400 --out big.exr 2>&1
+)
+[ $? -eq 1 ] || wrong "limit of files: exit code"
+case $output in *"File too large"*) ;; *) wrong "limit of files: $output" ;; esac
+cmp -s big.exr kept.exr || wrong "limit of files: the picture is lost"
 
 # SIGUSR1 asks for the picture so far; the render goes on, and its checkpoint is gone when it is done.
 rm -f h.exr h.txt

@@ -129,8 +129,8 @@ static char *gltf_buffer_uri(void)
     memcpy(bytes + 48, pairs, sizeof pairs);
     memcpy(bytes + 64, others, sizeof others);
     memcpy(bytes + 96, indices, sizeof indices);
-    for (int i = 0; i < 4; i++)
-        memcpy(bytes + 104 + 4 * i, (const unsigned char[]){255, 0, 51, 255}, 4);
+    for (int i = 0; i < 4; i++) /* the last one fades */
+        memcpy(bytes + 104 + 4 * i, (const unsigned char[]){255, 0, 51, i == 3 ? 128 : 255}, 4);
     size_t used = (size_t)snprintf(uri, sizeof uri, "data:;base64,");
     for (size_t i = 0; i < sizeof bytes; i += 3) {
         const uint32_t word = (uint32_t)bytes[i] << 16 | (uint32_t)bytes[i + 1] << 8 | bytes[i + 2];

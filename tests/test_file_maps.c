@@ -2,6 +2,7 @@
 #include "material_scenes.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "image/image_io.h"
 #include "import/transfer.h"
@@ -105,6 +106,39 @@ static void maps_of_mtl(void **state)
     cs_scene_free(&scene);
 }
 
+/* A PNG of one texel, (128, 128, 255), whose gAMA chunk says 1 / 2.2. */
+static void gamma_of_png(void **state)
+{
+    static const unsigned char picture[] = {
+        0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44,
+        0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x90,
+        0x77, 0x53, 0xde, 0x00, 0x00, 0x00, 0x04, 0x67, 0x41, 0x4d, 0x41, 0x00, 0x00, 0xb1, 0x8f,
+        0x0b, 0xfc, 0x61, 0x05, 0x00, 0x00, 0x00, 0x0c, 0x49, 0x44, 0x41, 0x54, 0x78, 0xda, 0x63,
+        0x68, 0x68, 0xf8, 0x0f, 0x00, 0x03, 0x83, 0x02, 0x00, 0x3e, 0x58, 0x28, 0x25, 0x00, 0x00,
+        0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+    (void)state;
+    test_bytes("gamma.png", picture, sizeof picture);
+    cs_scene scene = material_scene_mtl("Kd 1 1 1\nmap_Kd gamma.png");
+    expect_texel(&scene, base_of(&scene), pow(128.0 / 255.0, 2.2), pow(128.0 / 255.0, 2.2), 1, 1);
+    cs_scene_free(&scene);
+    scene = material_scene_mtl("norm gamma.png"); /* numbers are as they are */
+    expect_texel(&scene, import_material(&scene, 0)->normal_texture, 0.502, 0.502, 1, 1);
+    cs_scene_free(&scene);
+}
+
+/* Halves end at 65504, and there is no light below 0. */
+static void texels_beyond_halves(void **state)
+{
+    static const float texel[3] = {1e6f, -1.0f, NAN};
+    unsigned char bytes[24] = "PF\n1 1\n-1.0\n";
+    (void)state;
+    memcpy(bytes + 12, texel, sizeof texel);
+    test_bytes("beyond.pfm", bytes, sizeof bytes);
+    cs_scene scene = material_scene_mtl("Kd 1 1 1\nmap_Kd beyond.pfm");
+    expect_texel(&scene, base_of(&scene), 65504, 0, 0, 1);
+    cs_scene_free(&scene);
+}
+
 /* Heights that rise by 0.2 a texel to the right and by 0.4 upwards: the normal is -0.2, -0.4, 1. */
 static void heights_become_normals(void **state)
 {
@@ -125,8 +159,8 @@ static void heights_become_normals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(maps_of_gltf),
-        cmocka_unit_test(maps_of_mtl),
+        cmocka_unit_test(maps_of_gltf),           cmocka_unit_test(maps_of_mtl),
+        cmocka_unit_test(gamma_of_png),           cmocka_unit_test(texels_beyond_halves),
         cmocka_unit_test(heights_become_normals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -54,6 +54,68 @@ static void extensions_of_gltf(void **state)
     cs_scene_free(&scene);
 }
 
+/* What a file may require, and what it may hold without harm. */
+static void harmless_gltf(void **state)
+{
+    (void)state;
+    cs_scene scene = import_load(import_gltf_square(
+        ",\"COLOR_0\":4",
+        "{\"name\":\"a\\u0007b\",\"alphaMode\":\"BLEND\",\"extensions\":{\"ACME_fur\":{}}}",
+        "{\"mesh\":0,\"children\":[1],\"extras\":{\"id\":99999999999999999999,\"n\":\"a\\u0000b\"}}"
+        ","
+        "{\"mesh\":0,\"extensions\":{\"KHR_node_visibility\":{\"visible\":false}}}",
+        ",\"extensionsRequired\":[\"KHR_materials_ior\",\"KHR_materials_transmission\","
+        "\"KHR_materials_pbrSpecularGlossiness\",\"KHR_materials_variants\"]"));
+    assert_int_equal(scene.indices.count, 2);
+    import_warned("\"a?b\": not supported, left out: ACME_fur\n"); /* no code for the terminal */
+    import_warned("the alpha of its vertices is not supported");
+    cs_scene_free(&scene);
+    import_refused(import_gltf_square("", "{}", "{\"mesh\":0}",
+                                      ",\"extensionsRequired\":[\"KHR_texture_basisu\"]"),
+                   "needs the extension KHR_texture_basisu");
+}
+
+/* The front of a triangle is where its corners go round counter-clockwise, unless the node mirrors
+ * it. */
+static void mirrored_nodes(void **state)
+{
+    static const char *const nodes[] = {"{\"mesh\":0}", "{\"mesh\":0,\"scale\":[-1,1,1]}",
+                                        "{\"mesh\":0,\"scale\":[-1,-1,1]}"};
+    (void)state;
+    for (size_t i = 0; i < sizeof nodes / sizeof *nodes; i++) {
+        cs_scene scene = import_load(import_gltf_square("", "{}", nodes[i], ""));
+        const float *a = import_position(&scene, 0, 0), *b = import_position(&scene, 0, 1);
+        const float *c = import_position(&scene, 0, 2);
+        assert_true((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0f);
+        cs_scene_free(&scene);
+    }
+}
+
+/* Data without base64, whose bytes are 0 too; and base64 with %XX. */
+static void percents_in_data(void **state)
+{
+    static const char *const data[] = {
+        "data:,%00%00%80%3F%00%00%00%00%00%00%00%00%00%00%00%00%00%00%80%3F%00%00%00%00"
+        "%00%00%00%00%00%00%00%00%00%00%80%3f",
+        "data:;base64,AACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAI%41%2F"};
+    char text[1024];
+    (void)state;
+    for (size_t i = 0; i < sizeof data / sizeof *data; i++) {
+        snprintf(text, sizeof text,
+                 "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{"
+                 "\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{"
+                 "\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
+                 "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+                 "\"buffers\":[{\"byteLength\":36,\"uri\":\"%s\"}]}",
+                 data[i]);
+        cs_scene scene = import_text("data.gltf", text);
+        expect_close(import_position(&scene, 0, 0), 1, 0, 0);
+        expect_close(import_position(&scene, 0, 1), 0, 1, 0);
+        expect_close(import_position(&scene, 0, 2), 0, 0, 1);
+        cs_scene_free(&scene);
+    }
+}
+
 static void several_cameras_and_lights(void **state)
 {
     (void)state;
@@ -108,9 +170,9 @@ static void damaged_gltf(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(attributes_of_gltf),
-        cmocka_unit_test(extensions_of_gltf),
-        cmocka_unit_test(several_cameras_and_lights),
+        cmocka_unit_test(attributes_of_gltf), cmocka_unit_test(extensions_of_gltf),
+        cmocka_unit_test(harmless_gltf),      cmocka_unit_test(mirrored_nodes),
+        cmocka_unit_test(percents_in_data),   cmocka_unit_test(several_cameras_and_lights),
         cmocka_unit_test(damaged_gltf),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

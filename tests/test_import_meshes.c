@@ -29,6 +29,15 @@ static void layouts_of_ply(void **state)
     expect_close(import_colour(&scene, 0, 0), 1, 0, 0);
     assert_true(fabsf(import_colour(&scene, 0, 1)[0] - 0.5029f) < 1e-3f); /* the sRGB curve */
     expect_close(import_material(&scene, 0)->diffuse, 1, 1, 1);
+    assert_string_equal(import_warnings, "");
+    cs_scene_free(&scene);
+    scene = import_text("int.ply", PLY_HEAD "property int red\nproperty int green\n" /* of bytes */
+                                            "property int blue\nproperty uchar alpha\n" PLY_FACE
+                                            "end_header\n-1 -1 0 255 0 0 255\n1 -1 0 255 0 0 255\n"
+                                            "1 1 0 255 0 0 9\n-1 1 0 510 0 0 255\n4 0 1 2 3\n");
+    expect_close(import_colour(&scene, 0, 0), 1, 0, 0);
+    import_warned("its vertices have colours up to 2: above 1");
+    import_warned("the alpha of its vertices is not supported");
     cs_scene_free(&scene);
     scene =
         import_text("faces.ply", PLY_HEAD "element face 2\nproperty list uchar int vertex_index\n"
@@ -138,6 +147,7 @@ static void kinds_of_stl(void **state)
     size = binary_stl(bytes, "trailing", 1); /* a facet's bytes follow what it counts */
     scene = import_load(test_bytes("trailing.stl", bytes, size));
     assert_int_equal(scene.indices.count, 1);
+    import_warned("says that it has 1 triangles; bytes for 1 more");
     cs_scene_free(&scene);
     size = binary_stl(bytes, "COLOR=\xff\x01\x01\xff", 2);
     bytes[84 + 48] = 0xe0;

@@ -17,7 +17,7 @@ static void marks_line_ends_and_encodings(void **state)
         "\xef\xbb\xbfmtllib red.mtl\n" SQUARE "usemtl r\nf 1 2 3 4\n",
         "mtllib red.mtl\r\nv -1 -1 0\r\nv 1 -1 0\r\nv 1 1 0\r\nv -1 1 0\r\nusemtl r\r\nf 1 2 3 4",
         "mtllib red.mtl\rv -1 -1 0\rv 1 -1 0\rv 1 1 0\rv -1 1 0\rusemtl r\rf 1 2 3 4\r",
-        "mtllib red.mtl\n" SQUARE "# a comment \\\nusemtl r\nf 1 2 \\\n 3 4\n",
+        "mtllib red.mtl\n" SQUARE "# a comment \\\nusemtl r\nf 1 2 \\ \t\n 3 4 \\",
         "usemtl r\n" SQUARE "f -4 -3 -2 -1\nmtllib red.mtl\n",
         "mtllib red.mtl\nusemtl r\nf 1 2 3 4\n" SQUARE};
     (void)state;
@@ -85,11 +85,16 @@ static void map_options_are_obeyed(void **state)
     cs_scene_free(&scene);
 }
 
-/* Exporters of MTL leave Kd 0 beside a map; in glTF black is black. */
+/* Exporters of MTL leave Kd 0 beside a map, or no Kd; in glTF black is black. */
 static void black_beside_a_map(void **state)
 {
     (void)state;
     import_picture("four.ppm");
+    test_file("none.mtl", "newmtl t\nmap_Kd four.ppm # no Kd\n");
+    cs_scene bare = import_text("none.obj", "mtllib none.mtl # one\n" TEXTURED);
+    expect_close(import_material(&bare, 0)->diffuse, 1, 1, 1);
+    assert_string_equal(import_warnings, "");
+    cs_scene_free(&bare);
     test_file("black.mtl", "newmtl t\nKd 0 0 0\nmap_Kd four.ppm\n");
     cs_scene scene = import_text("black.obj", "mtllib black.mtl\n" TEXTURED);
     expect_close(import_material(&scene, 0)->diffuse, 1, 1, 1);

@@ -4,6 +4,13 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+/* Names out of files may hold line ends, and codes that terminals obey. */
+static void make_printable(char *line)
+{
+    for (; *line != '\0'; line++)
+        if ((unsigned char)*line < ' ' || *line == '\177') *line = '?';
+}
+
 /* Prints a line with decimal points, whatever the locale of the process says: users copy numbers
  * from messages into flags. */
 static void print_line(char *line, size_t size, const char *format, va_list arguments)
@@ -11,6 +18,7 @@ static void print_line(char *line, size_t size, const char *format, va_list argu
     const locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     const locale_t own = plain != (locale_t)0 ? uselocale(plain) : (locale_t)0;
     vsnprintf(line, size, format, arguments);
+    make_printable(line);
     if (plain == (locale_t)0) return;
     uselocale(own);
     freelocale(plain);

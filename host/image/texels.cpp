@@ -2,15 +2,28 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <vector>
+
+#include <unistd.h>
 
 #include "base/output_file.h"
 #include "image/oiio.h"
 
 namespace
 {
+
+/* Linear colours of those on the curve `space`, as OpenImageIO calls it. A PNG's gAMA chunk makes
+ * it "Gamma2.2", and others "GammaCorrected"; the power is an attribute of its own. */
+ImageBuf linear_of(ImageBuf &&rgba, const std::string &space, float gamma)
+{
+    const float powers[4] = {gamma, gamma, gamma, 1.0f};
+    if (space == "sRGB") return OIIO::ImageBufAlgo::colorconvert(rgba, "sRGB", "linear", false);
+    if (space.compare(0, 5, "Gamma") != 0 || !(gamma > 0.0f)) return std::move(rgba);
+    return OIIO::ImageBufAlgo::pow(rgba, OIIO::cspan<float>(powers, 4));
+}
 
 /* Any number of channels as RGBA: grey is repeated, alpha is 1 where there is none. Colours become
  * linear; files of integers (`is_integer`) that say nothing of their curve have that of sRGB. */
@@ -24,8 +37,8 @@ ImageBuf linear_rgba(const ImageBuf &source, bool is_integer, bool is_colour)
     ImageBuf rgba = OIIO::ImageBufAlgo::channels(source, 4, order, fill);
     std::string space = source.spec().get_string_attribute("oiio:ColorSpace");
     if (space.empty()) space = is_integer ? "sRGB" : "linear";
-    if (space != "sRGB" || !is_colour) return rgba;
-    return OIIO::ImageBufAlgo::colorconvert(rgba, "sRGB", "linear", false);
+    if (!is_colour) return rgba;
+    return linear_of(std::move(rgba), space, source.spec().get_float_attribute("oiio:Gamma", 2.2f));
 }
 
 /* An image to read: a file, or `size` bytes of one at `memory` if that is not null. */
@@ -80,6 +93,9 @@ ImageBuf without_alpha(ImageBuf &&source)
     return OIIO::ImageBufAlgo::unpremult(source);
 }
 
+/* The largest half. Brighter texels would be infinite, and black times them no number. */
+constexpr float most_light = 65504.0f;
+
 /* Texels in one image: more are a damaged head rather than a picture. */
 constexpr uint64_t most_texels = uint64_t(1) << 28;
 
@@ -91,6 +107,9 @@ clshear_status read_rgba(const Source &from, bool is_colour, ImageBuf &rgba, cs_
     std::string path = from.path;
     if (from.memory != nullptr)
         path = std::string("embedded.") + extension_for(from.memory, from.size);
+    else if (access(from.path, R_OK) != 0)
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: cannot be opened: %s", from.label,
+                       std::strerror(errno));
     else
         forget(from.path);
     OIIO::Filesystem::IOMemReader reader(const_cast<void *>(from.memory), from.size);
@@ -141,6 +160,7 @@ clshear_status read_texels(const Source &from, const cs_texel_use &use, cs_texel
     clshear_status status = read_rgba(from, use.kind == CS_TEXELS_COLOUR, rgba, error);
     if (status != CLSHEAR_OK) return status;
     convert_texels(use, rgba);
+    rgba = OIIO::ImageBufAlgo::clamp(rgba, 0.0f, most_light); /* what is no number becomes 0 */
     const size_t width = static_cast<size_t>(rgba.spec().width);
     const size_t height = static_cast<size_t>(rgba.spec().height);
     auto *halves = static_cast<uint16_t *>(std::malloc(width * height * 4 * sizeof(uint16_t)));

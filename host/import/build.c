@@ -191,9 +191,27 @@ static clshear_status add_triangles(cs_model *model, cs_scene *scene, cs_error *
     return good ? CLSHEAR_OK : cs_model_full(model, error);
 }
 
+/* What is said of the colours of positions. */
+static void report_colours(const cs_model *model)
+{
+    const float *colours = model->colours.items;
+    float most = 0.0f;
+    for (size_t i = 0; i < 3 * model->colours.count; i++)
+        most = fmaxf(most, colours[i]);
+    if (most > 1.0f)
+        cs_warn(model->log,
+                "%s: its vertices have colours up to %g: above 1 they reflect more light than "
+                "arrives; kept",
+                model->path, (double)most);
+    if (model->fades)
+        cs_warn(model->log, "%s: the alpha of its vertices is not supported; they are opaque",
+                model->path);
+}
+
 /* One colour for each position, white where none was given. */
 static clshear_status complete_colours(cs_model *model, cs_error *error)
 {
+    report_colours(model);
     if (model->colours.count == 0 || model->colours.count == model->positions.count)
         return CLSHEAR_OK;
     const float white[3] = {1, 1, 1};

@@ -101,22 +101,25 @@ static int find_as_written(const char *name, const char *const *folders, size_t 
     return 0;
 }
 
-void cs_decode_percent(char *name)
+/* The value of a hexadecimal digit, or -1. */
+static int digit_of(char letter)
+{
+    if (letter >= '0' && letter <= '9') return letter - '0';
+    if (letter >= 'a' && letter <= 'f') return letter - 'a' + 10;
+    return letter >= 'A' && letter <= 'F' ? letter - 'A' + 10 : -1;
+}
+
+size_t cs_decode_percent(char *name)
 {
     char *target = name;
     for (const char *source = name; *source != '\0'; source++) {
-        char digits[3] = {0};
-        char *end = digits;
-        long byte = 0;
-        if (*source == '%') {
-            snprintf(digits, sizeof digits, "%s", source + 1);
-            byte = strtol(digits, &end, 16);
-        }
-        const int decoded = end == digits + 2 && byte > 0;
-        *target++ = decoded ? (char)byte : *source;
-        source += decoded ? 2 : 0;
+        const int high = *source == '%' ? digit_of(source[1]) : -1;
+        const int low = high >= 0 ? digit_of(source[2]) : -1;
+        *target++ = low >= 0 ? (char)(16 * high + low) : *source;
+        source += low >= 0 ? 2 : 0;
     }
     *target = '\0';
+    return (size_t)(target - name);
 }
 
 static int find_kind(const char *name, const char *const *folders, size_t count, int kind,
@@ -126,7 +129,8 @@ static int find_kind(const char *name, const char *const *folders, size_t count,
     if (find_as_written(name, folders, count, kind, found)) return 1;
     if (strchr(name, '%') == NULL || strlen(name) >= sizeof decoded) return 0;
     snprintf(decoded, sizeof decoded, "%s", name);
-    cs_decode_percent(decoded);
+    const size_t length = cs_decode_percent(decoded);
+    if (strlen(decoded) != length) return 0; /* no name holds a 0 */
     if (!find_as_written(decoded, folders, count, kind, ignored)) return 0;
     memcpy(found, ignored, sizeof ignored);
     return 1;

@@ -18,7 +18,8 @@ void cs_folder_of(const char *path, char *folder, size_t size);
  * so. Else returns 0, with the path that was tried first. */
 int cs_find_file(const char *name, const char *const *folders, size_t count, char *found);
 
-/* Replaces %XX by the bytes they stand for: URIs name files so. */
-void cs_decode_percent(char *name);
+/* Replaces %XX by the bytes they stand for: URIs name files so. Returns the number of bytes, of
+ * which some may be 0. */
+size_t cs_decode_percent(char *name);
 
 #endif

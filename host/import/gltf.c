@@ -8,9 +8,11 @@
 #include "import/gltf_reader.h"
 #include "import/readers.h"
 
-static const char *const supported[] = {"KHR_lights_punctual",   "KHR_materials_emissive_strength",
-                                        "KHR_materials_unlit",   "KHR_texture_transform",
-                                        "KHR_mesh_quantization", "EXT_texture_webp"};
+static const char *const supported[] = {"KHR_lights_punctual", "KHR_texture_transform",
+                                        "KHR_mesh_quantization", "EXT_texture_webp",
+                                        "KHR_node_visibility",
+                                        /* chooses among materials; the primitive's own stands */
+                                        "KHR_materials_variants"};
 
 int cs_is_gltf(const cs_bytes *bytes, const char *path)
 {
@@ -132,11 +134,17 @@ static clshear_status open_binary(gltf_reader *reader, const cs_bytes *bytes, co
     return CLSHEAR_OK;
 }
 
+/* Trailing bytes, whole numbers beyond 64 bits and \u0000 in names are no harm: exporters leave
+ * keys of their own in extras. */
+enum {
+    json_flags = JSON_DISABLE_EOF_CHECK | JSON_DECODE_INT_AS_REAL | JSON_ALLOW_NUL
+};
+
 static clshear_status parse(gltf_reader *reader, const char *text, size_t size)
 {
     const char *path = reader->model->path;
     json_error_t wrong;
-    reader->root = json_loadb(text, size, JSON_DISABLE_EOF_CHECK, &wrong);
+    reader->root = json_loadb(text, size, json_flags, &wrong);
     if (reader->root == NULL)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s:%d:%d: %s", path, wrong.line,
                        wrong.column, wrong.text);
@@ -156,7 +164,7 @@ static clshear_status check_required(const gltf_reader *reader)
     const json_t *required = json_object_get(reader->root, "extensionsRequired");
     for (size_t i = 0; i < json_array_size(required); i++) {
         const char *name = json_string_value(json_array_get(required, i));
-        int known = 0;
+        int known = name != NULL && gltf_reads_of_material(name);
         for (size_t k = 0; name != NULL && k < sizeof supported / sizeof *supported; k++)
             known |= strcmp(name, supported[k]) == 0;
         if (!known)

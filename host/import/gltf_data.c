@@ -24,9 +24,10 @@ static int sextet(char letter)
     return found != NULL ? (int)(found - letters) : -1;
 }
 
-/* Decodes base64 up to the first letter that is none; returns the number of bytes. */
-static size_t decode_base64(const char *text, char *bytes)
+/* Decodes base64 in place, up to the first letter that is none; returns the number of bytes. */
+static size_t decode_base64(char *bytes)
 {
+    const char *text = bytes;
     size_t size = 0;
     uint32_t bits = 0;
     int count = 0;
@@ -52,13 +53,9 @@ static clshear_status decode_data(const gltf_reader *reader, const char *place, 
     const int is_base64 = comma - uri >= 7 && strncasecmp(comma - 7, ";base64", 7) == 0;
     *owned = malloc(strlen(comma) + 1);
     if (*owned == NULL) return cs_model_full(reader->model, reader->error);
-    if (is_base64) {
-        *size = decode_base64(comma + 1, *owned);
-    } else {
-        memcpy(*owned, comma + 1, strlen(comma));
-        cs_decode_percent(*owned);
-        *size = strlen(*owned);
-    }
+    memcpy(*owned, comma + 1, strlen(comma));
+    *size = cs_decode_percent(*owned); /* base64 may have %2B, %2F and %3D */
+    if (is_base64) *size = decode_base64(*owned);
     return CLSHEAR_OK;
 }
 
@@ -265,6 +262,13 @@ static clshear_status apply_sparse(gltf_reader *reader, long long index, const j
         copy_item(&what, i, most, values + (size_t)place * most);
     }
     return status;
+}
+
+int gltf_has_bytes(const gltf_reader *reader, long long index)
+{
+    const json_t *all = json_object_get(reader->root, "accessors");
+    const json_t *json = index >= 0 ? json_array_get(all, (size_t)index) : NULL;
+    return json_object_get(json, "bufferView") != NULL || json_object_get(json, "sparse") != NULL;
 }
 
 clshear_status gltf_read_floats(gltf_reader *reader, long long index, size_t most, float **values,

@@ -169,8 +169,7 @@ static void read_layers(const json_t *json, cs_material_description *material)
     ask_map(ext, "sheenRoughnessTexture", "a map of sheen", material);
 }
 
-/* The extensions that are read; asks for the others by name. */
-static void read_others(const json_t *json, cs_material_description *material)
+int gltf_reads_of_material(const char *extension)
 {
     static const char *const known[] = {"KHR_materials_emissive_strength",
                                         "KHR_materials_ior",
@@ -181,14 +180,19 @@ static void read_others(const json_t *json, cs_material_description *material)
                                         "KHR_materials_sheen",
                                         "KHR_materials_unlit",
                                         "KHR_materials_pbrSpecularGlossiness"};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcmp(known[i], extension) == 0) return 1;
+    return 0;
+}
+
+/* Asks for the extensions that are not read, by name. */
+static void read_others(const json_t *json, cs_material_description *material)
+{
     const char *name;
     json_t *value;
     json_object_foreach(json_object_get(json, "extensions"), name, value)
     {
-        size_t i = 0;
-        while (i < sizeof known / sizeof *known && strcmp(known[i], name) != 0)
-            i++;
-        if (i == sizeof known / sizeof *known && strlen(name) < 60) cs_material_ask(material, name);
+        if (!gltf_reads_of_material(name) && strlen(name) < 60) cs_material_ask(material, name);
     }
 }
 

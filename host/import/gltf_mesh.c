@@ -127,14 +127,18 @@ static clshear_status add_colours(gltf_primitive *primitive, long long accessor)
     gltf_reader *reader = primitive->reader;
     float *values = NULL;
     size_t given = 0, count = 0;
-    clshear_status status = gltf_read_floats(reader, accessor, 3, &values, &count, &given);
+    const cs_material_description *material =
+        (const cs_material_description *)reader->model->materials.items + primitive->material;
+    const int is_opaque = material->alpha_mode == CS_ALPHA_OPAQUE;
+    clshear_status status = gltf_read_floats(reader, accessor, 4, &values, &count, &given);
     if (status != CLSHEAR_OK) return status;
     if (count != primitive->count) status = wrong_count(primitive, "colours", count);
     for (size_t i = 0; i < count && status == CLSHEAR_OK; i++) {
+        float *colour = values + 4 * i;
         for (size_t c = 0; c < 3; c++)
-            if (!(values[3 * i + c] >= 0.0f && values[3 * i + c] <= 1e15f))
-                values[3 * i + c] = 0.0f;
-        status = cs_model_set_colour(reader->model, primitive->first_position + i, values + 3 * i,
+            if (!(colour[c] >= 0.0f && colour[c] <= 1e15f)) colour[c] = 0.0f;
+        reader->model->fades |= given == 4 && colour[3] < 1.0f && !is_opaque;
+        status = cs_model_set_colour(reader->model, primitive->first_position + i, colour,
                                      reader->error);
     }
     free(values);
@@ -159,19 +163,31 @@ static clshear_status corner_of(const gltf_primitive *primitive, const uint32_t 
     return CLSHEAR_OK;
 }
 
+/* Whether the node mirrors its mesh: the front of a triangle is then where its corners go round
+ * clockwise, as solids need it. Joints, which move a skin in the node's place, are taken not to. */
+static int turns_over(const gltf_primitive *primitive)
+{
+    const double *m = primitive->matrix;
+    double across[3];
+    cs_vec_cross_double(m, m + 4, across);
+    return primitive->skin->which == NULL && cs_vec_dot_double(across, m + 8) < 0.0;
+}
+
 /* Triangles (4), a strip (5) or a fan (6) of `count` corners. */
 static clshear_status add_triangles(const gltf_primitive *primitive, int mode,
                                     const uint32_t *indices, size_t count)
 {
     gltf_reader *reader = primitive->reader;
     const size_t triangles = mode == 4 ? count / 3 : count > 2 ? count - 2 : 0;
+    const int is_mirrored = turns_over(primitive);
     for (size_t i = 0; i < triangles; i++) {
         size_t places[3] = {i, i + 1 + (i & 1), i + 2 - (i & 1)};
         cs_corner corners[3];
         for (size_t k = 0; k < 3; k++) {
             if (mode == 4) places[k] = 3 * i + k;
             if (mode == 6) places[k] = k == 0 ? 0 : i + k;
-            clshear_status status = corner_of(primitive, indices, places[k], &corners[k]);
+            const size_t at = is_mirrored ? 2 - k : k;
+            clshear_status status = corner_of(primitive, indices, places[k], &corners[at]);
             if (status != CLSHEAR_OK) return status;
         }
         clshear_status status =
@@ -222,6 +238,11 @@ static clshear_status bind_skin(gltf_primitive *primitive, const json_t *attribu
     const json_t *accessor = gltf_at(primitive->reader, "accessors", position);
     if (accessor == NULL) return CLSHEAR_BAD_FILE;
     const long long count = gltf_index(accessor, "count");
+    if (primitive->skin->joint_count > 0 && json_object_get(attributes, "JOINTS_1") != NULL)
+        cs_warn(primitive->reader->model->log,
+                "%s: %s: more than four joints of a vertex are not supported; the first four move "
+                "it",
+                primitive->reader->model->path, primitive->place);
     return gltf_skin_bind(primitive->reader, attributes, count > 0 ? (size_t)count : 0,
                           primitive->skin);
 }
@@ -235,7 +256,8 @@ static clshear_status add_primitive(gltf_primitive *primitive, const json_t *jso
     const long long position = gltf_index(attributes, "POSITION");
     char set[16];
     primitive->first_normal = primitive->first_texture = CS_NO_INDEX;
-    if (gltf_extension(json, "KHR_draco_mesh_compression") != NULL && position == -1)
+    if (gltf_extension(json, "KHR_draco_mesh_compression") != NULL &&
+        !gltf_has_bytes(reader, position))
         return gltf_complain(reader, primitive->place, -1,
                              "needs KHR_draco_mesh_compression, which is not supported");
     if (position == -1) return CLSHEAR_OK;

@@ -189,6 +189,8 @@ static clshear_status visit_node(gltf_reader *reader, cs_array *waiting, const g
     if (seen[visit->node]++)
         return gltf_complain(reader, "nodes", visit->node,
                              "has two parents, or is its own; nodes must be a tree");
+    if (json_is_false(json_object_get(gltf_extension(node, "KHR_node_visibility"), "visible")))
+        return CLSHEAR_OK; /* neither is what is below it */
     local_matrix(node, local);
     multiply(visit->matrix, local, matrix);
     const long long camera = gltf_index(node, "camera");

@@ -58,6 +58,9 @@ int gltf_is_data(const char *uri);
 clshear_status gltf_view(gltf_reader *reader, long long index, const unsigned char **data,
                          size_t *size, size_t *stride);
 
+/* Whether the numbers of an accessor are in the file, and not left to an extension. */
+int gltf_has_bytes(const gltf_reader *reader, long long index);
+
 /* An accessor as floats: `most` components each at most, `*given` of them in the file. `*values` is
  * freed by the caller. */
 clshear_status gltf_read_floats(gltf_reader *reader, long long index, size_t most, float **values,
@@ -66,6 +69,9 @@ clshear_status gltf_read_indices(gltf_reader *reader, long long index, uint32_t 
                                  size_t *count);
 
 /* ----- Content ----- */
+
+/* Whether this extension of a material is read. */
+int gltf_reads_of_material(const char *extension);
 
 /* Adds all materials to the model, in the file's order. */
 clshear_status gltf_materials(gltf_reader *reader);

@@ -80,6 +80,7 @@ typedef struct cs_model {
     int up_is_open;      /* the format has no such convention, and +Y is a guess */
     double cutting;      /* points that may still be looked at to cut polygons */
     size_t without_area; /* faces with fewer than three corners: points and lines */
+    int fades;           /* some position has an alpha below 1, for which there is no place */
 } cs_model;
 
 void cs_model_init(cs_model *model, const char *path, const cs_log *log);

@@ -89,6 +89,7 @@ static void read_value(mtl_reader *reader, const value_line *entry,
     for (int i = 0; i < entry->count; i++)
         member[i] = (float)numbers[i < count ? i : 0];
     if (count == 2) member[2] = member[1];
+    if (member == material->base_colour) reader->values.has_colour = 1;
 }
 
 /* `d -halo FACTOR`, whose halo is left out, illum, and what there is no place for. */
@@ -133,11 +134,11 @@ static const map_line map_lines[] = {
 static const struct {
     const char *key;
     const char *word;
-} other_maps[] = {{"map_Ks", "a map of highlights"},     {"disp", "displacement"},
-                  {"map_disp", "displacement"},          {"refl", "a reflection map"},
-                  {"map_refl", "a reflection map"},      {"map_Tr", "a map of transparency"},
-                  {"map_Ps", "a map of sheen"},          {"map_Pc", "a map of the clear coat"},
-                  {"map_Pcr", "a map of the clear coat"}};
+} other_maps[] = {{"map_Ks", "a map of highlights"},      {"disp", "displacement"},
+                  {"map_disp", "displacement"},           {"refl", "a reflection map"},
+                  {"map_refl", "a reflection map"},       {"map_Tr", "a map of transparency"},
+                  {"map_Ps", "a map of sheen"},           {"map_Pc", "a map of the clear coat"},
+                  {"map_Pcr", "a map of the clear coat"}, {"decal", "a decal"}};
 
 /* Options of a map with their numbers at most; 0: a word. */
 static const struct {
@@ -189,13 +190,14 @@ static clshear_status read_map(mtl_reader *reader, cs_material_description *mate
     while (take_option(&at, map, scale, shift, &bump)) {
     }
     if (map == &material->normal_map) material->normal_scale = (float)bump;
-    const char *name = cs_rest_of_line(at);
+    char *name = cs_rest_of_line(at);
     if (*name == '\0') return CLSHEAR_OK;
     map->across[0] = scale[0];
     map->across[2] = shift[0];
     map->up[1] = scale[1];
     map->up[2] = shift[1];
-    const int there = cs_find_file(name, folders, 2, found);
+    int there = cs_find_file(name, folders, 2, found);
+    if (!there && cs_cut_comment(name)) there = cs_find_file(name, folders, 2, found);
     return cs_model_add_image(reader->model, there ? found : "", there ? found : name, NULL, 0,
                               &map->image, reader->error);
 }

@@ -139,6 +139,8 @@ void mtl_make_surface(const mtl_values *values, cs_material_description *materia
 {
     const float opacity = opacity_of(values);
     const int model = values->model;
+    if (!values->has_colour && cs_map_is_used(&material->base_map))
+        material->base_colour[0] = material->base_colour[1] = material->base_colour[2] = 1.0f;
     if (make_glass(values, opacity, material)) return;
     make_see_through(opacity, material);
     if (is_physical(values, material)) {

@@ -16,6 +16,7 @@ typedef struct mtl_values {
     float roughness;    /* Pr */
     float metallic;     /* Pm */
     int model;          /* illum */
+    int has_colour;     /* whether there is a Kd */
 } mtl_values;
 
 void mtl_values_init(mtl_values *values);

@@ -63,7 +63,7 @@ clshear_status cs_obj_library(obj_reader *reader, char *names)
     if (*names == '\0') return CLSHEAR_OK;
     if (strpbrk(names, " \t") == NULL || find_library(reader, names, found))
         return read_library(reader, names);
-    for (char *name = cs_next_word(&names); name != NULL && status == CLSHEAR_OK;
+    for (char *name = cs_next_word(&names); name != NULL && *name != '#' && status == CLSHEAR_OK;
          name = cs_next_word(&names))
         status = read_library(reader, name);
     return status;

@@ -151,6 +151,8 @@ static clshear_status add_vertex(ply_reader *reader, const scalars *given)
         st[1] = (float)given->value[CS_PLY_T];
     }
     float colour[3];
+    model->fades |= given->is_there[CS_PLY_ALPHA] &&
+                    given->value[CS_PLY_ALPHA] < cs_ply_most(given->type[CS_PLY_ALPHA]);
     if (!colour_of(given, colour)) return CLSHEAR_OK;
     return cs_model_set_colour(model, model->positions.count - 1, colour, reader->error);
 }

@@ -36,6 +36,7 @@ static const struct {
     {"red", CS_PLY_RED},
     {"green", CS_PLY_GREEN},
     {"blue", CS_PLY_BLUE},
+    {"alpha", CS_PLY_ALPHA},
     {"r", CS_PLY_RED},
     {"g", CS_PLY_GREEN},
     {"b", CS_PLY_BLUE},
@@ -184,7 +185,8 @@ int cs_ply_is_integer(cs_ply_type type)
 
 double cs_ply_most(cs_ply_type type)
 {
-    return type == CS_PLY_UINT8 ? 255.0 : type == CS_PLY_UINT16 ? 65535.0 : 1.0;
+    if (!cs_ply_is_integer(type)) return 1.0;
+    return type == CS_PLY_UINT16 ? 65535.0 : 255.0;
 }
 
 static int next_text(cs_ply_cursor *cursor, double *value)

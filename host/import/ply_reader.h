@@ -42,6 +42,7 @@ typedef enum cs_ply_role {
     CS_PLY_RED,
     CS_PLY_GREEN,
     CS_PLY_BLUE,
+    CS_PLY_ALPHA,
     CS_PLY_TEXTURE_NUMBER,
     CS_PLY_SCALARS,                  /* number of roles of one number */
     CS_PLY_INDICES = CS_PLY_SCALARS, /* list */
@@ -92,7 +93,8 @@ size_t cs_ply_least_size(cs_ply_format format, cs_ply_type type);
 /* Whether numbers of this type are whole. */
 int cs_ply_is_integer(cs_ply_type type);
 
-/* The largest number of an unsigned integer type, for colours; 1 for others. */
+/* White, in a colour of this type: integers have those of bytes, whatever could be larger in them,
+ * but for uint16. */
 double cs_ply_most(cs_ply_type type);
 
 #endif

@@ -198,6 +198,10 @@ static clshear_status read_binary(stl_reader *reader, const cs_bytes *bytes)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE,
                        "%s: says that it has %zu triangles, but ends after %zu; it was cut", path,
                        facets, room);
+    if (facets < room)
+        cs_warn(reader->model->log,
+                "%s: says that it has %zu triangles; bytes for %zu more behind them are left out",
+                path, facets, room - facets);
     const stl_colours kind = colours_of(bytes, facets);
     clshear_status status = CLSHEAR_OK;
     for (size_t i = 0; i < facets && status == CLSHEAR_OK; i++) {

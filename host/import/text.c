@@ -129,14 +129,17 @@ char *cs_lines_next(cs_lines *lines)
             at++;
         char *next = at;
         if (next != lines->end) next += next[0] == '\r' && next[1] == '\n' ? 2 : 1;
-        const int joins =
-            at != part && at[-1] == '\\' && next != lines->end && !has_comment(part, at);
-        if (!joins) {
+        char *last = at; /* behind the last letter that is no blank */
+        while (last != part && is_blank(last[-1]))
+            last--;
+        const int joins = last != part && last[-1] == '\\' && !has_comment(part, at);
+        if (joins) last[-1] = ' ';
+        if (!joins || next == lines->end) {
             if (at != lines->end) *at = '\0';
             lines->at = next;
             return line;
         }
-        memset(at - 1, ' ', (size_t)(next - at) + 1);
+        memset(at, ' ', (size_t)(next - at));
         lines->joined++;
         part = next;
     }
@@ -168,6 +171,18 @@ char *cs_rest_of_line(char *at)
         at++;
     }
     return at;
+}
+
+int cs_cut_comment(char *text)
+{
+    char *mark = strchr(text, '#');
+    while (mark != NULL && (mark == text || !is_blank(mark[-1])))
+        mark = strchr(mark + 1, '#');
+    if (mark == NULL) return 0;
+    while (mark != text && is_blank(mark[-1]))
+        mark--;
+    *mark = '\0';
+    return 1;
 }
 
 int cs_parse_whole(const char **at, long long *value)

@@ -39,6 +39,9 @@ char *cs_next_word(char **at);
 /* What is left of a line, without blanks around it and without quotes that enclose all of it. */
 char *cs_rest_of_line(char *at);
 
+/* Cuts a text where a comment begins behind a blank; 0 where there is none. */
+int cs_cut_comment(char *text);
+
 /* Reads a whole number at `*at` and moves on; 0 where there is none or it does not fit. */
 int cs_parse_whole(const char **at, long long *value);
 

@@ -91,11 +91,14 @@ static int find(const parser *p, const program_command *command, const char *nam
     return 0;
 }
 
-static int complain_unknown(const char *place, const char *name, const char *nearest)
+/* `dashes`: those before the name, as they were given. */
+static int complain_unknown(const char *place, const char *dashes, const char *name,
+                            const char *nearest)
 {
     if (*nearest == '\0')
-        return complain(EXIT_USAGE, "%sunknown flag --%s; see --help", place, name);
-    return complain(EXIT_USAGE, "%sunknown flag --%s; did you mean --%s?", place, name, nearest);
+        return complain(EXIT_USAGE, "%sunknown flag %s%s; see --help", place, dashes, name);
+    return complain(EXIT_USAGE, "%sunknown flag %s%s; did you mean --%s?", place, dashes, name,
+                    nearest);
 }
 
 /* Tells which settings were set `before` and are not now, since the flag `name` came. */
@@ -168,7 +171,7 @@ static int take_line(void *user, const char *file, int line, const char *name, c
         if (!is_left_out && (p->on_line & bit_of(p, flag.row)) == 0)
             p->code = apply(p, place, &flag, name, value);
     } else if (!find(p, p->renders, name, &flag, &nearest)) {
-        p->code = complain_unknown(place, name, nearest);
+        p->code = complain_unknown(place, "--", name, nearest);
     }
     return p->code;
 }
@@ -216,22 +219,30 @@ static int take_name(const parser *p, const char *word)
     return EXIT_DONE;
 }
 
+/* Words behind "--" are names, whatever they begin with. */
 static int read_line(parser *p, int argc, char **argv)
 {
     program_options *options = p->options;
+    int only_names = 0;
     for (int i = 1; i < argc; i++) {
         named_flag flag;
         const char *word = argv[i], *nearest;
-        if (word[0] != '-' || word[1] == '\0') {
+        if (!only_names && strcmp(word, "--") == 0) {
+            only_names = 1;
+            continue;
+        }
+        if (only_names || word[0] != '-' || word[1] == '\0') {
             const int code = take_name(p, word);
             if (code != EXIT_DONE) return code;
             continue;
         }
-        word += word[1] == '-' ? 2 : 1;
+        const char *dashes = word[1] == '-' ? "--" : "-";
+        word += strlen(dashes);
         const size_t length = strcspn(word, "=");
         const char *name = options_text(options, "%.*s", (int)length, word);
         const char *value = word[length] == '=' ? word + length + 1 : NULL;
-        if (!find(p, p->command, name, &flag, &nearest)) return complain_unknown("", name, nearest);
+        if (!find(p, p->command, name, &flag, &nearest))
+            return complain_unknown("", dashes, name, nearest);
         if (value == NULL && *argument_of(&flag) != '\0' && i + 1 < argc) value = argv[++i];
         const int code = apply(p, "", &flag, name, value);
         if (code != EXIT_DONE) return code;

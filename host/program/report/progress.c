@@ -35,6 +35,7 @@ void progress_note_signals(void)
 {
     struct sigaction given;
     catch_wishes();
+    signal(SIGXFSZ, SIG_IGN); /* so that who writes a file beyond the limit can say so */
     hangup_ignored = sigaction(SIGHUP, NULL, &given) == 0 && given.sa_handler == SIG_IGN;
 }
 
@@ -49,6 +50,9 @@ static void catch_interrupts(void)
     sigaction(SIGTERM, &action, NULL);
     if (hangup_ignored) action.sa_handler = SIG_IGN;
     sigaction(SIGHUP, &action, NULL);
+    action.sa_handler = note_interrupt;
+    action.sa_flags = SA_RESTART; /* comes each second from the soft limit of processor time on */
+    sigaction(SIGXCPU, &action, NULL);
 }
 
 int preview_wanted(void)
