@@ -47,7 +47,7 @@ static void move(tape *tape, void *data, size_t size)
     add_to_sum(tape, data, size);
 }
 
-/* How far a render is, but for its pixels. */
+/* The state of a render, without its pixels. */
 typedef struct state {
     cs_place place;
     cs_stop stop;
@@ -211,7 +211,7 @@ clshear_status cs_checkpoint_save(cs_job *job, cs_pass *pass, int at_once, cs_er
         reason = cs_output_end(&file, tape.is_good && status == CLSHEAR_OK);
         if (!tape.is_good) reason = tape.reason;
     }
-    if (reason != 0 && !job->save_fails) /* said once */
+    if (reason != 0 && !job->save_fails) /* warns at the first of several failures only */
         cs_alarm(&job->scene->context->log,
                  "checkpoint %s: cannot be written: %s; the render goes on", path,
                  strerror(reason));

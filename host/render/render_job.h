@@ -11,7 +11,7 @@
 #include "render/pass.h"
 #include "render/stop.h"
 
-/* What a pixel has of a pattern that is not finished. */
+/* Sums of the samples that a pixel has of a pattern that is not finished. */
 typedef struct cs_net {
     cs_f32 sum[3];
     cs_f32 carry[3];

@@ -63,7 +63,8 @@ static uint32_t pattern_of(const cs_job *job, size_t index)
                                 : job->pattern.first + job->pattern.grid.count;
 }
 
-/* One pixel. */
+/* Writes the means and variances of a pixel to the planes: its sums, divided by its samples and its
+ * patterns. */
 static void resolve_pixel(const cs_job *job, const cs_pixel *pixel, size_t index, planes *all)
 {
     const uint32_t pattern = pattern_of(job, index);
