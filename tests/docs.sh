@@ -117,4 +117,9 @@ awk -F'`' '/^\| remark/ { inside = 1 } /^$/ { inside = 0 } inside && /^\| `/ {
     print longest }' "$root/docs/guide/first-picture.md" | while read -r remark; do
     grep -rqF -- "$remark" "$root/host" || { echo "first-picture.md: the program does not say \"$remark\""; exit 1; }
 done
+# CONTRIBUTING names every test.
+tests=$(find "$build" -maxdepth 3 -name CTestTestfile.cmake -exec sed -n 's/^ *add_test([=[]*\([a-z0-9_]*\).*/\1/p' {} +)
+for name in ${tests:?ctest has none}; do
+    grep -q "[\` ]$name\`" "$root/CONTRIBUTING.md" || { echo "CONTRIBUTING.md: says nothing of test $name"; exit 1; }
+done
 echo "documents checked"
