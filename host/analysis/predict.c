@@ -7,9 +7,8 @@
 
 #include "analysis/fourier.h"
 #include "analysis/predict.h"
+#include "base/pi.h"
 #include "base/status.h"
-
-static const double pi = 3.14159265358979323846;
 
 /* Names of the cones: their first angle in degrees. */
 static const char *const part_names[CS_CONES + 1] = {"cone 0",    "cone 22.5",  "cone 45",
@@ -19,7 +18,7 @@ static const char *const part_names[CS_CONES + 1] = {"cone 0",    "cone 22.5",  
 /* Index of a frequency's cone among `cones` in a half turn. f and -f share one. */
 static size_t cone_of(double x, double y, size_t cones)
 {
-    double angle = atan2(y, x) / pi; /* in half turns */
+    double angle = atan2(y, x) / CS_PI_DOUBLE; /* in half turns */
     angle -= floor(angle);
     const size_t cone = (size_t)(angle * (double)cones);
     return cone < cones ? cone : 0;

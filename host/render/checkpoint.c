@@ -6,13 +6,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/checksum.h"
 #include "base/output_file.h"
 #include "clshear/device/hash.h"
 #include "render/recipe.h"
-
-enum {
-    SLICE = 1 << 14 /* pixels on their way at once */
-};
 
 static const char magic[16] = "clshear state 1";
 
@@ -22,19 +19,17 @@ typedef struct tape {
     int writes;
     int is_good;
     int reason;   /* errno where it is not */
-    uint64_t sum; /* of all bytes so far: Fowler, Noll and Vo's FNV-1a */
+    uint64_t sum; /* of all bytes so far */
 } tape;
 
 static void add_to_sum(tape *tape, const void *data, size_t size)
 {
-    const unsigned char *bytes = data;
-    for (size_t i = 0; i < size; i++)
-        tape->sum = (tape->sum ^ bytes[i]) * 0x100000001b3u;
+    tape->sum = cs_checksum_add(tape->sum, data, size);
 }
 
 static tape tape_of(FILE *stream, int writes)
 {
-    return (tape){stream, writes, 1, 0, 0xcbf29ce484222325u};
+    return (tape){stream, writes, 1, 0, CS_CHECKSUM_OF_NOTHING};
 }
 
 static void move(tape *tape, void *data, size_t size)
@@ -146,11 +141,12 @@ static clshear_status move_pixels(cs_job *job, tape *tape, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const size_t planes = job->pixels.planes;
-    cs_pixel *slice = malloc(SLICE * sizeof *slice);
-    cs_exact_sum *sums = malloc((SLICE * planes + 1) * sizeof *sums);
+    cs_pixel *slice = malloc(CS_AOV_PIXEL_SLICE * sizeof *slice);
+    cs_exact_sum *sums = malloc((CS_AOV_PIXEL_SLICE * planes + 1) * sizeof *sums);
     CS_REQUIRE(slice != NULL && sums != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    for (size_t first = 0; tape->is_good && first < job->pixel_count; first += SLICE) {
-        const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
+    for (size_t first = 0; tape->is_good && first < job->pixel_count; first += CS_AOV_PIXEL_SLICE) {
+        const size_t left = job->pixel_count - first,
+                     count = left < CS_AOV_PIXEL_SLICE ? left : CS_AOV_PIXEL_SLICE;
         if (tape->writes) CS_TRY(cs_pixels_read(&job->pixels, first, count, slice, error));
         if (tape->writes && planes > 0)
             CS_TRY(cs_pixels_read_aovs(&job->pixels, first, count, sums, error));
