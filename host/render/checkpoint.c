@@ -55,7 +55,7 @@ typedef struct state {
     cs_u32 from;
     cs_u32 to;
     cs_u32 replicate;
-    cs_u32 has_nets;
+    cs_u32 has_open;
     cs_u32 replicates_begun;
     cs_u32 patterns_kept;
     cs_u32 plan; /* fingerprint of what the prepass and the pilots have chosen */
@@ -87,7 +87,7 @@ static state state_of(const cs_job *job, const cs_pass *pass)
                    .from = job->rounds.from,
                    .to = job->rounds.to,
                    .replicate = job->rounds.replicate,
-                   .has_nets = job->rounds.nets != NULL,
+                   .has_open = job->rounds.open != NULL,
                    .replicates_begun = job->replicates_begun,
                    .patterns_kept = job->patterns_kept,
                    .plan = fingerprint_of_plan(job)};
@@ -166,8 +166,8 @@ done:
 static clshear_status move_all(cs_job *job, tape *tape, cs_error *error)
 {
     const size_t pixels = job->pixel_count, replicates = job->replicates;
-    if (job->rounds.nets != NULL)
-        move(tape, job->rounds.nets, replicates * pixels * sizeof *job->rounds.nets);
+    if (job->rounds.open != NULL)
+        move(tape, job->rounds.open, replicates * pixels * sizeof *job->rounds.open);
     if (job->pattern_means != NULL) {
         move(tape, job->pattern_means, 3 * replicates * pixels * sizeof *job->pattern_means);
         move(tape, job->pattern_sums, 3 * pixels * sizeof *job->pattern_sums);
@@ -294,9 +294,9 @@ clshear_status cs_checkpoint_load(cs_job *job, cs_pass *pass, cs_error *error)
                "%s: this machine finds other depths, or its pilot other shears; go on with the "
                "machine that began",
                path);
-    if (read.has_nets) {
-        job->rounds.nets = calloc(job->replicates * job->pixel_count, sizeof(cs_net));
-        CS_REQUIRE(job->rounds.nets != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    if (read.has_open) {
+        job->rounds.open = calloc(job->replicates * job->pixel_count, sizeof(cs_open_pattern));
+        CS_REQUIRE(job->rounds.open != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     }
     CS_TRY(move_all(job, &tape, error));
     if (!tape.is_good) CS_TRY(damaged(path, error));

@@ -58,7 +58,7 @@ static clshear_status add_planes(clshear_film *film, planes *all)
 /* Samples in a finished pattern of a pixel. */
 static uint32_t pattern_of(const cs_job *job, size_t index)
 {
-    if (job->rounds.nets != NULL) return job->rounds.nets[index].pending;
+    if (job->rounds.open != NULL) return job->rounds.open[index].pending;
     return job->samples != NULL ? job->samples[index]
                                 : job->pattern.first + job->pattern.grid.count;
 }
