@@ -348,7 +348,8 @@ static void image_lights_a_floor(clshear_context *context, float brightest)
         const test_estimate found = mean_of_render(scene, settings);
         print_message("image: %.5f of %.5f, error %.5f\n", found.mean, 0.5 / pi * irradiance,
                       found.error);
-        assert_near(found.mean, 0.5 / pi * irradiance, 6.0 * found.error + 1e-4 * irradiance);
+        assert_near_estimate(found.mean, 0.5 / pi * irradiance, found.error, 240, 4,
+                             1e-4 * irradiance); /* of the quadrature */
         assert_below(found.error, 0.01 * irradiance);
     }
     clshear_scene_free(scene);
