@@ -179,11 +179,9 @@ static void directional_light(void **state)
     clshear_scene_free(floor);
 }
 
-/* A square emitter above the floor. Below its centre, the form factor of a parallel rectangle
- * (Howell, catalogue C-11) gives the reflected radiance albedo * L * F. */
-static void area_light_over_a_plane(void **state)
+/* A square emitter above the floor. */
+static clshear_scene *panel_over_floor(clshear_context *context)
 {
-    fixture *made = *state;
     const float floor_y[12] = {-50, 0, -50, 50, 0, -50, 50, 0, 50, -50, 0, 50};
     const float panel[12] = {-1, 2, -1, 1, 2, -1, 1, 2, 1, -1, 2, 1};
     const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
@@ -197,7 +195,15 @@ static void area_light_over_a_plane(void **state)
                                      .vertex_count = 4,
                                      .triangle_count = 2,
                                      .emission = {3.0f, 3.0f, 3.0f}}};
-    clshear_scene *scene = test_meshes(made->context, meshes, 2);
+    return test_meshes(context, meshes, 2);
+}
+
+/* Below its centre, the form factor of a parallel rectangle (Howell, catalogue C-11) gives the
+ * reflected radiance albedo * L * F. */
+static void area_light_over_a_plane(void **state)
+{
+    fixture *made = *state;
+    clshear_scene *scene = panel_over_floor(made->context);
     assert_int_equal(test_scene_info(scene).emitters, 2);
     /* A narrow view along the floor, below the panel, at the point under its centre. */
     cs_view view = {.eye = {4.0f, 0.5f, 0},
