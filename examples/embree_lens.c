@@ -3,8 +3,7 @@
  * The device headers are C as well, so the sampler, the shear and the lens need no OpenCL. One
  * pixel looks at a checkered wall out of focus; its variance is printed without and with the shear.
  *
- *     cc -std=c17 -ffp-contract=off embree_lens.c $(pkg-config --cflags --libs clshear) -lembree3
- * -lm
+ *     cc -ffp-contract=off embree_lens.c $(pkg-config --cflags --libs clshear) -lembree3 -lm
  */
 #include <clshear/clshear.h>
 #include <clshear/device/lens.h>
@@ -85,16 +84,16 @@ static float checker(const cs_ray *ray, float depth)
 }
 
 /* What a render has to know about its pixel. */
-typedef struct view {
+typedef struct pixel_view {
     RTCScene scene;
     cs_camera camera;
     const float *lens_table;
     cs_pattern pattern;
     const uint32_t *sample_table;
-} view;
+} pixel_view;
 
 /* The shear for the depth that is seen through the middles of pixel and lens. */
-static float shear_of_pixel(const view *view)
+static float shear_of_pixel(const pixel_view *view)
 {
     const cs_ray ray = cs_lens_ray(view->camera, PIXEL_X + 0.5f, PIXEL_Y + 0.5f, 0.0f, 0.0f);
     const float depth = trace(view->scene, &ray);
@@ -102,7 +101,7 @@ static float shear_of_pixel(const view *view)
 }
 
 /* Mean of the pixel's samples. */
-static double render(const view *view, uint32_t replicate, uint32_t mode, float shear)
+static double render(const pixel_view *view, uint32_t replicate, uint32_t mode, float shear)
 {
     const uint32_t key = cs_pattern_key(1, PIXEL_Y * IMAGE_SIDE + PIXEL_X, replicate);
     double sum = 0.0;
@@ -118,7 +117,7 @@ static double render(const view *view, uint32_t replicate, uint32_t mode, float 
 }
 
 /* Prints mean and variance of the pixel; returns the variance. */
-static double measure(const view *view, uint32_t mode, float shear)
+static double measure(const pixel_view *view, uint32_t mode, float shear)
 {
     double sum = 0.0, square = 0.0;
     for (uint32_t replicate = 0; replicate < REPLICATES; replicate++) {
@@ -156,7 +155,7 @@ int main(void)
 {
     clshear_pattern *pattern = NULL;
     clshear_lens *lens = make_lens();
-    view view = {0};
+    pixel_view view = {0};
     size_t words, floats;
     check(clshear_pattern_create("sz", SAMPLES, CLSHEAR_ORDER_COHERENT, &pattern));
     check(clshear_pattern_constants(pattern, &view.pattern, sizeof view.pattern));

@@ -16,10 +16,16 @@ read -ra flags <<<"$(pkg-config --cflags clshear)"
 read -ra libraries <<<"$(pkg-config --libs clshear)"
 c=(-std=c17 -O2 -Wall -Wextra -Werror -ffp-contract=off "${flags[@]}")
 
-cc "${c[@]}" own_kernel.c -o own_kernel "${libraries[@]}" -lOpenCL -lm
-./own_kernel
-cc "${c[@]}" embree_lens.c -o embree_lens "${libraries[@]}" -lembree3 -lm
-./embree_lens
+# By the command in the head of each, which guides repeat.
+for example in own_kernel embree_lens; do
+    command=$(sed -n 's/^ \*     \(cc .*\)/\1/p' $example.c)
+    if grep -h "^    cc .* $example.c " "$root"/docs/guide/*.md | grep -vxF "    $command"; then
+        echo "$example.c: a guide compiles it by another command than its head"
+        exit 1
+    fi
+    eval "$command -O2 -Wall -Wextra -Werror -o $example"
+    ./$example
+done
 cc "${c[@]}" render.c -o render "${libraries[@]}"
 ./render cornell.obj out.exr >/dev/null
 

@@ -32,6 +32,32 @@ void test_compare(double a, const char *relation, double b, const char *what, co
     _fail(file, line);
 }
 
+/* Probability that Student's t lies beyond +-limit. */
+static double tails(int degrees, double limit)
+{
+    enum {
+        STEPS = 4096
+    };
+    const double pi = 3.14159265358979, n = degrees;
+    const double scale = exp(lgamma(0.5 * (n + 1.0)) - lgamma(0.5 * n)) / sqrt(n * pi);
+    double sum = 0.0;
+    for (int i = 0; i < STEPS; i++) { /* over the inverse of t, in units of the limit's */
+        const double s = (i + 0.5) / STEPS, t = limit / s;
+        sum += scale * pow(1.0 + t * t / n, -0.5 * (n + 1.0)) * t / s;
+    }
+    return 2.0 * sum / STEPS;
+}
+
+double test_quantile(int degrees, int checks)
+{
+    double low = 1.0, high = 1e3;
+    for (int i = 0; i < 50; i++) {
+        const double middle = 0.5 * (low + high);
+        *(tails(degrees, middle) > 1e-6 / checks ? &low : &high) = middle;
+    }
+    return high;
+}
+
 clshear_context *test_context(void)
 {
     clshear_context *context = NULL;

@@ -27,6 +27,17 @@ void test_near(double a, double b, double tolerance, const char *what, const cha
 void test_compare(double a, const char *relation, double b, const char *what, const char *file,
                   int line);
 
+/* Whether an estimate with a standard error agrees with the truth, up to `bias`, which the caller
+ * derives. The limit is the quantile of Student's distribution, at the estimate's degrees of
+ * freedom, that one of `checks` such comparisons exceeds by chance with probability 1e-6. */
+#define assert_near_estimate(value, truth, error, degrees, checks, bias)                     \
+    test_near((double)(value), (double)(truth),                                              \
+              test_quantile((degrees), (checks)) * (double)(error) + (double)(bias), #value, \
+              __FILE__, __LINE__)
+
+/* That quantile, in standard errors. */
+double test_quantile(int degrees, int checks);
+
 /* Creates a context on the first device. Fails the test if there is none. */
 clshear_context *test_context(void);
 

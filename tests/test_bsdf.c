@@ -315,39 +315,42 @@ static void refraction_is_symmetric(void **state)
     assert_in_range(count, 400, 500);
 }
 
-/* Counts of drawn directions in boxes, equal in azimuth and in height, against the integral of the
- * density by midpoints, chi-square. 100 000 draws of independent numbers; boxes that expect fewer
- * than 20 are left out. The limit, mean and 6 standard deviations, is a false alarm of some 1e-7
- * for each of the 33 cases; 1e-3 of the expected counts is allowed for the midpoints. */
-static void check_chi_square(const lobe *lobe, float roughness, float cosine)
+enum {
+    DRAWS = 100000,
+    ACROSS = 24, /* boxes of the sphere, equal in azimuth and in height */
+    DOWN = 24,
+    BOXES = ACROSS * DOWN,
+    STEPS = 24 /* midpoints of a box, each way */
+};
+
+/* How many of the drawn directions each box is to have, by the density; returns their part of all.
+ */
+static double expect_in_boxes(const cs_surface *surface, const float *out, double *expected)
 {
-    enum {
-        DRAWS = 100000,
-        ACROSS = 24,
-        DOWN = 24,
-        STEPS = 24
-    };
-    static double expected[ACROSS * DOWN], seen[ACROSS * DOWN];
-    const cs_surface surface = surface_with(lobe, roughness);
-    const float out[3] = {sqrtf(1.0f - cosine * cosine), 0.0f, cosine};
-    double square = 0.0, total = 0.0, drawn_count = 0.0;
-    int boxes = 0;
-    memset(expected, 0, sizeof expected);
-    memset(seen, 0, sizeof seen);
-    for (int i = 0; i < ACROSS * DOWN * STEPS * STEPS; i++) {
+    double total = 0.0;
+    memset(expected, 0, BOXES * sizeof *expected);
+    for (int i = 0; i < BOXES * STEPS * STEPS; i++) {
         const int x = i % (ACROSS * STEPS), y = i / (ACROSS * STEPS);
         const float z = 2.0f * ((float)y + 0.5f) / (DOWN * STEPS) - 1.0f;
         const float angle = 2.0f * CS_PI * ((float)x + 0.5f) / (ACROSS * STEPS);
         const float in[3] = {sqrtf(1.0f - z * z) * cosf(angle), sqrtf(1.0f - z * z) * sinf(angle),
                              z};
-        const double part = (double)value_of(&surface, out, in).density * 4.0 * (double)CS_PI /
-                            (ACROSS * DOWN * STEPS * STEPS);
+        const double part = (double)value_of(surface, out, in).density * 4.0 * (double)CS_PI /
+                            (BOXES * STEPS * STEPS);
         expected[y / STEPS * ACROSS + x / STEPS] += part * DRAWS;
         total += part;
     }
+    return total;
+}
+
+/* How many each box has; returns their part of all draws. */
+static double count_in_boxes(const cs_surface *surface, const float *out, double *seen)
+{
+    double count = 0.0;
+    memset(seen, 0, BOXES * sizeof *seen);
     for (cs_u32 i = 0; i < DRAWS; i++) {
         const cs_pair pair = {unit_number(1, i), unit_number(2, i)};
-        const cs_bsdf_direction drawn = draw(&surface, out, pair, unit_number(3, i));
+        const cs_bsdf_direction drawn = draw(surface, out, pair, unit_number(3, i));
         if (!(drawn.value.density > 0.0f)) continue;
         double angle = atan2((double)drawn.in[1], (double)drawn.in[0]) / (2.0 * (double)CS_PI);
         if (angle < 0.0) angle += 1.0;
@@ -355,16 +358,32 @@ static void check_chi_square(const lobe *lobe, float roughness, float cosine)
         x = x < ACROSS ? x : ACROSS - 1;
         y = y < DOWN ? y : DOWN - 1;
         seen[y * ACROSS + x] += 1.0;
-        drawn_count += 1.0;
+        count += 1.0;
     }
-    for (int i = 0; i < ACROSS * DOWN; i++) {
+    return count / DRAWS;
+}
+
+/* Counts of drawn directions against the integral of the density by midpoints, chi-square. 100 000
+ * draws of independent numbers; boxes that expect fewer than 20 are left out. The limit, mean and 6
+ * standard deviations, is a false alarm of some 1e-7 for each of the 33 cases; 1e-3 of the expected
+ * counts is allowed for the midpoints. */
+static void check_chi_square(const lobe *lobe, float roughness, float cosine)
+{
+    static double expected[BOXES], seen[BOXES];
+    const cs_surface surface = surface_with(lobe, roughness);
+    const float out[3] = {sqrtf(1.0f - cosine * cosine), 0.0f, cosine};
+    const double total = expect_in_boxes(&surface, out, expected);
+    const double drawn = count_in_boxes(&surface, out, seen);
+    double square = 0.0;
+    int boxes = 0;
+    for (int i = 0; i < BOXES; i++) {
         if (expected[i] < 20.0) continue;
         const double off = fmax(fabs(seen[i] - expected[i]) - 1e-3 * expected[i], 0.0);
         square += off * off / expected[i];
         boxes++;
     }
     print_message("%-20s %.2f %.2f: %.1f in %d boxes, %.4f of %.4f\n", lobe->name,
-                  (double)roughness, (double)cosine, square, boxes, drawn_count / DRAWS, total);
+                  (double)roughness, (double)cosine, square, boxes, drawn, total);
     assert_below(square, boxes + 6.0 * sqrt(2.0 * boxes));
     assert_at_most(total, 1.002); /* what is missing was mirrored to below the surface */
 }

@@ -67,6 +67,28 @@ static clshear_scene *load(const char *path, const clshear_settings *settings)
     return scene;
 }
 
+/* A square with the image wrap.ppm, three times each way, wrapped by the sampler's `wrap`. */
+static clshear_scene *load_wrapped(const char *wrap)
+{
+    char text[2048];
+    snprintf(text, sizeof text,
+             "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0,\"scale\":[3,3,1]}],"
+             "\"images\":[{\"uri\":\"wrap.ppm\"}],\"textures\":[{\"source\":0,\"sampler\":0}],"
+             "\"samplers\":[{\"wrapS\":%s,\"wrapT\":%s}],\"materials\":[{"
+             "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"extensions\":{"
+             "\"KHR_texture_transform\":{\"scale\":[3,3],\"offset\":[-1,-1]}}}}}],"
+             "\"meshes\":[{\"primitives\":[{\"mode\":5,\"material\":0,\"attributes\":"
+             "{\"POSITION\":0,\"TEXCOORD_0\":1}}]}],\"accessors\":[{\"bufferView\":0,"
+             "\"componentType\":5121,\"count\":4,\"type\":\"VEC3\"},{\"bufferView\":0,"
+             "\"byteOffset\":16,\"componentType\":5121,\"count\":4,\"type\":\"VEC2\"}],"
+             "\"bufferViews\":[{\"buffer\":0,\"byteLength\":32,\"byteStride\":4}],"
+             /* corners 00, 10, 01, 11, as bytes; t grows downwards */
+             "\"buffers\":[{\"byteLength\":32,\"uri\":\"data:;base64,"
+             "AAAAAAEAAAAAAQAAAQEAAAABAAABAQAAAAAAAAEAAAA=\"}]}",
+             wrap, wrap);
+    return load(test_file("wrap.gltf", text), NULL);
+}
+
 /* A square whose texture coordinates run from -1 to 2: the image, red and green over blue and
  * white, is in the middle. */
 static void maps_beyond_their_edges(void **state)
@@ -75,7 +97,6 @@ static void maps_beyond_their_edges(void **state)
                                             '5', '5', '\n', 255, 0,   0,   0,    255,
                                             0,   0,   0,    255, 255, 255, 255};
     static const char *const wraps[2] = {"10497", "33648"};
-    char text[2048];
     (void)state;
     test_bytes("wrap.ppm", picture, sizeof picture);
     test_file("wrap.mtl", "newmtl t\nKd 1 1 1\nmap_Kd -clamp on wrap.ppm\n");
@@ -90,22 +111,7 @@ static void maps_beyond_their_edges(void **state)
     expect_colour(scene, 2.3, 1.5, 0, 0.5f, 1, 0.5f); /* between green and white */
     clshear_scene_free(scene);
     for (int mirror = 0; mirror < 2; mirror++) {
-        snprintf(text, sizeof text,
-                 "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0,\"scale\":[3,3,1]}],"
-                 "\"images\":[{\"uri\":\"wrap.ppm\"}],\"textures\":[{\"source\":0,\"sampler\":0}],"
-                 "\"samplers\":[{\"wrapS\":%s,\"wrapT\":%s}],\"materials\":[{"
-                 "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"extensions\":{"
-                 "\"KHR_texture_transform\":{\"scale\":[3,3],\"offset\":[-1,-1]}}}}}],"
-                 "\"meshes\":[{\"primitives\":[{\"mode\":5,\"material\":0,\"attributes\":"
-                 "{\"POSITION\":0,\"TEXCOORD_0\":1}}]}],\"accessors\":[{\"bufferView\":0,"
-                 "\"componentType\":5121,\"count\":4,\"type\":\"VEC3\"},{\"bufferView\":0,"
-                 "\"byteOffset\":16,\"componentType\":5121,\"count\":4,\"type\":\"VEC2\"}],"
-                 "\"bufferViews\":[{\"buffer\":0,\"byteLength\":32,\"byteStride\":4}],"
-                 /* corners 00, 10, 01, 11, as bytes; t grows downwards */
-                 "\"buffers\":[{\"byteLength\":32,\"uri\":\"data:;base64,"
-                 "AAAAAAEAAAAAAQAAAQEAAAABAAABAQAAAAAAAAEAAAA=\"}]}",
-                 wraps[mirror], wraps[mirror]);
-        scene = load(test_file("wrap.gltf", text), NULL);
+        scene = load_wrapped(wraps[mirror]);
         expect_colour(scene, 1.25, 1.25, 0, 0, 0, 1);
         if (mirror)
             expect_colour(scene, 0.25, 1.25, 0, 1, 1, 1);
@@ -159,25 +165,25 @@ static void far_scenes_look_alike(void **state)
     clshear_scene_free(scene);
 }
 
+static const char two_cameras[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0},{\"camera\":0,"
+    "\"translation\":[0,0,5]},{\"camera\":1,\"translation\":[0,0,9]}],"
+    "\"cameras\":[{\"name\":\"near\",\"type\":\"perspective\",\"perspective\":"
+    "{\"yfov\":0.5}},{\"name\":\"far\",\"type\":\"orthographic\",\"orthographic\":"
+    "{\"xmag\":2,\"ymag\":1.5}}],\"meshes\":[{\"primitives\":[{\"attributes\":{"
+    "\"POSITION\":0}"
+    "}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5121,\"count\":3,"
+    "\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":12,"
+    "\"byteStride\":4}],\"buffers\":[{\"byteLength\":12,"
+    "\"uri\":\"data:;base64,AAAAAAEAAAAAAQAA\"}]}";
+
 static void cameras_are_chosen(void **state)
 {
     double eye[3], width = 0.0;
     size_t count = 0;
     clshear_settings *settings = NULL;
     (void)state;
-    clshear_scene *scene = load(
-        test_file("cameras.gltf",
-                  "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0},{\"camera\":0,"
-                  "\"translation\":[0,0,5]},{\"camera\":1,\"translation\":[0,0,9]}],"
-                  "\"cameras\":[{\"name\":\"near\",\"type\":\"perspective\",\"perspective\":"
-                  "{\"yfov\":0.5}},{\"name\":\"far\",\"type\":\"orthographic\",\"orthographic\":"
-                  "{\"xmag\":2,\"ymag\":1.5}}],\"meshes\":[{\"primitives\":[{\"attributes\":{"
-                  "\"POSITION\":0}"
-                  "}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5121,\"count\":3,"
-                  "\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":12,"
-                  "\"byteStride\":4}],\"buffers\":[{\"byteLength\":12,"
-                  "\"uri\":\"data:;base64,AAAAAAEAAAAAAQAA\"}]}"),
-        NULL);
+    clshear_scene *scene = load(test_file("cameras.gltf", two_cameras), NULL);
     assert_string_equal(clshear_scene_camera(scene, 1), "far");
     assert_null(clshear_scene_camera(scene, 2));
     static const struct {

@@ -163,13 +163,9 @@ static void make_ball(double time, float *positions, float *normals)
         }
 }
 
-static clshear_scene *ball_scene(clshear_context *context, double time, int moves)
+/* Returns the number of triangles. */
+static size_t make_faces(uint32_t *faces)
 {
-    static const float floor_corners[12] = {-6, 0, -6, 6, 0, -6, 6, 0, 6, -6, 0, 6};
-    static const uint32_t square[6] = {0, 1, 2, 0, 2, 3};
-    float ball[3 * BALL], ball_to[3 * BALL], normals[3 * BALL], normals_to[3 * BALL];
-    float lamp[12], lamp_to[12];
-    uint32_t faces[6 * RINGS * AROUND];
     size_t count = 0;
     for (uint32_t ring = 0; ring < RINGS; ring++)
         for (uint32_t k = 0; k < AROUND; k++) {
@@ -178,6 +174,17 @@ static clshear_scene *ball_scene(clshear_context *context, double time, int move
             memcpy(faces + count, corners, sizeof corners);
             count += 6;
         }
+    return count / 3;
+}
+
+static clshear_scene *ball_scene(clshear_context *context, double time, int moves)
+{
+    static const float floor_corners[12] = {-6, 0, -6, 6, 0, -6, 6, 0, 6, -6, 0, 6};
+    static const uint32_t square[6] = {0, 1, 2, 0, 2, 3};
+    float ball[3 * BALL], ball_to[3 * BALL], normals[3 * BALL], normals_to[3 * BALL];
+    float lamp[12], lamp_to[12];
+    uint32_t faces[6 * RINGS * AROUND];
+    const size_t count = make_faces(faces);
     /* Places between the ends are linear, as those of the renderer. */
     make_ball(0.0, ball, normals);
     make_ball(1.0, ball_to, normals_to);
@@ -200,7 +207,7 @@ static clshear_scene *ball_scene(clshear_context *context, double time, int move
                                      .normals = normals,
                                      .indices = faces,
                                      .vertex_count = BALL,
-                                     .triangle_count = count / 3,
+                                     .triangle_count = count,
                                      .diffuse = {0.8f, 0.3f, 0.3f},
                                      .positions_to = moves ? ball_to : NULL,
                                      .normals_to = moves ? normals_to : NULL},

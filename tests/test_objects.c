@@ -45,16 +45,11 @@ static void any_order_of_freeing_is_fine(void **state)
 
 #define expect_null(call, function) test_refused((call), CLSHEAR_BAD_ARGUMENT, function ": ")
 
-static void null_is_refused(void **state)
+static void settings_refuse_null(void **state)
 {
-    test_fixture *made = *state;
-    clshear_settings *settings = small(made);
-    clshear_film *film = NULL;
-    clshear_scene *scene = NULL;
-    clshear_context *context = NULL;
+    clshear_settings *settings = small(*state);
     clshear_setting setting;
     int64_t whole;
-    float *buffer = NULL;
     expect_null(clshear_settings_create(NULL), "clshear_settings_create");
     expect_null(clshear_settings_copy(NULL, &settings), "clshear_settings_copy");
     expect_null(clshear_settings_set_integer(NULL, CLSHEAR_SPP, 1), "clshear_settings_set_integer");
@@ -66,6 +61,17 @@ static void null_is_refused(void **state)
                 "clshear_settings_get_integer");
     expect_null(clshear_settings_read(settings, NULL, NULL, NULL), "clshear_settings_read");
     expect_null(clshear_setting_find(NULL, &setting), "clshear_setting_find");
+    clshear_settings_free(settings);
+}
+
+static void null_is_refused(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = small(made);
+    clshear_film *film = NULL;
+    clshear_scene *scene = NULL;
+    clshear_context *context = NULL;
+    float *buffer = NULL;
     expect_null(clshear_context_create(NULL, NULL), "clshear_context_create");
     expect_null(clshear_context_create_from(NULL, NULL, NULL, NULL, &context),
                 "clshear_context_create_from");
@@ -349,6 +355,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_order_of_freeing_is_fine),
+        cmocka_unit_test(settings_refuse_null),
         cmocka_unit_test(null_is_refused),
         cmocka_unit_test(empty_names_are_refused),
         cmocka_unit_test(messages_have_owners),

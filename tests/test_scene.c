@@ -210,28 +210,27 @@ static void other_formats(void **state)
 }
 
 /* A glTF triangle with a camera and a point light; the buffer is embedded in base 64. */
+static const char seen_and_lit[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1,2]}],"
+    "\"extensionsUsed\":[\"KHR_lights_punctual\"],"
+    "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\","
+    "\"color\":[1,0.5,0.25],\"intensity\":8}]}},"
+    "\"nodes\":[{\"mesh\":0},{\"camera\":0,\"translation\":[0.25,0.25,3]},"
+    "{\"translation\":[0,0,2],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}],"
+    "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.7,"
+    "\"aspectRatio\":1.5,\"znear\":0.1}}],"
+    "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.2,0.4,0.6,1]}}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,"
+    "\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+    "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+
 static void gltf_with_camera_and_light(void **state)
 {
     clshear_context *context = *state;
-    clshear_scene *scene = test_load(
-        context,
-        test_file(
-            "scene.gltf",
-            "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1,2]}],"
-            "\"extensionsUsed\":[\"KHR_lights_punctual\"],"
-            "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\","
-            "\"color\":[1,0.5,0.25],\"intensity\":8}]}},"
-            "\"nodes\":[{\"mesh\":0},{\"camera\":0,\"translation\":[0.25,0.25,3]},"
-            "{\"translation\":[0,0,2],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}],"
-            "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.7,"
-            "\"aspectRatio\":1.5,\"znear\":0.1}}],"
-            "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.2,0.4,0.6,1]}}],"
-            "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
-            "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,"
-            "\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}],"
-            "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
-            "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
-            "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}"));
+    clshear_scene *scene = test_load(context, test_file("scene.gltf", seen_and_lit));
     const clshear_scene_info info = test_scene_info(scene);
     assert_int_equal(info.triangles, 1);
     assert_int_equal(info.lights, 1);

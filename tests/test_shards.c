@@ -53,9 +53,45 @@ static void expect_same(const clshear_film *a, const clshear_film *b, double par
     }
 }
 
-/* Seven shards, in two orders and as a tree, through files; with one and with two replicates each,
- * and adaptive. Floats in the files round means to 6e-8, and variances of seven values that are a
- * fraction of these to 1e-4 of the largest. */
+/* Renders the shards and reads them back from files. */
+static void read_shards(clshear_scene *scene, clshear_settings *settings, clshear_film **films)
+{
+    for (int i = 0; i < SHARDS; i++) {
+        clshear_film *film = shard(scene, settings, i + 1);
+        const char *path = test_path("shard.exr");
+        test_ok(clshear_film_write(film, path));
+        clshear_film_free(film);
+        test_ok(clshear_film_read(path, &films[i]));
+    }
+}
+
+/* In two orders and as a tree. Floats in the files round means to 6e-8, and variances of seven
+ * values that are a fraction of these to 1e-4 of the largest. */
+static void expect_merged(clshear_film **films, const clshear_film *whole)
+{
+    clshear_film *turned[SHARDS];
+    char missing[64] = "unset";
+    for (int i = 0; i < SHARDS; i++)
+        turned[(3 * i + 2) % SHARDS] = films[i];
+    clshear_film *merged = merge(films, SHARDS), *again = merge(turned, SHARDS);
+    expect_same(merged, again, 0.0);
+    expect_same(whole, merged, 1e-4);
+    assert_int_equal(test_film_info(merged).samples, test_film_info(whole).samples);
+    clshear_film_missing(merged, missing, sizeof missing);
+    assert_string_equal(missing, "");
+    assert_int_equal(test_film_info(merged).complete, 1);
+    clshear_film *some = merge(turned, 3), *others = merge(turned + 3, 4);
+    clshear_film *pair[2] = {others, some};
+    clshear_film *tree = merge(pair, 2);
+    expect_same(merged, tree, 1e-4);
+    clshear_film_free(tree);
+    clshear_film_free(some);
+    clshear_film_free(others);
+    clshear_film_free(again);
+    clshear_film_free(merged);
+}
+
+/* Seven shards, through files; with one and with two replicates each, and adaptive. */
 static void merged_shards_are_the_render(void **state)
 {
     test_fixture *made = *state;
@@ -65,35 +101,12 @@ static void merged_shards_are_the_render(void **state)
     } cases[] = {{"7", "0"}, {"14", "0"}, {"9", "0"}, {"7", "1"}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         clshear_settings *settings = settings_of(made);
-        clshear_film *films[SHARDS], *turned[SHARDS];
-        char missing[64] = "unset";
+        clshear_film *films[SHARDS];
         test_set(settings, CLSHEAR_REPLICATES, "%s", cases[k].replicates);
         test_set(settings, CLSHEAR_ADAPTIVE, "%s", cases[k].adaptive);
         clshear_film *whole = test_render(made->scene, settings);
-        for (int i = 0; i < SHARDS; i++) {
-            clshear_film *film = shard(made->scene, settings, i + 1);
-            const char *path = test_path("shard.exr");
-            test_ok(clshear_film_write(film, path));
-            clshear_film_free(film);
-            test_ok(clshear_film_read(path, &films[i]));
-            turned[(3 * i + 2) % SHARDS] = films[i];
-        }
-        clshear_film *merged = merge(films, SHARDS), *again = merge(turned, SHARDS);
-        expect_same(merged, again, 0.0);
-        expect_same(whole, merged, 1e-4);
-        assert_int_equal(test_film_info(merged).samples, test_film_info(whole).samples);
-        clshear_film_missing(merged, missing, sizeof missing);
-        assert_string_equal(missing, "");
-        assert_int_equal(test_film_info(merged).complete, 1);
-        clshear_film *some = merge(turned, 3), *others = merge(turned + 3, 4);
-        clshear_film *pair[2] = {others, some};
-        clshear_film *tree = merge(pair, 2);
-        expect_same(merged, tree, 1e-4);
-        clshear_film_free(tree);
-        clshear_film_free(some);
-        clshear_film_free(others);
-        clshear_film_free(again);
-        clshear_film_free(merged);
+        read_shards(made->scene, settings, films);
+        expect_merged(films, whole);
         clshear_film_free(whole);
         for (int i = 0; i < SHARDS; i++)
             clshear_film_free(films[i]);

@@ -160,6 +160,20 @@ static void hits_equal_brute_force(void **state)
     free(truth);
 }
 
+/* Rays through the middles of 256 x 256 pixels. */
+static void make_camera_rays(const cs_camera *camera, float *rays)
+{
+    for (cs_u32 i = 0; i < RAYS; i++) {
+        const float direction[3] = {((cs_f32)(i % 256) + 0.5f - 128.0f) * camera->pixel_width,
+                                    -((cs_f32)(i / 256) + 0.5f - 128.0f) * camera->pixel_width,
+                                    -1.0f};
+        for (cs_u32 axis = 0; axis < 3; axis++) {
+            rays[axis * RAYS + i] = camera->eye[axis];
+            rays[(3 + axis) * RAYS + i] = direction[axis];
+        }
+    }
+}
+
 /* Camera rays of a pinhole picture of many triangles: the kernel's distance equals Embree's depth,
  * except for rays that graze an edge. */
 static void hits_equal_embree(void **state)
@@ -183,16 +197,9 @@ static void hits_equal_embree(void **state)
         build(&made, meshes[k], 60000);
         assert_int_equal(cs_accel_depth(made.accel, NULL, &camera, NULL, window, 0, depth, &error),
                          CLSHEAR_OK);
-        for (cs_u32 i = 0; i < RAYS; i++) {
-            const float direction[3] = {((cs_f32)(i % 256) + 0.5f - 128.0f) * camera.pixel_width,
-                                        -((cs_f32)(i / 256) + 0.5f - 128.0f) * camera.pixel_width,
-                                        -1.0f};
-            for (cs_u32 axis = 0; axis < 3; axis++) {
-                rays[axis * RAYS + i] = camera.eye[axis];
-                rays[(3 + axis) * RAYS + i] = direction[axis];
-            }
+        make_camera_rays(&camera, rays);
+        for (cs_u32 i = 0; i < RAYS; i++)
             found[i] = INFINITY;
-        }
         trace_device(&made, 8, 0, rays, found);
         for (cs_u32 i = 0; i < RAYS; i++) {
             seen += isfinite(depth[i].centre);

@@ -14,9 +14,8 @@
 #include <string.h>
 
 #include "analysis/fourier.h"
+#include "base/pi.h"
 #include "clshear/device/hash.h"
-
-static const double pi = 3.14159265358979323846;
 
 enum {
     MOST_DIMENSIONS = 5,
@@ -91,7 +90,7 @@ static void add_group(accumulation *a, cs_energy *energy)
 {
     fftw_execute(a->plan);
     for (size_t i = 0; i < a->coefficients; i++) {
-        const double angle = -pi * phase_of(a, i);
+        const double angle = -CS_PI_DOUBLE * phase_of(a, i);
         const double c = cos(angle) / (double)a->cells, s = sin(angle) / (double)a->cells;
         const double re = a->transform[i][0] * c - a->transform[i][1] * s;
         const double im = a->transform[i][0] * s + a->transform[i][1] * c;

@@ -5,10 +5,9 @@
 
 #include "analysis/integrands.h"
 #include "base/parallel.h"
+#include "base/pi.h"
 #include "base/status.h"
 #include "clshear/device/hash.h"
-
-static const double pi = 3.14159265358979323846;
 
 /* A row of CLSHEAR_INTEGRAND_LIST. Its index is the integrand's number. */
 static const struct {
@@ -39,7 +38,7 @@ clshear_status cs_integrand_find(const char *name, clshear_integrand *integrand)
 
 double cs_integrand_at(const clshear_integrand *integrand, double x, double y)
 {
-    const double angle = integrand->angle_deg * pi / 180.0, size = integrand->extent;
+    const double angle = integrand->angle_deg * CS_PI_DOUBLE / 180.0, size = integrand->extent;
     const double along = (x - 0.5) * cos(angle) + (y - 0.5) * sin(angle);
     const double across = (y - 0.5) * cos(angle) - (x - 0.5) * sin(angle);
     switch (integrand->kind) {
@@ -54,7 +53,7 @@ double cs_integrand_at(const clshear_integrand *integrand, double x, double y)
     case CLSHEAR_INTEGRAND_TENT:
         return fmax(1.0 - 2.0 * fabs(along) / size, 0.0);
     default:
-        return 0.5 + 0.5 * cos(2.0 * pi * along / size);
+        return 0.5 + 0.5 * cos(2.0 * CS_PI_DOUBLE * along / size);
     }
 }
 

@@ -7,9 +7,8 @@
 
 #include "analysis/fourier.h"
 #include "analysis/predict.h"
+#include "base/pi.h"
 #include "base/status.h"
-
-static const double pi = 3.14159265358979323846;
 
 /* Names of the cones: their first angle in degrees. */
 static const char *const part_names[CS_CONES + 1] = {"cone 0",    "cone 22.5",  "cone 45",
@@ -19,7 +18,7 @@ static const char *const part_names[CS_CONES + 1] = {"cone 0",    "cone 22.5",  
 /* Index of a frequency's cone among `cones` in a half turn. f and -f share one. */
 static size_t cone_of(double x, double y, size_t cones)
 {
-    double angle = atan2(y, x) / pi; /* in half turns */
+    double angle = atan2(y, x) / CS_PI_DOUBLE; /* in half turns */
     angle -= floor(angle);
     const size_t cone = (size_t)(angle * (double)cones);
     return cone < cones ? cone : 0;
@@ -111,6 +110,25 @@ static size_t longer_side(const clshear_spectrum *samples)
     return samples->width > samples->height ? samples->width : samples->height;
 }
 
+/* Copies cells in double precision; returns their mean. */
+static double take(const float *cells, size_t count, double *values)
+{
+    double mean = 0.0;
+    for (size_t i = 0; i < count; i++) {
+        values[i] = (double)cells[i];
+        mean += values[i] / (double)count;
+    }
+    return mean;
+}
+
+static void name_parts(clshear_prediction *p)
+{
+    for (size_t part = 0; part < p->parts; part++) {
+        p->names[part] = part_names[part];
+        p->energies[part] = NAN;
+    }
+}
+
 clshear_status cs_predict_variance(const clshear_spectrum *samples, const float *integrand,
                                    size_t side, double mean_square, clshear_prediction *prediction)
 {
@@ -118,7 +136,7 @@ clshear_status cs_predict_variance(const clshear_spectrum *samples, const float 
     cs_error *error = cs_thread_error();
     const size_t entries = (longer_side(samples) + 2) << (CS_CONE_LEVELS - 1);
     clshear_prediction p = {.parts = CS_CONES + 1};
-    double *values = NULL, *means = NULL, mean = 0.0;
+    double *values = NULL, *means = NULL;
     fftw_complex *transform = NULL;
     fftw_plan plan = NULL;
     CS_REQUIRE(side % 2 == 0 && side >= 2 * longer_side(samples) && side <= 16384,
@@ -134,10 +152,7 @@ clshear_status cs_predict_variance(const clshear_spectrum *samples, const float 
     cs_fourier_start();
     plan = fftw_plan_dft_r2c_2d((int)side, (int)side, values, transform, FFTW_ESTIMATE);
     CS_REQUIRE(plan != NULL, CLSHEAR_OUT_OF_MEMORY, "no transform of %zu x %zu cells", side, side);
-    for (size_t i = 0; i < side * side; i++) {
-        values[i] = (double)integrand[i];
-        mean += values[i] / (double)(side * side);
-    }
+    const double mean = take(integrand, side * side, values);
     fftw_execute(plan);
     p.energy = fmax(mean_square - mean * mean, 0.0);
     sum_up(samples, (const fftw_complex *)transform, side, &p);
@@ -145,10 +160,7 @@ clshear_status cs_predict_variance(const clshear_spectrum *samples, const float 
         p.by_cones[level] = p.variances[CS_CONES] +
                             sum_in_cones(samples, (const fftw_complex *)transform, side,
                                          (size_t)1 << level, means, means + entries, entries);
-    for (size_t part = 0; part < p.parts; part++) {
-        p.names[part] = part_names[part];
-        p.energies[part] = NAN;
-    }
+    name_parts(&p);
     *prediction = p;
 done:
     if (plan != NULL) fftw_destroy_plan(plan);

@@ -5,6 +5,7 @@
 
 #include "analysis/fourier.h"
 #include "analysis/spectrum.h"
+#include "base/pi.h"
 
 clshear_status cs_spectrum_of_grid(const float *values, size_t width, size_t height,
                                    clshear_spectrum *spectrum)
@@ -51,7 +52,7 @@ done:
 /* Hann's window over `count` values. */
 static double window(size_t index, size_t count)
 {
-    return 0.5 - 0.5 * cos(2.0 * 3.14159265358979323846 * ((double)index + 0.5) / (double)count);
+    return 0.5 - 0.5 * cos(2.0 * CS_PI_DOUBLE * ((double)index + 0.5) / (double)count);
 }
 
 clshear_status cs_spectrum_of_slice(const float *values, size_t width, size_t height,

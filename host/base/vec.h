@@ -12,6 +12,12 @@ static inline double cs_vec_dot_double(const double *a, const double *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/* Luminance of a linear Rec.709 colour; cs_luminance of kernels/vector.h is that of floats. */
+static inline double cs_luminance_double(double red, double green, double blue)
+{
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+}
+
 /* c = a x b; c must not alias a or b. */
 static inline void cs_vec_cross(const float *a, const float *b, float *c)
 {

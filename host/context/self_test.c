@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/cache_folder.h"
+#include "base/checksum.h"
 #include "base/output_file.h"
 #include "clshear/device/hash.h"
 #include "clshear/device/shear.h"
@@ -277,10 +278,9 @@ static int path_of_pass(const clshear_context *context, char *path)
     char folder[PATH_SIZE];
     const char *const words[] = {cs_device_name(context->device), cs_device_driver(context->device),
                                  cs_device_source(), cs_device_kernels()};
-    uint64_t sum = 0xcbf29ce484222325u ^ (uint64_t)cs_device_packet(context->device); /* FNV-1a */
+    uint64_t sum = CS_CHECKSUM_OF_NOTHING ^ (uint64_t)cs_device_packet(context->device);
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        for (const char *at = words[i]; *at != '\0'; at++)
-            sum = (sum ^ (unsigned char)*at) * 0x100000001b3u;
+        sum = cs_checksum_add(sum, words[i], strlen(words[i]));
     if (!cs_cache_folder("clshear/devices", folder, sizeof folder)) return 0;
     return snprintf(path, PATH_SIZE, "%s/%016llx", folder, (unsigned long long)sum) < PATH_SIZE;
 }

@@ -4,10 +4,10 @@
 #include <string.h>
 
 #include "device/objects.h"
-#include "device/patience.h"
 #include "device/pocl_cache.h"
 #include "device/program.h"
 #include "device/recorder.h"
+#include "device/slow_driver.h"
 
 #define KERNEL_ROW(identifier, name, program, arguments) \
     {#name, CS_PROGRAM_##program, CS_ARGUMENTS_##identifier},

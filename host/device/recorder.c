@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/array.h"
+#include "base/checksum.h"
 #include "base/output_file.h"
 #include "clshear/version.h"
 #include "device/program.h"
@@ -30,9 +31,7 @@ struct cs_recorder {
 /* Failed writes are seen when the file is closed. */
 static void put(cs_recorder *recorder, const void *data, size_t size)
 {
-    const unsigned char *bytes = data;
-    for (size_t i = 0; i < size; i++)
-        recorder->sum = (recorder->sum ^ bytes[i]) * 0x100000001b3u;
+    recorder->sum = cs_checksum_add(recorder->sum, data, size);
     fwrite(data, 1, size, recorder->file.stream);
 }
 
@@ -194,7 +193,7 @@ clshear_status cs_recorder_open(cs_device *device, const char *path, cs_recorder
     cs_recorder *recorder = calloc(1, sizeof *recorder);
     CS_REQUIRE(recorder != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for a capsule");
     recorder->device = device;
-    recorder->sum = 0xcbf29ce484222325u;
+    recorder->sum = CS_CHECKSUM_OF_NOTHING;
     recorder->buffers.item_size = sizeof(known_buffer);
     recorder->path = strdup(path);
     CS_REQUIRE(recorder->path != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for a capsule");

@@ -22,8 +22,7 @@ double cs_noise_of_picture(const cs_estimate *estimate)
     return variance > 0.0 ? sqrt(variance) / mean : 0.0;
 }
 
-/* Mean of a plane over 5 x 5 pixels, at the border over fewer. */
-static double smoothed(const float *plane, int width, int height, int x, int y)
+double cs_smoothed(const float *plane, int width, int height, int x, int y)
 {
     double sum = 0.0;
     int count = 0;
@@ -51,8 +50,8 @@ static float error_at(const cs_estimate *estimate, const cs_tone *tone, float sc
     float ends[6]; /* one standard error below the mean, and above */
     double sum = 0.0;
     for (int c = 0; c < 3; c++) {
-        const float deviation =
-            (float)sqrt(smoothed(estimate->variance[c], estimate->width, estimate->height, x, y));
+        const float deviation = (float)sqrt(
+            cs_smoothed(estimate->variance[c], estimate->width, estimate->height, x, y));
         ends[c] = estimate->mean[c][pixel] - deviation;
         ends[3 + c] = estimate->mean[c][pixel] + deviation;
     }

@@ -28,4 +28,7 @@ clshear_status cs_noise_of_pixels(const cs_estimate *estimate, const cs_tone *to
 /* Bytes that it takes for each pixel while it runs. */
 size_t cs_noise_bytes(void);
 
+/* Mean of a plane over 5 x 5 pixels around one, at the border over fewer. */
+double cs_smoothed(const float *plane, int width, int height, int x, int y);
+
 #endif

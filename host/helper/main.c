@@ -7,7 +7,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "helper/late.h"
+#include "helper/modules.h"
 #include "import/transfer.h"
 #include "import/wall.h"
 
@@ -49,7 +49,7 @@ static clshear_status read_within_limits(cs_bytes *bytes, cs_model *model, cs_er
     getrusage(RUSAGE_SELF, &used);
     limit(RLIMIT_AS, cs_import_bytes(model->path, 1));
     limit(RLIMIT_CPU, cs_import_seconds(model->path, 1) + (double)used.ru_utime.tv_sec + 1.0);
-    const clshear_status status = cs_read_late(bytes, model, error);
+    const clshear_status status = cs_read_by_module(bytes, model, error);
     setrlimit(RLIMIT_AS, &memory);
     setrlimit(RLIMIT_CPU, &time);
     return status;

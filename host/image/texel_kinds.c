@@ -4,11 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rec. 709, of linear values. */
-static float grey_of(const float *texel)
-{
-    return 0.2126f * texel[0] + 0.7152f * texel[1] + 0.0722f * texel[2];
-}
+#include "kernels/vector.h"
 
 float cs_roughness_of_exponent(float exponent)
 {
@@ -21,14 +17,14 @@ static void take_opacity(float *rgba, size_t count)
     for (size_t i = 0; i < count; i++)
         varies |= rgba[4 * i + 3] != 1.0f;
     for (size_t i = 0; i < count; i++)
-        if (!varies) rgba[4 * i + 3] = grey_of(rgba + 4 * i);
+        if (!varies) rgba[4 * i + 3] = cs_luminance(rgba + 4 * i);
 }
 
 static void take_gloss(float *rgba, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         rgba[4 * i] = rgba[4 * i + 1] = rgba[4 * i + 2] =
-            cs_roughness_of_exponent(grey_of(rgba + 4 * i));
+            cs_roughness_of_exponent(cs_luminance(rgba + 4 * i));
 }
 
 /* Exporters name normal maps as bump maps. Such a map is bluish, and its mean is straight up. */
@@ -48,7 +44,7 @@ static int take_heights(float *rgba, size_t width, size_t height)
     float *heights = calloc(width * height + 1, sizeof *heights);
     if (heights == NULL) return 0;
     for (size_t i = 0; i < width * height; i++)
-        heights[i] = grey_of(rgba + 4 * i);
+        heights[i] = cs_luminance(rgba + 4 * i);
     for (size_t y = 0; y < height; y++) {
         const float *row = heights + y * width;
         const float *above = heights + (y + height - 1) % height * width;

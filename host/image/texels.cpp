@@ -11,6 +11,7 @@
 
 #include "base/output_file.h"
 #include "image/oiio.h"
+#include "kernels/vector.h"
 
 namespace
 {
@@ -193,7 +194,8 @@ clshear_status read_luminance(const char *path, int most, float **luminance, int
         static_cast<float *>(std::calloc(row * static_cast<size_t>(*height), sizeof(float)));
     if (sums == nullptr) throw std::bad_alloc();
     for (ImageBuf::ConstIterator<float> texel(rgba); !texel.done(); ++texel) {
-        const float value = 0.2126f * texel[0] + 0.7152f * texel[1] + 0.0722f * texel[2];
+        const float colour[3] = {texel[0], texel[1], texel[2]};
+        const float value = cs_luminance(colour);
         const auto x = static_cast<size_t>((texel.x() - rgba.spec().x) / step);
         const auto y = static_cast<size_t>((texel.y() - rgba.spec().y) / step);
         if (value > 0.0f) sums[y * row + x] += value;

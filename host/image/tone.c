@@ -3,14 +3,15 @@
 #include <math.h>
 
 #include "clshear/clshear.h"
+#include "kernels/vector.h"
 
 float cs_tone_auto_scale(const float *const *planes, size_t count)
 {
     double sum = 0.0;
     size_t lit = 0;
     for (size_t i = 0; i < count; i++) {
-        const float luminance =
-            0.2126f * planes[0][i] + 0.7152f * planes[1][i] + 0.0722f * planes[2][i];
+        const float colour[3] = {planes[0][i], planes[1][i], planes[2][i]};
+        const float luminance = cs_luminance(colour);
         if (!(luminance > 0.0f) || !isfinite(luminance)) continue;
         sum += log((double)luminance);
         lit++;

@@ -100,16 +100,11 @@ static int make_view(const cs_model_camera *source, const cs_scene *scene, cs_vi
 /* Names the cameras of which the first is taken. */
 static void report_choice(const cs_model *model, const cs_scene *scene)
 {
-    const cs_scene_camera *cameras = scene->cameras.items;
-    char names[512] = "";
+    char names[CS_CAMERA_LIST];
     if (scene->cameras.count < 2) return;
-    for (size_t i = 0; i < scene->cameras.count && i < 8; i++) {
-        const size_t used = strlen(names);
-        snprintf(names + used, sizeof names - used, "%s%zu \"%.40s\"", i > 0 ? ", " : "", i,
-                 cameras[i].name);
-    }
-    cs_warn(model->log, "%s: has %zu cameras, of which the first is used; --camera chooses: %s%s",
-            model->path, scene->cameras.count, names, scene->cameras.count > 8 ? ", ..." : "");
+    cs_scene_list_cameras(scene, names);
+    cs_warn(model->log, "%s: has %zu cameras, of which the first is used; --camera chooses: %s",
+            model->path, scene->cameras.count, names);
 }
 
 clshear_status cs_build_cameras(const cs_model *model, cs_scene *scene, cs_error *error)

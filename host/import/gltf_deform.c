@@ -4,18 +4,6 @@
 
 #include "import/gltf_reader.h"
 
-/* product = a * b, of 4 columns of 4. */
-static void multiply(const double *a, const float *b, double *product)
-{
-    for (int column = 0; column < 4; column++)
-        for (int row = 0; row < 4; row++) {
-            double sum = 0.0;
-            for (int k = 0; k < 4; k++)
-                sum += a[4 * k + row] * (double)b[4 * column + k];
-            product[4 * column + row] = sum;
-        }
-}
-
 clshear_status gltf_skin_open(gltf_reader *reader, const json_t *node, gltf_skin *skin)
 {
     clshear_status status = CLSHEAR_OK;
@@ -39,15 +27,17 @@ clshear_status gltf_skin_open(gltf_reader *reader, const json_t *node, gltf_skin
     CS_REQUIRE(skin->joints != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for a skin");
     for (size_t i = 0; i < json_array_size(joints); i++) {
         const json_t *joint = json_array_get(joints, i);
-        double global[16];
+        double global[16], inverse_bind[16];
         const double place = json_is_number(joint) ? json_number_value(joint) : -1.0;
         if (!(place >= 0.0 && place < (double)gltf_count(reader, "nodes"))) {
             status = gltf_complain(reader, "skins", number, "joint %zu is no node", i);
             goto done;
         }
         CS_TRY(gltf_global_matrix(reader, (long long)place, global));
+        for (size_t k = 0; inverse != NULL && k < 16; k++)
+            inverse_bind[k] = (double)inverse[16 * i + k];
         if (inverse != NULL)
-            multiply(global, inverse + 16 * i, skin->joints[i]);
+            gltf_multiply(global, inverse_bind, skin->joints[i]);
         else
             memcpy(skin->joints[i], global, sizeof global);
     }

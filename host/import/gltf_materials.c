@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vec.h"
 #include "import/find_file.h"
 #include "import/gltf_reader.h"
 
@@ -136,7 +137,7 @@ static void read_reflection(const json_t *json, cs_material_description *materia
     material->ior = (float)ior;
     double colour[3] = {1, 1, 1};
     gltf_numbers(ext, "specularColorFactor", colour, 3);
-    const double grey = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
+    const double grey = cs_luminance_double(colour[0], colour[1], colour[2]);
     const double factor = gltf_number(ext, "specularFactor", 1.0);
     material->reflectance = (float)(fmin(edge * edge * grey, 1.0) * factor);
     material->grazing = (float)factor;

@@ -18,8 +18,7 @@ static void identity(double *m)
         m[i] = i % 5 == 0 ? 1.0 : 0.0;
 }
 
-/* product = a * b */
-static void multiply(const double *a, const double *b, double *product)
+void gltf_multiply(const double *a, const double *b, double *product)
 {
     for (int column = 0; column < 4; column++)
         for (int row = 0; row < 4; row++) {
@@ -78,7 +77,7 @@ clshear_status gltf_global_matrix(gltf_reader *reader, long long node, double *m
         if (json == NULL) return CLSHEAR_BAD_FILE;
         if (depth > count) return gltf_complain(reader, "nodes", node, "is its own parent");
         local_matrix(json, local);
-        multiply(local, matrix, product);
+        gltf_multiply(local, matrix, product);
         memcpy(matrix, product, sizeof product);
         node = parent_of(reader, node);
     }
@@ -192,7 +191,7 @@ static clshear_status visit_node(gltf_reader *reader, cs_array *waiting, const g
     if (json_is_false(json_object_get(gltf_extension(node, "KHR_node_visibility"), "visible")))
         return CLSHEAR_OK; /* neither is what is below it */
     local_matrix(node, local);
-    multiply(visit->matrix, local, matrix);
+    gltf_multiply(visit->matrix, local, matrix);
     const long long camera = gltf_index(node, "camera");
     const json_t *light = gltf_extension(node, "KHR_lights_punctual");
     if (json_object_get(node, "mesh") != NULL) CS_TRY(gltf_mesh(reader, node, matrix));

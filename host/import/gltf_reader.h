@@ -44,6 +44,9 @@ const char *gltf_text(const json_t *object, const char *key, const char *fallbac
 void gltf_numbers(const json_t *object, const char *key, double *numbers, size_t count);
 void gltf_floats(const json_t *object, const char *key, float *numbers, size_t count);
 
+/* product = a * b, matrices of 4 columns of 4; `product` is neither of them. */
+void gltf_multiply(const double *a, const double *b, double *product);
+
 /* Member `name` of an object's extensions, or NULL. */
 json_t *gltf_extension(const json_t *object, const char *name);
 

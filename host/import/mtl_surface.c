@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "kernels/vector.h"
+
 void mtl_values_init(mtl_values *values)
 {
     *values = (mtl_values){.highlight = {-1, -1, -1},
@@ -19,11 +21,6 @@ void mtl_values_init(mtl_values *values)
 static float limited(float value, float most)
 {
     return value > 0.0f ? fminf(value, most) : 0.0f;
-}
-
-static float grey_of(const float *colour)
-{
-    return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
 }
 
 /* Illumination models of the MTL specification: those with mirrors, those with glass, and of these
@@ -90,7 +87,7 @@ static void make_see_through(float opacity, cs_material_description *material)
  * the 0.5 that exporters leave there is glTF's 4 %. */
 static void make_highlight(const mtl_values *values, cs_material_description *material)
 {
-    const float grey = limited(grey_of(values->highlight), 1.0f);
+    const float grey = limited(cs_luminance(values->highlight), 1.0f);
     material->reflectance = 0.08f * grey;
     material->grazing = fminf(2.0f * grey, 1.0f);
 }

@@ -55,7 +55,7 @@ static clshear_status read_library(obj_reader *reader, const char *name)
     return CLSHEAR_OK;
 }
 
-/* A name with blanks, or several names. */
+/* Reads `mtllib`: one name that contains blanks, if there is such a file; else several names. */
 clshear_status cs_obj_library(obj_reader *reader, char *names)
 {
     char found[CS_FILE_PATH];

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/pi.h"
 #include "base/vec.h"
 #include "import/index_map.h"
 
@@ -11,7 +12,7 @@ enum {
     MOST_NEIGHBOURS = 512 /* triangles around a point that are compared with each other */
 };
 
-static const double degrees_in_radians = 3.14159265358979323846 / 180.0;
+static const double degrees_in_radians = CS_PI_DOUBLE / 180.0;
 
 /* A corner of a triangle without normals: which place it is at, what it adds to the mean. */
 typedef struct part {

@@ -1,6 +1,7 @@
 /* Pixel filters as densities on steps of equal width. */
 #include <math.h>
 
+#include "base/pi.h"
 #include "optics/aperture_kinds.h"
 
 static const float usual_width_px[] = {
@@ -13,7 +14,7 @@ static const float usual_width_px[] = {
 /* Unnormalised filter value at `place`, which runs from -1/2 to 1/2 over the filter's width. */
 static double height(clshear_filter filter, double place)
 {
-    const double turn = 2.0 * 3.14159265358979323846 * place, deviations = 6.0 * place;
+    const double turn = 2.0 * CS_PI_DOUBLE * place, deviations = 6.0 * place;
     switch (filter) {
     case CLSHEAR_FILTER_TENT:
         return 1.0 - 2.0 * fabs(place);

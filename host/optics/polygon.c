@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/pi.h"
 #include "clshear/device/marginal.h"
 #include "optics/aperture_kinds.h"
 
@@ -53,10 +54,10 @@ static cs_u32 knots_of(const corner *corners, int blades, double *knots)
 
 static void place_corners(corner *corners, int blades, double rotation_deg)
 {
-    const double pi = 3.14159265358979323846;
-    const double radius = sqrt(2.0 / (blades * sin(2.0 * pi / blades))); /* a polygon of area 1 */
+    const double radius =
+        sqrt(2.0 / (blades * sin(2.0 * CS_PI_DOUBLE / blades))); /* a polygon of area 1 */
     for (int i = 0; i < blades; i++) {
-        const double angle = 2.0 * pi * i / blades + rotation_deg * pi / 180.0;
+        const double angle = 2.0 * CS_PI_DOUBLE * i / blades + rotation_deg * CS_PI_DOUBLE / 180.0;
         corners[i] = (corner){radius * cos(angle), -radius * sin(angle)}; /* v points down */
     }
 }

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/pi.h"
 #include "clshear/device/sampler/net.h"
 #include "pattern/table_makers.h"
 
@@ -175,7 +176,7 @@ static void flow(cs_u32 count, int most, cs_f32 *x, cs_f32 *y, double (*density)
                 mode(px, py, a, b, value);
                 /* twice the real part of -i d / (2 pi |k|^2) exp(2 pi i k x) */
                 const double part =
-                    (d[0] * value[1] + d[1] * value[0]) / (3.141592653589793 * (a * a + b * b));
+                    (d[0] * value[1] + d[1] * value[0]) / (CS_PI_DOUBLE * (a * a + b * b));
                 way[0] += a * part;
                 way[1] += b * part;
             }

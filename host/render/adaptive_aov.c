@@ -6,18 +6,9 @@
 #include "render/adaptive.h"
 #include "render/render_job.h"
 
-enum {
-    SLICE = 1 << 14 /* pixels on their way at once */
-};
-
 /* What is done to the sums of a pixel: `sums` on the device and `kept` ones of beginnings. */
 typedef void (*visit)(cs_job *job, cs_u32 replicate, size_t index, const cs_pixel *pixel,
                       cs_exact_sum *sums);
-
-static double total_of(cs_exact_sum sum)
-{
-    return (double)sum.sum + (double)sum.carry;
-}
 
 static cs_exact_sum exact(double value)
 {
@@ -52,7 +43,7 @@ static void close(cs_job *job, cs_u32 replicate, size_t index, const cs_pixel *p
     double *means = job->adaptive.aov_means + index * job->pixels.planes;
     (void)pixel;
     for (size_t k = 0; k < job->pixels.planes; k++) {
-        means[k] += total_of(sums[k]) / samples;
+        means[k] += cs_exact_total(sums[k]) / samples;
         sums[k] = exact(0.0);
     }
 }
@@ -63,8 +54,8 @@ static void settle_beginning(const cs_job *job, size_t index, cs_exact_sum *sums
     const size_t planes = job->pixels.planes;
     for (size_t k = 0; k < planes; k++)
         for (cs_u32 b = 0; b < job->adaptive.drawn; b++)
-            sums[k] = exact(total_of(sums[k]) +
-                            total_of(job->adaptive.shares[b].aovs[index * planes + k]));
+            sums[k] = exact(cs_exact_total(sums[k]) +
+                            cs_exact_total(job->adaptive.shares[b].aovs[index * planes + k]));
 }
 
 static void settle(cs_job *job, cs_u32 replicate, size_t index, const cs_pixel *pixel,
@@ -84,9 +75,9 @@ static void settle(cs_job *job, cs_u32 replicate, size_t index, const cs_pixel *
                             : pixel->pending;
     for (size_t k = 0; k < planes; k++) {
         double sum = adaptive->aov_means[index * planes + k], count = adaptive->closed;
-        if (open > 0) sum += total_of(sums[k]) / open, count++;
+        if (open > 0) sum += cs_exact_total(sums[k]) / open, count++;
         for (cs_u32 b = adaptive->begun; b < CS_BEGINNINGS; b++, count++)
-            sum += total_of(adaptive->shares[b].aovs[index * planes + k]) / begun_with;
+            sum += cs_exact_total(adaptive->shares[b].aovs[index * planes + k]) / begun_with;
         sums[k] = exact(count > 0.0 ? sum / count * pixel->samples : 0.0);
     }
 }
@@ -96,11 +87,12 @@ static clshear_status visit_all(cs_job *job, visit apply, cs_u32 replicate, cs_e
     clshear_status status = CLSHEAR_OK;
     const size_t planes = job->pixels.planes;
     if (planes == 0) return CLSHEAR_OK;
-    cs_pixel *pixels = malloc(SLICE * sizeof *pixels);
-    cs_exact_sum *sums = malloc(SLICE * planes * sizeof *sums);
+    cs_pixel *pixels = malloc(CS_AOV_PIXEL_SLICE * sizeof *pixels);
+    cs_exact_sum *sums = malloc(CS_AOV_PIXEL_SLICE * planes * sizeof *sums);
     CS_REQUIRE(pixels != NULL && sums != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    for (size_t first = 0; first < job->pixel_count; first += SLICE) {
-        const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
+    for (size_t first = 0; first < job->pixel_count; first += CS_AOV_PIXEL_SLICE) {
+        const size_t left = job->pixel_count - first,
+                     count = left < CS_AOV_PIXEL_SLICE ? left : CS_AOV_PIXEL_SLICE;
         CS_TRY(cs_pixels_read(&job->pixels, first, count, pixels, error));
         CS_TRY(cs_pixels_read_aovs(&job->pixels, first, count, sums, error));
         for (size_t i = 0; i < count; i++)

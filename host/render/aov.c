@@ -8,10 +8,6 @@
 #include "kernels/aov.h"
 #include "kernels/features.h"
 
-enum {
-    SLICE = 1 << 14 /* pixels on their way at once */
-};
-
 /* A kept plane and its channel. */
 typedef struct plane {
     int number; /* CS_PLANE_ */
@@ -88,21 +84,16 @@ static double shift_of(const cs_job *job, int number)
     return is_position ? job->scene->scene.origin[number - CS_PLANE_POSITION] : 0.0;
 }
 
-static double total_of(cs_exact_sum sum)
-{
-    return (double)sum.sum + (double)sum.carry;
-}
-
 static void resolve_pixel(const cs_job *job, const plane_set *set, const cs_exact_sum *sums,
                           double samples, size_t index)
 {
-    const double hits = set->coverage >= 0 ? total_of(sums[set->coverage]) : 0.0;
+    const double hits = set->coverage >= 0 ? cs_exact_total(sums[set->coverage]) : 0.0;
     for (size_t k = 0; k < set->count; k++) {
         const int number = set->planes[k].number;
         float *value = &set->planes[k].pixels[index];
         const double count = is_of_hits(number) ? hits : samples;
         if (count > 0.0)
-            *value = (float)(total_of(sums[k]) / count + shift_of(job, number));
+            *value = (float)(cs_exact_total(sums[k]) / count + shift_of(job, number));
         else if (number == CS_PLANE_DEPTH)
             *value = INFINITY;
     }
@@ -140,10 +131,11 @@ clshear_status cs_aov_load(cs_job *job, cs_error *error)
     const plane_set set = set_of(job);
     const double samples = (double)job->pattern.first * job->replicates;
     if (set.count == 0) return CLSHEAR_OK;
-    cs_exact_sum *slice = malloc(SLICE * set.count * sizeof *slice);
+    cs_exact_sum *slice = malloc(CS_AOV_PIXEL_SLICE * set.count * sizeof *slice);
     CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    for (size_t first = 0; first < job->pixel_count; first += SLICE) {
-        const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
+    for (size_t first = 0; first < job->pixel_count; first += CS_AOV_PIXEL_SLICE) {
+        const size_t left = job->pixel_count - first,
+                     count = left < CS_AOV_PIXEL_SLICE ? left : CS_AOV_PIXEL_SLICE;
         for (size_t i = 0; i < count; i++)
             load_pixel(job, &set, samples, first + i, slice + i * set.count);
         CS_TRY(cs_pixels_write_aovs(&job->pixels, first, count, slice, error));
@@ -159,15 +151,16 @@ clshear_status cs_aov_resolve(const cs_job *job, const float *samples, clshear_f
     clshear_status status = CLSHEAR_OK;
     plane_set set = set_of(job);
     if (set.count == 0) return CLSHEAR_OK;
-    cs_exact_sum *slice = malloc(SLICE * set.count * sizeof *slice);
+    cs_exact_sum *slice = malloc(CS_AOV_PIXEL_SLICE * set.count * sizeof *slice);
     CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for the film");
     for (size_t k = 0; k < set.count; k++) {
         set.planes[k].pixels = cs_film_add_channel(film, set.planes[k].name);
         CS_REQUIRE(set.planes[k].pixels != NULL, CLSHEAR_OUT_OF_MEMORY,
                    "out of memory for the film");
     }
-    for (size_t first = 0; first < job->pixel_count; first += SLICE) {
-        const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
+    for (size_t first = 0; first < job->pixel_count; first += CS_AOV_PIXEL_SLICE) {
+        const size_t left = job->pixel_count - first,
+                     count = left < CS_AOV_PIXEL_SLICE ? left : CS_AOV_PIXEL_SLICE;
         CS_TRY(cs_pixels_read_aovs(&job->pixels, first, count, slice, error));
         for (size_t i = 0; i < count; i++)
             resolve_pixel(job, &set, slice + i * set.count, (double)samples[first + i], first + i);

@@ -9,13 +9,6 @@
 #include "scene/framing.h"
 #include "settings/view.h"
 
-static clshear_status set_one(clshear_settings *settings, clshear_setting setting, float value,
-                              cs_error *error)
-{
-    const double number = (double)value;
-    return cs_settings_set(settings, setting, &number, 1, error);
-}
-
 static clshear_status set_vector(clshear_settings *settings, clshear_setting setting,
                                  const float *vector, const double *origin, cs_error *error)
 {
@@ -37,10 +30,8 @@ static clshear_status choose_camera(const clshear_scene *scene, const clshear_se
     if (*number >= 0) return CLSHEAR_OK;
     if (cameras->count == 0)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "camera %.60s: the scene has no cameras", name);
-    char names[512] = "";
-    for (size_t i = 0; i < cameras->count && i < 8; i++)
-        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%zu \"%.40s\"",
-                 i > 0 ? ", " : "", i, ((const cs_scene_camera *)cameras->items)[i].name);
+    char names[CS_CAMERA_LIST];
+    cs_scene_list_cameras(&scene->scene, names);
     return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "camera %.60s: the scene has %zu: %s", name,
                    cameras->count, names);
 }
@@ -97,8 +88,9 @@ static clshear_status choose_extent(const clshear_scene *scene, clshear_settings
 {
     cs_view view;
     if (!cs_is_set(settings, ORTHOGRAPHIC) && chosen->orthographic <= 0.0f)
-        return cs_is_set(settings, FOV) ? CLSHEAR_OK
-                                        : set_one(settings, CLSHEAR_FOV, chosen->fov_deg, error);
+        return cs_is_set(settings, FOV)
+                   ? CLSHEAR_OK
+                   : cs_settings_set_number(settings, CLSHEAR_FOV, (double)chosen->fov_deg, error);
     if (cs_is_set(settings, FOV) || cs_number(settings, ORTHOGRAPHIC) > 0.0) return CLSHEAR_OK;
     float width = chosen->orthographic;
     if (width <= 0.0f) {
@@ -106,7 +98,7 @@ static clshear_status choose_extent(const clshear_scene *scene, clshear_settings
         width = cs_framing_width(&scene->scene, &view, (int)cs_integer(settings, WIDTH),
                                  (int)cs_integer(settings, HEIGHT));
     }
-    return set_one(settings, CLSHEAR_ORTHOGRAPHIC, width, error);
+    return cs_settings_set_number(settings, CLSHEAR_ORTHOGRAPHIC, (double)width, error);
 }
 
 /* Where a camera of the file is when the shutter closes, unless the settings place the camera. */

@@ -6,13 +6,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/checksum.h"
 #include "base/output_file.h"
 #include "clshear/device/hash.h"
 #include "render/recipe.h"
-
-enum {
-    SLICE = 1 << 14 /* pixels on their way at once */
-};
 
 static const char magic[16] = "clshear state 1";
 
@@ -22,19 +19,17 @@ typedef struct tape {
     int writes;
     int is_good;
     int reason;   /* errno where it is not */
-    uint64_t sum; /* of all bytes so far: Fowler, Noll and Vo's FNV-1a */
+    uint64_t sum; /* of all bytes so far */
 } tape;
 
 static void add_to_sum(tape *tape, const void *data, size_t size)
 {
-    const unsigned char *bytes = data;
-    for (size_t i = 0; i < size; i++)
-        tape->sum = (tape->sum ^ bytes[i]) * 0x100000001b3u;
+    tape->sum = cs_checksum_add(tape->sum, data, size);
 }
 
 static tape tape_of(FILE *stream, int writes)
 {
-    return (tape){stream, writes, 1, 0, 0xcbf29ce484222325u};
+    return (tape){stream, writes, 1, 0, CS_CHECKSUM_OF_NOTHING};
 }
 
 static void move(tape *tape, void *data, size_t size)
@@ -47,7 +42,7 @@ static void move(tape *tape, void *data, size_t size)
     add_to_sum(tape, data, size);
 }
 
-/* How far a render is, but for its pixels. */
+/* The state of a render, without its pixels. */
 typedef struct state {
     cs_place place;
     cs_stop stop;
@@ -60,7 +55,7 @@ typedef struct state {
     cs_u32 from;
     cs_u32 to;
     cs_u32 replicate;
-    cs_u32 has_nets;
+    cs_u32 has_open;
     cs_u32 replicates_begun;
     cs_u32 patterns_kept;
     cs_u32 plan; /* fingerprint of what the prepass and the pilots have chosen */
@@ -92,7 +87,7 @@ static state state_of(const cs_job *job, const cs_pass *pass)
                    .from = job->rounds.from,
                    .to = job->rounds.to,
                    .replicate = job->rounds.replicate,
-                   .has_nets = job->rounds.nets != NULL,
+                   .has_open = job->rounds.open != NULL,
                    .replicates_begun = job->replicates_begun,
                    .patterns_kept = job->patterns_kept,
                    .plan = fingerprint_of_plan(job)};
@@ -146,11 +141,12 @@ static clshear_status move_pixels(cs_job *job, tape *tape, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const size_t planes = job->pixels.planes;
-    cs_pixel *slice = malloc(SLICE * sizeof *slice);
-    cs_exact_sum *sums = malloc((SLICE * planes + 1) * sizeof *sums);
+    cs_pixel *slice = malloc(CS_AOV_PIXEL_SLICE * sizeof *slice);
+    cs_exact_sum *sums = malloc((CS_AOV_PIXEL_SLICE * planes + 1) * sizeof *sums);
     CS_REQUIRE(slice != NULL && sums != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    for (size_t first = 0; tape->is_good && first < job->pixel_count; first += SLICE) {
-        const size_t left = job->pixel_count - first, count = left < SLICE ? left : SLICE;
+    for (size_t first = 0; tape->is_good && first < job->pixel_count; first += CS_AOV_PIXEL_SLICE) {
+        const size_t left = job->pixel_count - first,
+                     count = left < CS_AOV_PIXEL_SLICE ? left : CS_AOV_PIXEL_SLICE;
         if (tape->writes) CS_TRY(cs_pixels_read(&job->pixels, first, count, slice, error));
         if (tape->writes && planes > 0)
             CS_TRY(cs_pixels_read_aovs(&job->pixels, first, count, sums, error));
@@ -170,8 +166,8 @@ done:
 static clshear_status move_all(cs_job *job, tape *tape, cs_error *error)
 {
     const size_t pixels = job->pixel_count, replicates = job->replicates;
-    if (job->rounds.nets != NULL)
-        move(tape, job->rounds.nets, replicates * pixels * sizeof *job->rounds.nets);
+    if (job->rounds.open != NULL)
+        move(tape, job->rounds.open, replicates * pixels * sizeof *job->rounds.open);
     if (job->pattern_means != NULL) {
         move(tape, job->pattern_means, 3 * replicates * pixels * sizeof *job->pattern_means);
         move(tape, job->pattern_sums, 3 * pixels * sizeof *job->pattern_sums);
@@ -211,7 +207,7 @@ clshear_status cs_checkpoint_save(cs_job *job, cs_pass *pass, int at_once, cs_er
         reason = cs_output_end(&file, tape.is_good && status == CLSHEAR_OK);
         if (!tape.is_good) reason = tape.reason;
     }
-    if (reason != 0 && !job->save_fails) /* said once */
+    if (reason != 0 && !job->save_fails) /* warns at the first of several failures only */
         cs_alarm(&job->scene->context->log,
                  "checkpoint %s: cannot be written: %s; the render goes on", path,
                  strerror(reason));
@@ -298,9 +294,9 @@ clshear_status cs_checkpoint_load(cs_job *job, cs_pass *pass, cs_error *error)
                "%s: this machine finds other depths, or its pilot other shears; go on with the "
                "machine that began",
                path);
-    if (read.has_nets) {
-        job->rounds.nets = calloc(job->replicates * job->pixel_count, sizeof(cs_net));
-        CS_REQUIRE(job->rounds.nets != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
+    if (read.has_open) {
+        job->rounds.open = calloc(job->replicates * job->pixel_count, sizeof(cs_open_pattern));
+        CS_REQUIRE(job->rounds.open != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     }
     CS_TRY(move_all(job, &tape, error));
     if (!tape.is_good) CS_TRY(damaged(path, error));

@@ -10,13 +10,6 @@
 static const float blur_at_infinity = 0.03f; /* of the shorter image axis, for a lens not chosen */
 static const float sensor_m = 0.024f;        /* short side of a full-frame sensor */
 
-static clshear_status set_one(clshear_settings *settings, clshear_setting setting, float value,
-                              cs_error *error)
-{
-    const double number = (double)value;
-    return cs_settings_set(settings, setting, &number, 1, error);
-}
-
 /* Sets the focal distance so that the focal plane goes through a point: distances from the optical
  * axis to the right and down, and depth. */
 static clshear_status focus_through(clshear_settings *settings, const float *point, cs_error *error)
@@ -32,7 +25,7 @@ static clshear_status focus_through(clshear_settings *settings, const float *poi
             "tilt %g,%g: a plane through what is in focus passes behind the eye; tilt it "
             "less or focus elsewhere",
             (double)view.tilt_deg[0], (double)view.tilt_deg[1]);
-    return set_one(settings, CLSHEAR_FOCAL_DISTANCE, distance, error);
+    return cs_settings_set_number(settings, CLSHEAR_FOCAL_DISTANCE, (double)distance, error);
 }
 
 /* The pinhole camera of the settings, whose focal plane does not matter. */
@@ -208,12 +201,14 @@ clshear_status cs_choose_lens(const clshear_scene *scene, clshear_settings *sett
     cs_view_of(settings, scene->scene.origin, &view);
     if (cs_is_set(settings, F_STOP)) {
         radius = radius_of_f_stop(&view, cs_number(settings, F_STOP), cs_number(settings, UNIT));
-        return set_one(settings, CLSHEAR_LENS_RADIUS, radius, error);
+        return cs_settings_set_number(settings, CLSHEAR_LENS_RADIUS, (double)radius, error);
     }
     if (cs_is_set(settings, BLUR)) {
         const double width = cs_number(settings, WIDTH), height = cs_number(settings, HEIGHT);
         part = (float)(cs_number(settings, BLUR) / (width < height ? width : height));
     }
     const clshear_status status = radius_of_blur(scene, settings, part, depth, &radius, error);
-    return status == CLSHEAR_OK ? set_one(settings, CLSHEAR_LENS_RADIUS, radius, error) : status;
+    return status == CLSHEAR_OK
+               ? cs_settings_set_number(settings, CLSHEAR_LENS_RADIUS, (double)radius, error)
+               : status;
 }

@@ -11,7 +11,7 @@
 /* The part of a memory that a render may fill. */
 static const double safe_part = 0.8;
 
-/* Of a pixel, from the beginning to the end. */
+/* Bytes of a pixel that are held during the whole render. */
 static cs_footprint reserved_bytes(const cs_job *job)
 {
     cs_footprint bytes = {
@@ -24,7 +24,7 @@ static cs_footprint reserved_bytes(const cs_job *job)
     return bytes;
 }
 
-/* Of a pixel besides, from where the samples are planned. */
+/* Bytes of a pixel that are held besides, once the samples are planned. */
 static cs_footprint planned_bytes(const cs_job *job)
 {
     cs_footprint bytes = {.device = sizeof *job->shear_px};
@@ -35,7 +35,7 @@ static cs_footprint planned_bytes(const cs_job *job)
     return bytes;
 }
 
-/* Takes in that `bytes` are held at once. */
+/* Raises the peaks to `bytes`, which are held at one time. */
 static void hold(cs_memory *memory, cs_footprint bytes)
 {
     if (bytes.host > memory->host) memory->host = bytes.host;

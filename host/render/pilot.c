@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "film/noise.h"
 #include "oracle/allocate.h"
 #include "oracle/choose_rule.h"
 #include "pattern/pattern.h"
@@ -312,19 +313,6 @@ done:
     return status;
 }
 
-/* Mean over 5 x 5 pixels, at the border over fewer. */
-static double smoothed(const cs_f32 *values, int width, int height, int x, int y)
-{
-    double sum = 0.0, count = 0.0;
-    for (int j = y - 2; j <= y + 2; j++)
-        for (int i = x - 2; i <= x + 2; i++) {
-            if (i < 0 || j < 0 || i >= width || j >= height) continue;
-            sum += (double)values[(size_t)j * (size_t)width + (size_t)i];
-            count++;
-        }
-    return sum / count;
-}
-
 clshear_status cs_pilot_gain(cs_job *job, cs_f32 *gain, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
@@ -341,8 +329,8 @@ clshear_status cs_pilot_gain(cs_job *job, cs_f32 *gain, cs_error *error)
     CS_TRY(run(job, &chosen, NULL, pixels, GAIN_SAMPLES, GAIN_REPLICATES, &with, error));
     for (size_t i = 0; i < pixels; i++) {
         const int x = (int)(i % (size_t)width), y = (int)(i / (size_t)width);
-        const double before = smoothed(without.variance, width, height, x, y);
-        const double after = smoothed(with.variance, width, height, x, y);
+        const double before = cs_smoothed(without.variance, width, height, x, y);
+        const double after = cs_smoothed(with.variance, width, height, x, y);
         gain[i] = after > 0.0 ? (cs_f32)(before / after) : 1.0f;
     }
 done:

@@ -8,7 +8,8 @@
 #include "render/objects.h"
 
 enum {
-    CS_PIXEL_SLICE = 1 << 16 /* pixels on their way between device and host at once */
+    CS_PIXEL_SLICE = 1 << 16,    /* pixels on their way between device and host at once */
+    CS_AOV_PIXEL_SLICE = 1 << 14 /* where their sums of planes are with them */
 };
 
 /* Pages are whole bands of tiles, so that a walk through tiles (cs_tiled_pixel) does not come back
@@ -21,6 +22,12 @@ typedef struct cs_pixels {
     size_t page_pixels; /* of all pages but the last */
     size_t count;
 } cs_pixels;
+
+/* The sum as one number. */
+static inline double cs_exact_total(cs_exact_sum sum)
+{
+    return (double)sum.sum + (double)sum.carry;
+}
 
 /* Pixels in a page of a window of this width. */
 size_t cs_page_pixels(const clshear_context *context, cs_u32 width);

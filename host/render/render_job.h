@@ -11,16 +11,16 @@
 #include "render/pass.h"
 #include "render/stop.h"
 
-/* What a pixel has of a pattern that is not finished. */
-typedef struct cs_net {
+/* Sums of the samples that a pixel has of a pattern that is not finished. */
+typedef struct cs_open_pattern {
     cs_f32 sum[3];
     cs_f32 carry[3];
     cs_u32 pending;
-} cs_net;
+} cs_open_pattern;
 
 /* Rounds of a render that may end early: see rounds.h. */
 typedef struct cs_rounds {
-    cs_net *nets; /* of each replicate, pixel by pixel; NULL: the job draws no such rounds */
+    cs_open_pattern *open; /* of each replicate, pixel by pixel; NULL: draws no such rounds */
     cs_pattern whole[CS_MOST_BATCHES]; /* of the batches, if nothing ends the render early */
     cs_u32 from;                       /* samples of the job's pattern in all replicates, ... */
     cs_u32 to;                         /* ... and after the round in progress. Or replicates */

@@ -58,12 +58,13 @@ static clshear_status add_planes(clshear_film *film, planes *all)
 /* Samples in a finished pattern of a pixel. */
 static uint32_t pattern_of(const cs_job *job, size_t index)
 {
-    if (job->rounds.nets != NULL) return job->rounds.nets[index].pending;
+    if (job->rounds.open != NULL) return job->rounds.open[index].pending;
     return job->samples != NULL ? job->samples[index]
                                 : job->pattern.first + job->pattern.grid.count;
 }
 
-/* One pixel. */
+/* Writes the means and variances of a pixel to the planes: its sums, divided by its samples and its
+ * patterns. */
 static void resolve_pixel(const cs_job *job, const cs_pixel *pixel, size_t index, planes *all)
 {
     const uint32_t pattern = pattern_of(job, index);

@@ -22,7 +22,7 @@ static int draws_rounds(const cs_job *job)
 
 size_t cs_rounds_bytes(const cs_job *job)
 {
-    return draws_rounds(job) ? job->replicates * sizeof *job->rounds.nets : 0;
+    return draws_rounds(job) ? job->replicates * sizeof *job->rounds.open : 0;
 }
 
 size_t cs_rounds_look_bytes(const cs_job *job)
@@ -48,10 +48,10 @@ clshear_status cs_rounds_check(cs_job *job, cs_error *error)
 }
 
 /* Moves the unfinished patterns of the replicate in progress between the device and the host. */
-static clshear_status swap_nets(cs_job *job, int to_device, cs_error *error)
+static clshear_status swap_open_patterns(cs_job *job, int to_device, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    cs_net *nets = job->rounds.nets + job->rounds.replicate * job->pixel_count;
+    cs_open_pattern *patterns = job->rounds.open + job->rounds.replicate * job->pixel_count;
     cs_pixel *slice = malloc(CS_PIXEL_SLICE * sizeof *slice);
     CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     for (size_t first = 0; first < job->pixel_count; first += CS_PIXEL_SLICE) {
@@ -59,15 +59,15 @@ static clshear_status swap_nets(cs_job *job, int to_device, cs_error *error)
                      count = left < CS_PIXEL_SLICE ? left : CS_PIXEL_SLICE;
         CS_TRY(cs_pixels_read(&job->pixels, first, count, slice, error));
         for (size_t i = 0; i < count; i++) {
-            cs_net *net = &nets[first + i];
+            cs_open_pattern *open = &patterns[first + i];
             if (to_device) {
-                memcpy(slice[i].sum, net->sum, sizeof net->sum);
-                memcpy(slice[i].carry, net->carry, sizeof net->carry);
-                slice[i].pending = net->pending;
+                memcpy(slice[i].sum, open->sum, sizeof open->sum);
+                memcpy(slice[i].carry, open->carry, sizeof open->carry);
+                slice[i].pending = open->pending;
             } else {
-                memcpy(net->sum, slice[i].sum, sizeof net->sum);
-                memcpy(net->carry, slice[i].carry, sizeof net->carry);
-                net->pending = slice[i].pending;
+                memcpy(open->sum, slice[i].sum, sizeof open->sum);
+                memcpy(open->carry, slice[i].carry, sizeof open->carry);
+                open->pending = slice[i].pending;
             }
         }
         if (to_device) CS_TRY(cs_pixels_write(&job->pixels, first, count, slice, error));
@@ -81,13 +81,13 @@ done:
 static clshear_status begin(cs_job *job, cs_error *error)
 {
     cs_rounds *rounds = &job->rounds;
-    rounds->nets = calloc(job->replicates * job->pixel_count, sizeof *rounds->nets);
-    if (rounds->nets == NULL)
+    rounds->open = calloc(job->replicates * job->pixel_count, sizeof *rounds->open);
+    if (rounds->open == NULL)
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %u patterns of %zu pixels",
                        job->replicates, job->pixel_count);
     for (rounds->replicate = 0; rounds->replicate < job->replicates; rounds->replicate++) {
         clshear_status status = cs_resume_begin(job, rounds->replicate, error);
-        if (status == CLSHEAR_OK && job->base != NULL) status = swap_nets(job, 0, error);
+        if (status == CLSHEAR_OK && job->base != NULL) status = swap_open_patterns(job, 0, error);
         if (status != CLSHEAR_OK) return status;
     }
     rounds->replicate = 0;
@@ -201,9 +201,9 @@ static clshear_status draw_round(cs_job *job, cs_pass *pass, cs_error *error)
     clshear_status status = set_patterns(job, error);
     cs_rounds *rounds = &job->rounds;
     for (; status == CLSHEAR_OK && rounds->replicate < job->replicates; rounds->replicate++) {
-        if (cs_pass_is_fresh(pass)) CS_TRY(swap_nets(job, 1, error));
+        if (cs_pass_is_fresh(pass)) CS_TRY(swap_open_patterns(job, 1, error));
         CS_TRY(cs_pass_replicate(pass, job->batches, job->batch_count, rounds->replicate, error));
-        CS_TRY(swap_nets(job, 0, error));
+        CS_TRY(swap_open_patterns(job, 0, error));
     }
 done:
     return status;
@@ -216,10 +216,10 @@ static void keep_means(cs_job *job)
     if (job->pattern_means == NULL) return;
     for (size_t r = 0; r < job->replicates; r++)
         for (size_t i = 0; i < 3 * pixels; i++) {
-            const cs_net *net = &job->rounds.nets[r * pixels + i % pixels];
+            const cs_open_pattern *open = &job->rounds.open[r * pixels + i % pixels];
             const size_t c = i / pixels;
             job->pattern_means[3 * r * pixels + i] =
-                (float)(((double)net->sum[c] + (double)net->carry[c]) / net->pending);
+                (float)(((double)open->sum[c] + (double)open->carry[c]) / open->pending);
         }
     job->patterns_kept = job->replicates;
 }
@@ -233,7 +233,7 @@ static clshear_status run_rounds(cs_job *job, cs_pass *pass, cs_error *error)
                           .most = job->pattern.first + job->pattern.grid.count};
     int is_reached = 0;
     pass->launch.goes_on = 1;
-    if (rounds->nets == NULL) {
+    if (rounds->open == NULL) {
         CS_TRY(begin(job, error));
         if (job->base != NULL) CS_TRY(look(job, &is_reached, error));
     }
@@ -283,11 +283,11 @@ clshear_status cs_rounds_run(cs_job *job, cs_pass *pass, cs_error *error)
 }
 
 /* What the kernel does at the end of a pattern, in the same order. */
-static void finish(cs_pixel *pixel, const cs_net *net)
+static void finish(cs_pixel *pixel, const cs_open_pattern *open)
 {
     const cs_f32 patterns = (cs_f32)pixel->patterns;
     for (int c = 0; c < 3; c++) {
-        const cs_f32 mean = (net->sum[c] + net->carry[c]) / (cs_f32)net->pending;
+        const cs_f32 mean = (open->sum[c] + open->carry[c]) / (cs_f32)open->pending;
         cs_exact_sum means = {pixel->pattern_sum[c], pixel->pattern_carry[c]};
         const cs_f32 before = means.sum / (patterns > 1.0f ? patterns : 1.0f);
         const cs_moments moments = {patterns, before, pixel->pattern_m2[c]};
@@ -307,10 +307,10 @@ static void combine(const cs_job *job, size_t index, cs_pixel *pixel)
     const int is_even = rounds->from == rounds->to;
     double sum[3] = {0.0, 0.0, 0.0};
     for (cs_u32 r = 0; r < job->replicates; r++) {
-        cs_net net = rounds->nets[r * job->pixel_count + index];
-        if (is_even) finish(pixel, &net);
+        cs_open_pattern open = rounds->open[r * job->pixel_count + index];
+        if (is_even) finish(pixel, &open);
         for (int c = 0; c < 3 && !is_even && r != rounds->replicate; c++)
-            sum[c] += (double)net.sum[c] + (double)net.carry[c];
+            sum[c] += (double)open.sum[c] + (double)open.carry[c];
     }
     for (int c = 0; c < 3; c++) {
         if (!is_even) sum[c] += (double)pixel->sum[c] + (double)pixel->carry[c];
@@ -324,7 +324,7 @@ clshear_status cs_rounds_read(const cs_job *job, size_t first, size_t count, cs_
                               cs_error *error)
 {
     const clshear_status status = cs_pixels_read(&job->pixels, first, count, pixels, error);
-    for (size_t i = 0; status == CLSHEAR_OK && i < count && job->rounds.nets != NULL; i++)
+    for (size_t i = 0; status == CLSHEAR_OK && i < count && job->rounds.open != NULL; i++)
         combine(job, first + i, &pixels[i]);
     return status;
 }
@@ -336,7 +336,7 @@ static double spp_expected(const cs_job *job)
     const double expected = cs_stop_expected(stop);
     const int is_kept = stop->reason == CS_STOP_NOISE || stop->reason == CS_STOP_PIXELS;
     if (is_kept || !isfinite(expected)) return 0.0;
-    const double others = job->rounds.nets != NULL ? job->replicates : job->pattern.grid.count;
+    const double others = job->rounds.open != NULL ? job->replicates : job->pattern.grid.count;
     return ceil(expected) * others;
 }
 
@@ -362,5 +362,5 @@ done:
 
 void cs_rounds_free(cs_job *job)
 {
-    free(job->rounds.nets);
+    free(job->rounds.open);
 }

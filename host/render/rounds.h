@@ -7,11 +7,12 @@
 
 #include "render/render_job.h"
 
-/* Whether a rule can end the job between two looks, and how many samples pilots may count on. Does
- * nothing for a job without rules. */
+/* Refuses a job that shows no error, or shows it at its end only. Limits the samples that pilots
+ * may spend. Does nothing for a job without rules. */
 clshear_status cs_rounds_check(cs_job *job, cs_error *error);
 
-/* Bytes of a pixel on the host: that rounds keep, and that a look takes. 0 of jobs without. */
+/* Bytes of a pixel on the host: what rounds keep between looks, and what a look takes besides. Both
+ * are 0 for jobs without rules. */
 size_t cs_rounds_bytes(const cs_job *job);
 size_t cs_rounds_look_bytes(const cs_job *job);
 
@@ -22,7 +23,8 @@ clshear_status cs_rounds_run(cs_job *job, cs_pass *pass, cs_error *error);
 clshear_status cs_rounds_read(const cs_job *job, size_t first, size_t count, cs_pixel *pixels,
                               cs_error *error);
 
-/* What was promised, reached and left, in the metadata. */
+/* Adds to the metadata which rule ended the render, the noise reached, and the samples per pixel
+ * with which a promise that is not kept would be. */
 clshear_status cs_rounds_describe(const cs_job *job, clshear_film *film);
 
 /* Gives the pass what the last look has seen, for the progress callback. */

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/pi.h"
 #include "base/vec.h"
 #include "render/interior.h"
 #include "render/lighting.h"
@@ -11,7 +12,6 @@
 static const char *const environment = "0.4,0.4,0.4";
 static const double key_radiance = 0.6;
 static const double key_diameter_deg = 10.0;
-static const double pi = 3.14159265358979;
 
 /* Emission that varies over surfaces is often a screen or a label, which leaves a scene dark: it
  * counts as light if all surfaces together emit this radiance in the mean. */
@@ -124,9 +124,9 @@ clshear_status cs_studio_complete(const clshear_scene *scene, clshear_settings *
     const double distance = lit_distance(scene, settings, &at, cs_number(settings, FOCAL_DISTANCE));
     key_direction(&at, sun);
     for (int c = 0; c < 3; c++) {
-        sun[3 + c] = round(1e3 * key_radiance * pi) / 1e3;
+        sun[3 + c] = round(1e3 * key_radiance * CS_PI_DOUBLE) / 1e3;
         light[c] = cs_numbers(settings, EYE)[c];
-        light[3 + c] = key_radiance * pi * distance * distance;
+        light[3 + c] = key_radiance * CS_PI_DOUBLE * distance * distance;
     }
     CS_TRY(cs_settings_set_text(settings, CS_INDEX_ENVIRONMENT, environment, error));
     CS_TRY(cs_settings_set(settings, CLSHEAR_SUN, sun, 7, error));

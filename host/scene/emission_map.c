@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/vec.h"
+
 enum {
     BLOCK = 8 /* texels a side */
 };
@@ -17,8 +19,8 @@ static double number_of_half(uint16_t half)
 
 static double luminance_of(const uint16_t *texel)
 {
-    return 0.2126 * number_of_half(texel[0]) + 0.7152 * number_of_half(texel[1]) +
-           0.0722 * number_of_half(texel[2]);
+    return cs_luminance_double(number_of_half(texel[0]), number_of_half(texel[1]),
+                               number_of_half(texel[2]));
 }
 
 static double *sum_at(const cs_emission_map *map, size_t x, size_t y)

@@ -6,12 +6,8 @@
 #include <string.h>
 
 #include "base/vec.h"
+#include "kernels/vector.h"
 #include "scene/emission_map.h"
-
-static float luminance(const float *colour)
-{
-    return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
-}
 
 static double area_of(const cs_scene *scene, size_t triangle)
 {
@@ -53,7 +49,7 @@ static void describe(const cs_scene *scene, size_t triangle, double part, cs_emi
     cs_vec_subtract(positions[corner[1]], positions[corner[0]], emitter->edge1);
     cs_vec_subtract(positions[corner[2]], positions[corner[0]], emitter->edge2);
     emitter->area = (float)area_of(scene, triangle);
-    emitter->luminance = (float)((double)luminance(look->emission) * part);
+    emitter->luminance = (float)((double)cs_luminance(look->emission) * part);
     if (look->flags & (CS_MATERIAL_BLEND | CS_MATERIAL_MASK)) emitter->varies |= CS_EMITTER_COVERS;
     if (mapped && (look->emission_texture > 0 || emitter->varies))
         emitter->varies |= CS_EMITTER_TEXTURED;
@@ -68,7 +64,8 @@ static clshear_status append(const cs_scene *scene, size_t triangle, cs_emission
     const cs_material *look = (const cs_material *)scene->materials.items + material;
     const int mapped = ((const uint8_t *)scene->triangle_flags.items)[triangle] & CS_FACE_TEXTURED;
     double part = 1.0;
-    if (!(luminance(look->emission) > 0.0f) || look->flags & CS_MATERIAL_UNLIT) return CLSHEAR_OK;
+    if (!(cs_luminance(look->emission) > 0.0f) || look->flags & CS_MATERIAL_UNLIT)
+        return CLSHEAR_OK;
     if (mapped && look->emission_texture > 0) {
         const cs_u32 index = look->emission_texture - 1;
         const cs_texture *texture = (const cs_texture *)scene->textures.items + index;
@@ -76,7 +73,7 @@ static clshear_status append(const cs_scene *scene, size_t triangle, cs_emission
             CS_TRY(cs_emission_map_make(scene, texture, &maps[index], error));
         part = mean_of_map(scene, triangle, &maps[index]);
     }
-    if (!((float)((double)luminance(look->emission) * part) > 0.0f)) return CLSHEAR_OK;
+    if (!((float)((double)cs_luminance(look->emission) * part) > 0.0f)) return CLSHEAR_OK;
     cs_emitter *emitter = cs_array_extend(table, 1);
     CS_REQUIRE(emitter != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for emissive triangles");
     describe(scene, triangle, part, emitter);

@@ -7,6 +7,8 @@
 #include <unistd.h>
 
 #include "base/number.h"
+#include "base/pi.h"
+#include "base/vec.h"
 #include "image/image_io.h"
 #include "scene/scene.h"
 
@@ -27,7 +29,7 @@ static void describe(const float *colour, cs_light *light)
 
 void cs_environment_show(const cs_environment_view *view, cs_light *light)
 {
-    const double angle = view->rotation_deg * (3.14159265358979 / 180.0);
+    const double angle = view->rotation_deg * (CS_PI_DOUBLE / 180.0);
     for (int c = 0; c < 3; c++)
         light->colour[c] = (float)((double)light->colour[c] * view->strength);
     light->parameters[3] = (float)cos(angle);
@@ -45,7 +47,7 @@ static void copy_texels(const float *texels, size_t count, float *copy)
 static double luminance_at(const float *texels, size_t width, size_t x, size_t y)
 {
     const float *texel = texels + 3 * (y * width + x);
-    return 0.2126 * (double)texel[0] + 0.7152 * (double)texel[1] + 0.0722 * (double)texel[2];
+    return cs_luminance_double((double)texel[0], (double)texel[1], (double)texel[2]);
 }
 
 /* Mean luminance of the bilinear image over a texel. Over the half of a texel that is nearer to one
@@ -83,7 +85,6 @@ static double accumulate(const double *weights, size_t count, float *cumulative)
 static void tabulate(const float *texels, size_t width, size_t height, size_t across, size_t down,
                      double *row_weights, double *weights, float *tables)
 {
-    const double pi = 3.14159265358979;
     const size_t step_x = width / across, step_y = height / down;
     for (size_t row = 0; row < down; row++) {
         for (size_t column = 0; column < across; column++) {
@@ -92,8 +93,8 @@ static void tabulate(const float *texels, size_t width, size_t height, size_t ac
                 for (size_t x = column * step_x; x < (column + 1) * step_x; x++)
                     weights[column] += mean_luminance(texels, width, height, x, y);
         }
-        const double top = cos(pi * (double)row / (double)down);
-        const double bottom = cos(pi * (double)(row + 1) / (double)down);
+        const double top = cos(CS_PI_DOUBLE * (double)row / (double)down);
+        const double bottom = cos(CS_PI_DOUBLE * (double)(row + 1) / (double)down);
         row_weights[row] = accumulate(weights, across, tables + down + row * across);
         row_weights[row] *= top - bottom;
     }
@@ -106,19 +107,18 @@ static void tabulate(const float *texels, size_t width, size_t height, size_t ac
  * of its integral if by radiance. */
 static int is_even(const float *texels, size_t width, size_t height)
 {
-    const double pi = 3.14159265358979;
     double whole = 0.0, square = 0.0;
     for (size_t y = 0; y < height; y++) {
-        const double above = cos(pi * (double)y / (double)height);
-        const double below = cos(pi * (double)(y + 1) / (double)height);
-        const double part = (above - below) * 2.0 * pi / (double)width; /* sr */
+        const double above = cos(CS_PI_DOUBLE * (double)y / (double)height);
+        const double below = cos(CS_PI_DOUBLE * (double)(y + 1) / (double)height);
+        const double part = (above - below) * 2.0 * CS_PI_DOUBLE / (double)width; /* sr */
         for (size_t x = 0; x < width; x++) {
             const double luminance = luminance_at(texels, width, x, y);
             whole += luminance * part;
             square += luminance * luminance * part;
         }
     }
-    return 0.25 * pi * square < whole * whole / 6.0;
+    return 0.25 * CS_PI_DOUBLE * square < whole * whole / 6.0;
 }
 
 /* Cells of the fewest texels each that leave at most `most` of them and are all alike; if that
@@ -183,7 +183,7 @@ static clshear_status make_gradient(const float *colours, cs_environment *enviro
 {
     float texels[3 * SKY_WIDTH * SKY_HEIGHT];
     for (int y = 0; y < SKY_HEIGHT; y++) {
-        const double sine = cos(3.14159265358979 * ((double)y + 0.5) / (double)SKY_HEIGHT);
+        const double sine = cos(CS_PI_DOUBLE * ((double)y + 0.5) / (double)SKY_HEIGHT);
         const float up = (float)(sine > 0.0 ? sine : 0.0);
         for (int i = 0; i < 3 * SKY_WIDTH; i++)
             texels[3 * SKY_WIDTH * y + i] = up * colours[i % 3] + (1.0f - up) * colours[3 + i % 3];

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/pi.h"
 #include "base/vec.h"
 #include "scene/scene.h"
 
@@ -100,7 +101,7 @@ static void make_sun(const clshear_light *light, cs_light *made)
     made->kind = CS_LIGHT_SUN;
     made->parameters[0] = (float)(2.0 * half_sine * half_sine); /* 1 - cos a */
     for (int c = 0; c < 3; c++)
-        made->colour[c] = (float)((double)made->colour[c] / (3.14159265358979 * sine * sine));
+        made->colour[c] = (float)((double)made->colour[c] / (CS_PI_DOUBLE * sine * sine));
 }
 
 static void make_quad(const clshear_light *light, cs_light *made)

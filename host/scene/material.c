@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "kernels/bsdf/list.h"
+#include "kernels/vector.h"
 
 static const float mid_grey = 0.5f;
 
@@ -78,7 +79,7 @@ void cs_material_reflect(cs_material_description *description, const float *colo
         description->metallic = 1.0f;
         return;
     }
-    description->reflectance = 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
+    description->reflectance = cs_luminance(colour);
     description->grazing = description->reflectance > 0.0f ? 1.0f : 0.0f;
 }
 

@@ -1,6 +1,7 @@
 #include "scene/scene.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/vec.h"
@@ -182,4 +183,16 @@ clshear_status cs_scene_finish(cs_scene *scene, const char *name, cs_error *erro
                 scene->bounds[1][axis] = fmaxf(scene->bounds[1][axis], value);
             }
     return CLSHEAR_OK;
+}
+
+void cs_scene_list_cameras(const cs_scene *scene, char names[CS_CAMERA_LIST])
+{
+    const cs_scene_camera *cameras = scene->cameras.items;
+    const size_t count = scene->cameras.count;
+    size_t used = 0;
+    names[0] = '\0';
+    for (size_t i = 0; i < count && i < 8; i++)
+        used += (size_t)snprintf(names + used, CS_CAMERA_LIST - used, "%s%zu \"%.40s\"",
+                                 i > 0 ? ", " : "", i, cameras[i].name);
+    if (count > 8) snprintf(names + used, CS_CAMERA_LIST - used, ", ...");
 }

@@ -10,7 +10,8 @@
 #include "optics/view.h"
 
 enum {
-    CS_CAMERA_NAME = 64
+    CS_CAMERA_NAME = 64,
+    CS_CAMERA_LIST = 512 /* bytes that cs_scene_list_cameras fills at most */
 };
 
 /* A camera of the file. */
@@ -106,6 +107,9 @@ clshear_status cs_light_make(const clshear_light *light, const char *name, cs_li
 
 /* The same, appended to the scene. */
 clshear_status cs_scene_add_light(cs_scene *scene, const clshear_light *light, cs_error *error);
+
+/* Names of the first eight cameras of the file, each after its number. */
+void cs_scene_list_cameras(const cs_scene *scene, char names[CS_CAMERA_LIST]);
 
 /* How the triangle moves while the shutter is open. */
 cs_triangle_step cs_scene_step(const cs_scene *scene, size_t triangle);

@@ -159,6 +159,12 @@ static int are_allowed(const cs_setting *entry, const double *numbers, size_t co
     }
 }
 
+clshear_status cs_settings_set_number(clshear_settings *settings, clshear_setting setting,
+                                      double number, cs_error *error)
+{
+    return cs_settings_set(settings, setting, &number, 1, error);
+}
+
 clshear_status cs_settings_set(clshear_settings *settings, clshear_setting setting,
                                const double *numbers, size_t count, cs_error *error)
 {

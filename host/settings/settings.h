@@ -49,6 +49,9 @@ clshear_status cs_settings_override(clshear_settings *settings, const clshear_se
 /* Sets all numbers of a setting, after a check of kind, bounds and count. */
 clshear_status cs_settings_set(clshear_settings *settings, clshear_setting setting,
                                const double *numbers, size_t count, cs_error *error);
+/* The same for a setting of one number. */
+clshear_status cs_settings_set_number(clshear_settings *settings, clshear_setting setting,
+                                      double number, cs_error *error);
 
 /* Sets a setting from text. A setting with a list of values gets one more. */
 clshear_status cs_settings_set_text(clshear_settings *settings, size_t index, const char *text,

@@ -1,7 +1,8 @@
 /* clshear: OpenCL objects shared with the caller.
  *
- * A header of its own, so that clshear.h does not need the OpenCL headers. The head of common.h
- * describes the common conventions. */
+ * A header of its own, so that clshear.h does not need the OpenCL headers, CL/cl.h, which programs
+ * that include this one have to find and link themselves: clshear's packages do not ask for them.
+ * The head of common.h describes the common conventions. */
 #ifndef CLSHEAR_OPENCL_H
 #define CLSHEAR_OPENCL_H
 

@@ -236,8 +236,8 @@
       "frame of the animation, from 0") \
     X(FPS, 106, "fps", "", NUMBER, 1, 1, "24", 1e-3, 1e6, none, RECIPE, "N", \
       "frames per second of the animation") \
-    X(SHUTTER_RAMPS, 107, "shutter-ramps", "", NUMBER, 2, 1, "0,0", 0, 1, none, RECIPE, "OPENING,CLOSING", \
-      "parts of the shutter's time that it opens and closes") \
+    X(SHUTTER_RAMPS, 107, "shutter-ramps", "", NUMBER, 2, 1, "0,0", 0, 1, none, RECIPE, \
+      "OPENING,CLOSING", "parts of the shutter's time that it opens and closes") \
     /* Live view */ \
     X(DISPLAY, 110, "display", "", TEXT, 1, 1, "", 0, 0, none, PRIVATE, "HOST:PORT", \
       "send it as it grows to a viewer there: tev, HDRView") \

@@ -148,8 +148,9 @@ CLSHEAR_API void clshear_settings_set_progress(clshear_settings *settings,
                                                void *user);
 
 /* Shows pictures of renders with these settings while they go on. `wanted` is called between two
- * launches; when it does not return 0, `show` gets the picture so far, with complete == 0, which is
- * the library's. Both are called in the rendering thread. NULL: no calls. */
+ * launches; when it does not return 0, `show` gets the picture so far, with complete == 0. This
+ * film is owned by the library and valid during the call only. Both are called in the rendering
+ * thread. NULL: no calls. */
 CLSHEAR_API void clshear_settings_set_preview(clshear_settings *settings, int (*wanted)(void *user),
                                               void (*show)(void *user, clshear_film *film),
                                               void *user);

@@ -6,7 +6,8 @@
 
 #include <clshear/analysis.h>
 
-static const double half_sensor_m = 0.012; /* half the short side of a full-frame sensor */
+static const double pi = 3.14159265358979323846; /* the program sees public headers only */
+static const double half_sensor_m = 0.012;       /* half the short side of a full-frame sensor */
 
 static void report_scene(const clshear_scene *scene)
 {
@@ -44,7 +45,7 @@ static void report_lens(const clshear_settings *settings)
     const double radius = number_of(settings, CLSHEAR_LENS_RADIUS);
     const double focus = number_of(settings, CLSHEAR_FOCAL_DISTANCE);
     const double width = number_of(settings, CLSHEAR_ORTHOGRAPHIC);
-    const double tangent = tan(0.5 * number_of(settings, CLSHEAR_FOV) * 3.14159265358979 / 180.0);
+    const double tangent = tan(0.5 * number_of(settings, CLSHEAR_FOV) * pi / 180.0);
     double unit_m = 1.0, tilt[2] = {0.0, 0.0};
     size_t count = 0;
     clshear_settings_get_number(settings, CLSHEAR_UNIT, &unit_m);
@@ -67,7 +68,7 @@ static void report_blur(const clshear_settings *settings, const clshear_film *fi
 {
     const float *depth = clshear_film_channel(film, "Z"), *blur = clshear_film_channel(film, "CoC");
     const double extent = (double)clshear_lens_extent(settings);
-    const double tangent = tan(0.5 * number_of(settings, CLSHEAR_FOV) * 3.14159265358979 / 180.0);
+    const double tangent = tan(0.5 * number_of(settings, CLSHEAR_FOV) * pi / 180.0);
     int64_t width = 0, height = 0;
     size_t near = pixels, far = pixels;
     if (depth == NULL || blur == NULL) return;

@@ -1,6 +1,6 @@
 /* Long work of a driver, of which its caller is told. */
-#ifndef CS_DEVICE_PATIENCE_H
-#define CS_DEVICE_PATIENCE_H
+#ifndef CS_DEVICE_SLOW_DRIVER_H
+#define CS_DEVICE_SLOW_DRIVER_H
 
 #include "base/status.h"
 

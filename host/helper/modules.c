@@ -1,4 +1,4 @@
-#include "helper/late.h"
+#include "helper/modules.h"
 
 #include <dlfcn.h>
 #include <stdio.h>
@@ -22,7 +22,7 @@ static void *find(const char *module, const char *function, cs_error *error)
     return address;
 }
 
-clshear_status cs_read_late(cs_bytes *bytes, cs_model *model, cs_error *error)
+clshear_status cs_read_by_module(cs_bytes *bytes, cs_model *model, cs_error *error)
 {
     cs_other_reader read;
     void *address = find("clshear-import-other.so", "cs_read_other", error);

@@ -1,4 +1,4 @@
-#include "device/patience.h"
+#include "device/slow_driver.h"
 
 #include <errno.h>
 #include <pthread.h>
