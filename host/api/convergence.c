@@ -56,6 +56,7 @@ clshear_status clshear_converge_integrand(const clshear_integrand *integrand, co
                                           clshear_convergence **result)
 {
     CS_NEEDS(integrand);
+    CS_NEEDS(counts);
     CS_NEEDS(result);
     const cs_study study = {counts, sizes, replicates};
     clshear_convergence made = {0};
@@ -70,6 +71,7 @@ clshear_status clshear_converge_pixel(clshear_scene *scene, const clshear_settin
                                       clshear_convergence **result)
 {
     CS_NEEDS(scene);
+    CS_NEEDS(counts);
     CS_NEEDS(result);
     clshear_convergence made = {0};
     const cs_study study = {counts, sizes, replicates};
@@ -84,6 +86,7 @@ clshear_status clshear_converge_image(clshear_scene *scene, const clshear_settin
 {
     CS_NEEDS(scene);
     CS_NEEDS(settings);
+    CS_NEEDS(counts);
     CS_NEEDS(result);
     clshear_convergence made = {0};
     const cs_study study = {counts, sizes, replicates};

@@ -29,6 +29,8 @@ clshear_status clshear_film_copy(clshear_film *film, const char *const *channels
     CS_NEEDS(film);
     CS_NEEDS(channels);
     CS_NEEDS(target);
+    for (size_t i = 0; i < count; i++)
+        CS_NEEDS(channels[i]);
     return cs_message_keep(&film->message,
                            cs_film_copy(film, channels, count, target, pixel_stride, row_stride));
 }

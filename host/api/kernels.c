@@ -61,6 +61,7 @@ static clshear_status find_count(const char *name, uint32_t wanted, cs_u32 *samp
 
 clshear_status clshear_sampler_count(const char *sampler, uint32_t wanted, uint32_t *count)
 {
+    CS_NEEDS(count);
     cs_u32 number;
     return find_count(sampler, wanted, &number, count);
 }
@@ -68,6 +69,7 @@ clshear_status clshear_sampler_count(const char *sampler, uint32_t wanted, uint3
 clshear_status clshear_pattern_create(const char *sampler, uint32_t wanted,
                                       clshear_sample_order order, clshear_pattern **result)
 {
+    CS_NEEDS(result);
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
     clshear_pattern *pattern = calloc(1, sizeof *pattern);

@@ -98,6 +98,7 @@ clshear_status clshear_points_integrate_4d(const clshear_points *points, clshear
                                            void *user, int homogenise, uint32_t seed, double *means)
 {
     CS_NEEDS(points);
+    CS_NEEDS(function);
     CS_NEEDS(means);
     return cs_points_integrate_4d(points, function, user, homogenise, seed, means);
 }

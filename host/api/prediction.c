@@ -50,6 +50,7 @@ clshear_status clshear_predict_variance_4d(clshear_context *context, const clshe
 {
     CS_NEEDS(context);
     CS_NEEDS(samples);
+    CS_NEEDS(function);
     CS_NEEDS(reach);
     CS_NEEDS(prediction);
     clshear_prediction made;

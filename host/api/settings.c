@@ -177,6 +177,7 @@ clshear_status clshear_settings_get_numbers(const clshear_settings *settings,
                                             size_t capacity, size_t *count)
 {
     CS_NEEDS(settings);
+    if (capacity > 0) CS_NEEDS(numbers);
     CS_NEEDS(count);
     const size_t index = cs_setting_index(setting);
     if (index == CS_SETTING_COUNT || cs_setting_table[index].kind == CLSHEAR_TEXT)
