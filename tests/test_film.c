@@ -277,6 +277,37 @@ static void no_channel_is_lost(void **state)
     remove(path);
 }
 
+/* A film that is read knows whether it is complete, its samples and its time. */
+static void films_recall_their_render(void **state)
+{
+    static const struct {
+        const char *shards;
+        int interrupted;
+        int complete;
+    } cases[] = {{NULL, 0, 1},    {NULL, 1, 0},    {"3/7", 0, 1},    {"3/7", 1, 0},
+                 {"1-3/7", 0, 0}, {"1-7/7", 0, 1}, {"damaged", 0, 0}};
+    const char *path = test_path("recalled.exr");
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        clshear_film *film = make_film(), *read = NULL;
+        float *samples = cs_film_add_channel(film, "Samples");
+        for (int p = 0; p < 6; p++)
+            samples[p] = (float)(16 + p);
+        test_ok(cs_film_set_float(film, "renderTimeSeconds", 1.5f));
+        if (cases[i].interrupted) test_ok(cs_film_set_int(film, "clshear.interrupted", 1));
+        if (cases[i].shards != NULL)
+            test_ok(clshear_film_annotate(film, "clshear.shard", cases[i].shards));
+        test_ok(clshear_film_write(film, path));
+        test_ok(clshear_film_read(path, &read));
+        const clshear_film_info info = test_film_info(read);
+        assert_int_equal(info.complete, cases[i].complete);
+        assert_int_equal(info.samples, 6 * 16 + 15);
+        assert_true(info.render_s == 1.5);
+        clshear_film_free(read);
+        clshear_film_free(film);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -287,6 +318,7 @@ int main(void)
         cmocka_unit_test(full_disks_have_their_reason),
         cmocka_unit_test(pipes_and_links_stay),
         cmocka_unit_test(no_channel_is_lost),
+        cmocka_unit_test(films_recall_their_render),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -67,7 +67,8 @@ CLSHEAR_API double clshear_film_mean_variance(const clshear_film *film);
 CLSHEAR_API clshear_status clshear_film_annotate(clshear_film *film, const char *name,
                                                  const char *text);
 
-/* Reads an EXR written by clshear_film_write. */
+/* Reads an EXR written by clshear_film_write. Of its render, clshear_film_describe then has
+ * `complete`, `samples` and `render_s`. */
 CLSHEAR_API clshear_status clshear_film_read(const char *path, clshear_film **film);
 
 /* Merges `count` films of shards of one render (CLSHEAR_SHARD), or merges of them: means weighted
