@@ -33,6 +33,9 @@ static void getters_need_no_object(void **state)
     test_refused(clshear_pattern_constants(NULL, text, sizeof text), CLSHEAR_BAD_ARGUMENT,
                  "clshear_pattern_constants: ");
     clshear_material_init(NULL);
+    assert_string_equal(clshear_context_message(NULL), "");
+    assert_string_equal(clshear_scene_message(NULL), "");
+    assert_string_equal(clshear_film_message(NULL), "");
 }
 
 /* The same of the results of the analysis. */
