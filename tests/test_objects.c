@@ -294,6 +294,32 @@ static void foreign_contexts_render_the_same(void **state)
     clshear_settings_free(settings);
 }
 
+/* Queues that would race, or are of something else, are refused. */
+static void foreign_queues_are_checked(void **state)
+{
+    test_fixture *made = *state;
+    cl_device_id device;
+    cl_int code;
+    clshear_context *context = NULL;
+    clshear_context_objects(made->context, NULL, &device, NULL);
+    cl_context cl = clCreateContext(NULL, 1, &device, NULL, NULL, &code);
+    cl_context other = clCreateContext(NULL, 1, &device, NULL, NULL, &code);
+    cl_command_queue stray = clCreateCommandQueue(other, device, 0, &code);
+    cl_command_queue races =
+        clCreateCommandQueue(cl, device, CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE, &code);
+    test_refused(clshear_context_create_from(cl, device, stray, NULL, &context),
+                 CLSHEAR_BAD_ARGUMENT, "the queue is of another context or device");
+    if (code == CL_SUCCESS) { /* not every driver has such queues */
+        test_refused(clshear_context_create_from(cl, device, races, NULL, &context),
+                     CLSHEAR_BAD_ARGUMENT, "the queue is out of order");
+        clReleaseCommandQueue(races);
+    }
+    assert_null(context);
+    clReleaseCommandQueue(stray);
+    clReleaseContext(other);
+    clReleaseContext(cl);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -307,6 +333,7 @@ int main(void)
         cmocka_unit_test(failures_leave_results_alone),
         cmocka_unit_test(channels_are_copied_with_strides),
         cmocka_unit_test(foreign_contexts_render_the_same),
+        cmocka_unit_test(foreign_queues_are_checked),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);
 }
