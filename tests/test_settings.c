@@ -210,6 +210,14 @@ static void floats_survive_texts(void **state)
     }
 }
 
+static void a_text_needs_room(void **state)
+{
+    char text[1] = "";
+    test_refused(clshear_settings_get_text(*state, CLSHEAR_SPP, text, 0), CLSHEAR_BAD_ARGUMENT,
+                 "text has no room: size is 0");
+    test_ok(clshear_settings_get_text(*state, CLSHEAR_SPP, text, 1));
+}
+
 static void the_last_answer_counts(void **state)
 {
     clshear_settings *settings = *state;
@@ -402,6 +410,7 @@ int main(void)
         WITH_SETTINGS(texts_come_back),
         WITH_SETTINGS(floats_survive_texts),
         WITH_SETTINGS(the_last_answer_counts),
+        WITH_SETTINGS(a_text_needs_room),
         cmocka_unit_test(unset_alternatives_are_gone),
         WITH_SETTINGS(unknown_settings_are_refused),
         cmocka_unit_test(the_table_is_open),

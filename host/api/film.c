@@ -77,7 +77,11 @@ void clshear_film_missing(const clshear_film *film, char *text, size_t size)
     if (text == NULL || size == 0) return;
     *text = '\0';
     const char *held = film != NULL ? cs_film_text(film, "clshear.shard") : NULL;
-    if (held == NULL || cs_shards_read(held, &shards, cs_thread_error()) != CLSHEAR_OK) return;
+    if (held == NULL) return;
+    if (cs_shards_read(held, &shards, cs_thread_error()) != CLSHEAR_OK) {
+        snprintf(text, size, "?");
+        return;
+    }
     cs_shards_print(&shards, 0, text, size);
     cs_shards_free(&shards);
 }

@@ -79,7 +79,7 @@ CLSHEAR_API clshear_status clshear_film_merge(const clshear_film *const *films, 
                                               clshear_film **merged);
 
 /* Prints the shards of a film that are missing, as "2,5-7", truncated to `size` bytes; "" if none
- * are, or if the film is no shard. */
+ * are, or if the film is no shard; "?" if what it says of its shards cannot be read. */
 CLSHEAR_API void clshear_film_missing(const clshear_film *film, char *text, size_t size);
 
 /* Writes all channels as float32 (.exr), or R G B with the sRGB curve (.png, .jpg, .tif). An
