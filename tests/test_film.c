@@ -308,6 +308,43 @@ static void films_recall_their_render(void **state)
     }
 }
 
+/* Every line of text that is taken comes back from the file; the others are refused. */
+static void texts_come_back_or_are_refused(void **state)
+{
+    static const char *const good[] = {"Software", "DateTime", "Copyright",    "name",
+                                       "view",     "a b",      "clshear.note", "ImageDescription",
+                                       "hash"};
+    static const char *const bad[] = {
+        "channels", "dataWindow",    "screenWindowWidth", "compression", "tiles",    "type",
+        "owner",    "worldtocamera", "PixelAspectRatio",  "png:text",    "oiio:text"};
+    const char *path = test_path("texts.exr");
+    char name[49];
+    clshear_film *film = make_film(), *read = NULL;
+    (void)state;
+    memset(name, 'n', 48);
+    name[48] = '\0';
+    test_refused(clshear_film_annotate(film, name, "a text"), CLSHEAR_BAD_ARGUMENT,
+                 "48 bytes; it must have 1 to 47");
+    test_refused(clshear_film_annotate(film, "", "a text"), CLSHEAR_BAD_ARGUMENT, "0 bytes");
+    name[47] = '\0';
+    test_ok(clshear_film_annotate(film, name, "a text"));
+    test_ok(cs_film_set_int(film, "samplesPerPixel", 4));
+    test_refused(clshear_film_annotate(film, "samplesPerPixel", "5"), CLSHEAR_BAD_ARGUMENT,
+                 "is a number of the film");
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        test_refused(clshear_film_annotate(film, bad[i], "a text"), CLSHEAR_BAD_ARGUMENT,
+                     "keeps this name for itself");
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++)
+        test_ok(clshear_film_annotate(film, good[i], "a text"));
+    test_ok(clshear_film_write(film, path));
+    test_ok(clshear_film_read(path, &read));
+    assert_string_equal(cs_film_text(read, name), "a text");
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++)
+        assert_string_equal(cs_film_text(read, good[i]), "a text");
+    clshear_film_free(read);
+    clshear_film_free(film);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -319,6 +356,7 @@ int main(void)
         cmocka_unit_test(pipes_and_links_stay),
         cmocka_unit_test(no_channel_is_lost),
         cmocka_unit_test(films_recall_their_render),
+        cmocka_unit_test(texts_come_back_or_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

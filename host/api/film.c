@@ -56,7 +56,9 @@ clshear_status clshear_film_annotate(clshear_film *film, const char *name, const
     CS_NEEDS(film);
     CS_NEEDS(name);
     CS_NEEDS(text);
-    return cs_message_keep(&film->message, cs_film_annotate(film, name, text));
+    clshear_status status = cs_film_check_name(film, name);
+    if (status == CLSHEAR_OK) status = cs_film_annotate(film, name, text);
+    return cs_message_keep(&film->message, status);
 }
 
 clshear_status clshear_film_merge(const clshear_film *const *films, size_t count,

@@ -52,6 +52,9 @@ const char *cs_film_text(const clshear_film *film, const char *name);
 int cs_film_int(const clshear_film *film, const char *name, int *value);
 float cs_film_float(const clshear_film *film, const char *name);
 
+/* Fails unless a caller's line of metadata can have this name: written, and read again. */
+clshear_status cs_film_check_name(const clshear_film *film, const char *name);
+
 /* Gives a film the metadata of another. */
 clshear_status cs_film_copy_attributes(const clshear_film *from, clshear_film *to);
 

@@ -63,7 +63,9 @@ CLSHEAR_API clshear_status clshear_film_copy(clshear_film *film, const char *con
 /* Mean of the channels Variance.R/G/B over pixels and colours; NaN if they are absent. */
 CLSHEAR_API double clshear_film_mean_variance(const clshear_film *film);
 
-/* Adds a line of text to the metadata of written files. Replaces a line of the same name. */
+/* Adds a line of text to the metadata of written files. Replaces a line of the same name. The name
+ * has 1 to 47 bytes and no colon, and is neither a number of the film nor one that EXR keeps for
+ * itself, as dataWindow. */
 CLSHEAR_API clshear_status clshear_film_annotate(clshear_film *film, const char *name,
                                                  const char *text);
 
