@@ -20,6 +20,7 @@ typedef struct count {
 static int stop_after(void *user, const clshear_progress *progress)
 {
     count *c = user;
+    assert_int_equal(progress->struct_size, sizeof *progress);
     if (c->fraction <= 0.0) c->fraction = progress->fraction;
     if (progress->fraction > 0.0) c->calls++;
     return c->most > 0 && c->calls >= c->most;

@@ -40,6 +40,7 @@ typedef struct clshear_material {
                           below 1.01 is taken as a thin wall */
     float attenuation_colour[3]; /* of white light, what is left inside a solid after ... */
     float attenuation_distance;  /* ... this way, in units of the scene; 0: all of it */
+    uint32_t reserved;           /* 0 */
 } clshear_material;
 
 /* A triangle mesh with one material. */

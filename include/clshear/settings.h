@@ -131,6 +131,7 @@ CLSHEAR_API int clshear_setting_choice(clshear_setting setting, size_t index, co
                                        const char **meaning);
 
 typedef struct clshear_progress {
+    size_t struct_size;   /* set by the library */
     double fraction;      /* finished part, 0 to 1; 0 before the samples that count */
     double samples_per_s; /* mean rate since the start; 0 while depths are found */
     double remaining_s;   /* estimate; 0 while it is unknown */
