@@ -303,6 +303,9 @@ static void films_recall_their_render(void **state)
         assert_int_equal(info.complete, cases[i].complete);
         assert_int_equal(info.samples, 6 * 16 + 15);
         assert_true(info.render_s == 1.5);
+        assert_memory_equal(info.window, ((const int[4]){2, 5, 1, 3}), sizeof info.window);
+        assert_int_equal(info.full_width, 8);
+        assert_int_equal(info.full_height, 6);
         clshear_film_free(read);
         clshear_film_free(film);
     }
@@ -338,9 +341,16 @@ static void texts_come_back_or_are_refused(void **state)
         test_ok(clshear_film_annotate(film, good[i], "a text"));
     test_ok(clshear_film_write(film, path));
     test_ok(clshear_film_read(path, &read));
-    assert_string_equal(cs_film_text(read, name), "a text");
+    assert_string_equal(clshear_film_text(read, name), "a text");
     for (size_t i = 0; i < sizeof good / sizeof *good; i++)
-        assert_string_equal(cs_film_text(read, good[i]), "a text");
+        assert_string_equal(clshear_film_text(read, good[i]), "a text");
+    size_t count = 0;
+    for (const char *each; (each = clshear_film_text_name(read, count)) != NULL; count++)
+        assert_non_null(clshear_film_text(read, each));
+    assert_at_least(count, 1 + sizeof good / sizeof *good);
+    assert_null(clshear_film_text(read, "samplesPerPixel"));
+    assert_null(clshear_film_text(NULL, "Software"));
+    assert_null(clshear_film_text_name(NULL, 0));
     clshear_film_free(read);
     clshear_film_free(film);
 }

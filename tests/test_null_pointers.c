@@ -256,7 +256,7 @@ static void studies_need_their_pointers(void **state)
 {
     const test_fixture *made = *state;
     clshear_scene *scene = made->scene;
-    const clshear_settings *s = made->settings;
+    clshear_settings *s = test_settings(made->settings, 2, 2, 4);
     const uint32_t n[2] = {4, 16};
     const double means[4] = {1.0, 2.0, 3.0, 4.0};
     clshear_integrand disk = {.struct_size = sizeof disk};
@@ -284,6 +284,11 @@ static void studies_need_their_pointers(void **state)
     REFUSES_NULL(clshear_converge_image(NULL, s, n, 2, 4, NULL, &result));
     REFUSES_NULL(clshear_converge_image(scene, s, NULL, 2, 4, NULL, &result));
     REFUSES_NULL(clshear_converge_image(scene, s, n, 2, 4, NULL, NULL));
+    clshear_film *film = test_render(scene, s);
+    test_refused(clshear_converge_image(scene, NULL, n, 2, 4, film, &result), CLSHEAR_BAD_ARGUMENT,
+                 "needs the image's size, 512 x 512"); /* of the fallbacks */
+    clshear_film_free(film);
+    clshear_settings_free(s);
 }
 
 int main(void)

@@ -85,7 +85,6 @@ clshear_status clshear_converge_image(clshear_scene *scene, const clshear_settin
                                       const clshear_film *reference, clshear_convergence **result)
 {
     CS_NEEDS(scene);
-    CS_NEEDS(settings);
     CS_NEEDS(counts);
     CS_NEEDS(result);
     clshear_convergence made = {0};

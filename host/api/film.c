@@ -61,6 +61,16 @@ clshear_status clshear_film_annotate(clshear_film *film, const char *name, const
     return cs_message_keep(&film->message, status);
 }
 
+const char *clshear_film_text(const clshear_film *film, const char *name)
+{
+    return film != NULL && name != NULL ? cs_film_text(film, name) : NULL;
+}
+
+const char *clshear_film_text_name(const clshear_film *film, size_t index)
+{
+    return film != NULL ? cs_film_text_name(film, index) : NULL;
+}
+
 clshear_status clshear_film_merge(const clshear_film *const *films, size_t count,
                                   clshear_film **merged)
 {

@@ -10,7 +10,7 @@
     _Static_assert(offsetof(type, last) + sizeof(((type *)NULL)->last) == sizeof(type), \
                    #type " ends without padding")
 CS_ENDS_WITH(clshear_fit, slope_high);
-CS_ENDS_WITH(clshear_film_info, device_bytes);
+CS_ENDS_WITH(clshear_film_info, full_height);
 CS_ENDS_WITH(clshear_integrand, extent);
 CS_ENDS_WITH(clshear_light, edge2);
 CS_ENDS_WITH(clshear_material, reserved);

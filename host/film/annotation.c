@@ -1,4 +1,4 @@
-/* Which names a caller's lines of metadata can have. */
+/* Names of lines of metadata: those that a film has, and which ones a caller can give. */
 #include <string.h>
 #include <strings.h>
 
@@ -6,15 +6,37 @@
 
 /* Attributes that EXR has of its own, and names that OpenImageIO takes for these or drops, whatever
  * their capitals. The test of films has them written and read. */
-static const char *const reserved[] = {
-    "aperture",          "capDate",      "channels",         "chunkCount",
-    "comments",          "compression",  "dataWindow",       "description",
-    "displayWindow",     "envmap",       "expTime",          "ExposureTime",
-    "FNumber",           "keyCode",      "lineOrder",        "maxSamplesPerPixel",
-    "owner",             "planarconfig", "pixelAspectRatio", "screenWindowCenter",
-    "screenWindowWidth", "tiles",        "timeCode",         "type",
-    "worldToCamera",     "worldToNDC",   "worldtoscreen",    "xDensity",
-    "XResolution",       "YResolution",  "dwaCompressionLevel"};
+static const char *const reserved[] = {"aperture",
+                                       "capDate",
+                                       "channels",
+                                       "chunkCount",
+                                       "comments",
+                                       "compression",
+                                       "dataWindow",
+                                       "description",
+                                       "displayWindow",
+                                       "envmap",
+                                       "expTime",
+                                       "ExposureTime",
+                                       "FNumber",
+                                       "keyCode",
+                                       "lineOrder",
+                                       "maxSamplesPerPixel",
+                                       "owner",
+                                       "planarconfig",
+                                       "pixelAspectRatio",
+                                       "screenWindowCenter",
+                                       "screenWindowWidth",
+                                       "tiles",
+                                       "timeCode",
+                                       "type",
+                                       "worldToCamera",
+                                       "worldToNDC",
+                                       "worldtoscreen",
+                                       "xDensity",
+                                       "XResolution",
+                                       "YResolution",
+                                       "dwaCompressionLevel"};
 
 static int is_reserved(const char *name)
 {
@@ -31,6 +53,14 @@ static int is_number(const clshear_film *film, const char *name)
         if (attributes[i].kind != CS_ATTRIBUTE_TEXT && strcmp(attributes[i].name, name) == 0)
             return 1;
     return 0;
+}
+
+const char *cs_film_text_name(const clshear_film *film, size_t index)
+{
+    const cs_attribute *attributes = film->attributes.items;
+    for (size_t i = 0; i < film->attributes.count; i++)
+        if (attributes[i].kind == CS_ATTRIBUTE_TEXT && index-- == 0) return attributes[i].name;
+    return NULL;
 }
 
 clshear_status cs_film_check_name(const clshear_film *film, const char *name)

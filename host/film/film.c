@@ -19,9 +19,9 @@ clshear_status cs_film_create(const int *window, int full_width, int full_height
     film->info.complete = 1;
     film->channels.item_size = sizeof(cs_channel);
     film->attributes.item_size = sizeof(cs_attribute);
-    memcpy(film->window, window, sizeof film->window);
-    film->full_width = full_width;
-    film->full_height = full_height;
+    memcpy(film->info.window, window, sizeof film->info.window);
+    film->info.full_width = full_width;
+    film->info.full_height = full_height;
     film->info.width = window[1] - window[0];
     film->info.height = window[3] - window[2];
     *result = film;
@@ -170,10 +170,10 @@ static clshear_status write_channels(const clshear_film *film, const char *path,
     const cs_picture picture = {
         .width = film->info.width,
         .height = film->info.height,
-        .x = film->window[0],
-        .y = film->window[2],
-        .full_width = film->full_width,
-        .full_height = film->full_height,
+        .x = film->info.window[0],
+        .y = film->info.window[2],
+        .full_width = film->info.full_width,
+        .full_height = film->info.full_height,
         .channel_count = film->channels.count,
         .names = names,
         .planes = planes,

@@ -60,8 +60,8 @@ static clshear_status check_plane(const clshear_film *base, const char *name, cs
         if (is_rule ? !is_known : !isfinite(value))
             return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                            "is damaged: pixel %d,%d has %g in channel %s",
-                           base->window[0] + (int)(i % width), base->window[2] + (int)(i / width),
-                           (double)value, name);
+                           base->info.window[0] + (int)(i % width),
+                           base->info.window[2] + (int)(i / width), (double)value, name);
     }
     return CLSHEAR_OK;
 }
@@ -115,7 +115,7 @@ static clshear_status check_base(cs_job *job, cs_error *error)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "was made with another %s; give all flags as before, but for --spp", name);
     }
-    if (memcmp(base->window, job->window, sizeof job->window) != 0)
+    if (memcmp(base->info.window, job->window, sizeof job->window) != 0)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "shows other pixels; give the same --crop");
     clshear_status status = check_planes(base, job->replicates, error);
     if (status == CLSHEAR_OK) status = cs_aov_check(job, error);

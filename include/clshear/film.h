@@ -29,6 +29,9 @@ typedef struct clshear_film_info {
                              * the promise is kept */
     uint64_t host_bytes;    /* memory that the render took at its fullest, estimated, */
     uint64_t device_bytes;  /* ... and that on the device; both without the scene */
+    int window[4];          /* the crop in the full image: x0 <= x < x1, y0 <= y < y1, px */
+    int full_width;         /* of the full image, px */
+    int full_height;
 } clshear_film_info;
 
 /* Fills in `info`. The caller sets `info->struct_size`. */
@@ -68,6 +71,11 @@ CLSHEAR_API double clshear_film_mean_variance(const clshear_film *film);
  * itself, as dataWindow. */
 CLSHEAR_API clshear_status clshear_film_annotate(clshear_film *film, const char *name,
                                                  const char *text);
+
+/* A line of text of the metadata: by its name, or NULL if the film has none of it; and the name of
+ * line number `index` from 0, or NULL past the last one. Owned by the film. */
+CLSHEAR_API const char *clshear_film_text(const clshear_film *film, const char *name);
+CLSHEAR_API const char *clshear_film_text_name(const clshear_film *film, size_t index);
 
 /* Reads an EXR written by clshear_film_write. Of its render, clshear_film_describe then has
  * `complete`, `samples` and `render_s`. */
