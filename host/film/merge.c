@@ -35,6 +35,7 @@ static merge_kind kind_of(const char *name)
                   {"CoC", KEPT},
                   {"Oracle", KEPT},
                   {"Gain", KEPT},
+                  {"Velocity", KEPT},
                   {"Samples", TOTAL},
                   {"P", MEAN_OF_HITS},
                   {"Depth", MEAN_OF_HITS},

@@ -45,7 +45,10 @@ CLSHEAR_API void clshear_film_describe(const clshear_film *film, clshear_film_in
  *   Z.near, Z.far         nearest and farthest depth of the lens rays
  *   Shear                 shear of the samples, px
  *   CoC                   circle of confusion at the pixel's centre, px
- *   Oracle                rule of the shear: 0 centre, 1 median, 2 near, 3 far, 4 no shear
+ *   Oracle                rule of the shear: 0 centre, 1 median, 2 near, 3 far, 4 no shear; where
+ *                         something moves, the pilot also chooses 5 lens alone, 6 motion alone
+ *   Velocity.X/Y          where something moves: velocity on the film of what the pixel's centre
+ *                         sees, px while the shutter is open, to the right and down
  *   Samples               number of samples
  *   Gain                  with CLSHEAR_GAIN: variance of small patterns without shear over their
  *                         variance with it, both averaged over 5 x 5 pixels
