@@ -19,7 +19,7 @@ static clshear_status render(const char *path, const char *target, clshear_conte
     clshear_status status = clshear_settings_set_integer(settings, CLSHEAR_WIDTH, 128);
     if (status == CLSHEAR_OK) status = clshear_settings_set_integer(settings, CLSHEAR_HEIGHT, 128);
     if (status == CLSHEAR_OK) status = clshear_settings_set_integer(settings, CLSHEAR_SPP, 64);
-    if (status == CLSHEAR_OK) status = clshear_scene_load(context, path, NULL, &scene);
+    if (status == CLSHEAR_OK) status = clshear_scene_load(context, path, settings, &scene);
     if (status == CLSHEAR_OK) status = clshear_render(scene, settings, &film);
     if (status == CLSHEAR_OK) status = clshear_film_write(film, target);
     if (status == CLSHEAR_OK)

@@ -43,6 +43,15 @@ cp program1.c readme.c
 build/clshear --print-settings md | diff - "$root/docs/settings.md" ||
     { echo "docs/settings.md is out of date: clshear --print-settings md > docs/settings.md"; exit 1; }
 
+# film.h lists every channel, of what moves too.
+build/clshear scenes/wheel.gltf --width 8 --height 8 --spp 16 --shutter 0,0.25 --gain-channel --keep-patterns \
+    --aov albedo --quiet --out channels.exr
+for channel in $(oiiotool --info -v channels.exr | sed -n 's/ *channel list: //p' | tr -d ,); do
+    layer=${channel%%.*}
+    grep -q "^ \*   .*\b${layer%%[0-9]*}\b" "$root/include/clshear/film.h" ||
+        { echo "film.h does not list the channel $channel"; exit 1; }
+done
+
 # Installed anywhere: the program starts, and others find the library by CMake and by pkg-config.
 cmake --install "$build" --prefix "$PWD/installed" >/dev/null
 ./installed/bin/clshear --version

@@ -1,7 +1,9 @@
 /* Checkpoints: a render goes on to the same bits, and only as itself. */
 #include "support.h"
 
+#include <errno.h>
 #include <stdio.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static clshear_settings *settings_of(test_fixture *made, uint32_t spp)
@@ -18,6 +20,7 @@ typedef struct count {
 static int stop_after(void *user, const clshear_progress *progress)
 {
     count *c = user;
+    assert_int_equal(progress->struct_size, sizeof *progress);
     if (c->fraction <= 0.0) c->fraction = progress->fraction;
     if (progress->fraction > 0.0) c->calls++;
     return c->most > 0 && c->calls >= c->most;
@@ -241,6 +244,47 @@ static void lost_work_is_an_alarm(void **state)
     clshear_settings_free(settings);
 }
 
+static int disk_fails;
+
+/* In the place of the C library's. */
+int fsync(int file)
+{
+    (void)file;
+    errno = EIO;
+    return disk_fails ? -1 : 0;
+}
+
+/* What does not reach the disk does not replace the checkpoint that is there. */
+static void the_last_good_checkpoint_stays(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = settings_of(made, 512);
+    count stop = {.most = 2}, again = {.most = 2};
+    struct stat before, after;
+    clshear_film *film = NULL;
+    int alarms = 0;
+    const char *path = test_path("kept-state");
+    remove(path);
+    test_set(settings, CLSHEAR_CHECKPOINT, "%s", path);
+    test_set(settings, CLSHEAR_RESUME, "1");
+    clshear_settings_set_progress(settings, stop_after, &stop);
+    test_ok(clshear_render(made->scene, settings, &film));
+    clshear_film_free(film);
+    assert_int_equal(stat(path, &before), 0);
+    disk_fails = 1;
+    clshear_context_set_alarm(made->context, count_line, &alarms);
+    clshear_settings_set_progress(settings, stop_after, &again);
+    test_ok(clshear_render(made->scene, settings, &film));
+    clshear_film_free(film);
+    disk_fails = 0;
+    clshear_context_set_alarm(made->context, NULL, NULL);
+    assert_int_equal(alarms, 1);
+    assert_int_equal(stat(path, &after), 0);
+    assert_int_equal(after.st_ino, before.st_ino);
+    remove(path);
+    clshear_settings_free(settings);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -249,6 +293,7 @@ int main(void)
         cmocka_unit_test(damaged_checkpoints_are_refused),
         cmocka_unit_test(previews_do_not_disturb),
         cmocka_unit_test(lost_work_is_an_alarm),
+        cmocka_unit_test(the_last_good_checkpoint_stays),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);
 }

@@ -227,6 +227,39 @@ static void mismatched_bases_are_refused(void **state)
     clshear_settings_free(settings);
 }
 
+/* A picture with a number that no render writes is refused by pixel and channel. */
+static void damaged_bases_are_refused(void **state)
+{
+    test_fixture *made = *state;
+    static const struct {
+        const char *channel;
+        float value;
+        const char *words;
+    } cases[] = {{"Oracle", NAN, "pixel 5,1 has nan in channel Oracle"},
+                 {"Oracle", -1.0f, "pixel 5,1 has -1 in channel Oracle"},
+                 {"Oracle", 0.5f, "pixel 5,1 has 0.5 in channel Oracle"},
+                 {"Oracle", 7.0f, "pixel 5,1 has 7 in channel Oracle"},
+                 {"Shear", INFINITY, "pixel 5,1 has inf in channel Shear"},
+                 {"G", NAN, "in channel G"},
+                 {"SampleVariance.B", NAN, "in channel SampleVariance.B"},
+                 {"Pattern1.R", NAN, "in channel Pattern1.R"}};
+    clshear_settings *settings = settings_of(made, "sz", 32);
+    clshear_film *base = test_render(made->scene, settings), *film = NULL;
+    test_set(settings, CLSHEAR_SPP, "64");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        float *plane = (float *)(uintptr_t)clshear_film_channel(base, cases[i].channel);
+        const float kept = plane[24 + 5];
+        plane[24 + 5] = cases[i].value;
+        test_refused(clshear_render_extend(made->scene, settings, base, &film),
+                     CLSHEAR_BAD_ARGUMENT, cases[i].words);
+        plane[24 + 5] = kept;
+    }
+    test_ok(clshear_render_extend(made->scene, settings, base, &film));
+    clshear_film_free(film);
+    clshear_film_free(base);
+    clshear_settings_free(settings);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -236,6 +269,7 @@ int main(void)
         cmocka_unit_test(the_choice_of_the_pilot_stays),
         cmocka_unit_test(mismatched_bases_are_refused),
         cmocka_unit_test(another_environment_is_refused),
+        cmocka_unit_test(damaged_bases_are_refused),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);
 }

@@ -277,6 +277,84 @@ static void no_channel_is_lost(void **state)
     remove(path);
 }
 
+/* A film that is read knows whether it is complete, its samples and its time. */
+static void films_recall_their_render(void **state)
+{
+    static const struct {
+        const char *shards;
+        int interrupted;
+        int complete;
+    } cases[] = {{NULL, 0, 1},    {NULL, 1, 0},    {"3/7", 0, 1},    {"3/7", 1, 0},
+                 {"1-3/7", 0, 0}, {"1-7/7", 0, 1}, {"damaged", 0, 0}};
+    const char *path = test_path("recalled.exr");
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        clshear_film *film = make_film(), *read = NULL;
+        float *samples = cs_film_add_channel(film, "Samples");
+        for (int p = 0; p < 6; p++)
+            samples[p] = (float)(16 + p);
+        test_ok(cs_film_set_float(film, "renderTimeSeconds", 1.5f));
+        if (cases[i].interrupted) test_ok(cs_film_set_int(film, "clshear.interrupted", 1));
+        if (cases[i].shards != NULL)
+            test_ok(clshear_film_annotate(film, "clshear.shard", cases[i].shards));
+        test_ok(clshear_film_write(film, path));
+        test_ok(clshear_film_read(path, &read));
+        const clshear_film_info info = test_film_info(read);
+        assert_int_equal(info.complete, cases[i].complete);
+        assert_int_equal(info.samples, 6 * 16 + 15);
+        assert_true(info.render_s == 1.5);
+        assert_memory_equal(info.window, ((const int[4]){2, 5, 1, 3}), sizeof info.window);
+        assert_int_equal(info.full_width, 8);
+        assert_int_equal(info.full_height, 6);
+        clshear_film_free(read);
+        clshear_film_free(film);
+    }
+}
+
+/* Every line of text that is taken comes back from the file; the others are refused. */
+static void texts_come_back_or_are_refused(void **state)
+{
+    static const char *const good[] = {"Software", "DateTime", "Copyright",    "name",
+                                       "view",     "a b",      "clshear.note", "ImageDescription",
+                                       "hash"};
+    static const char *const bad[] = {
+        "channels", "dataWindow",    "screenWindowWidth", "compression", "tiles",    "type",
+        "owner",    "worldtocamera", "PixelAspectRatio",  "png:text",    "oiio:text"};
+    const char *path = test_path("texts.exr");
+    char name[49];
+    clshear_film *film = make_film(), *read = NULL;
+    (void)state;
+    memset(name, 'n', 48);
+    name[48] = '\0';
+    test_refused(clshear_film_annotate(film, name, "a text"), CLSHEAR_BAD_ARGUMENT,
+                 "48 bytes; it must have 1 to 47");
+    test_refused(clshear_film_annotate(film, "", "a text"), CLSHEAR_BAD_ARGUMENT, "0 bytes");
+    name[47] = '\0';
+    test_ok(clshear_film_annotate(film, name, "a text"));
+    test_ok(cs_film_set_int(film, "samplesPerPixel", 4));
+    test_refused(clshear_film_annotate(film, "samplesPerPixel", "5"), CLSHEAR_BAD_ARGUMENT,
+                 "is a number of the film");
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        test_refused(clshear_film_annotate(film, bad[i], "a text"), CLSHEAR_BAD_ARGUMENT,
+                     "keeps this name for itself");
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++)
+        test_ok(clshear_film_annotate(film, good[i], "a text"));
+    test_ok(clshear_film_write(film, path));
+    test_ok(clshear_film_read(path, &read));
+    assert_string_equal(clshear_film_text(read, name), "a text");
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++)
+        assert_string_equal(clshear_film_text(read, good[i]), "a text");
+    size_t count = 0;
+    for (const char *each; (each = clshear_film_text_name(read, count)) != NULL; count++)
+        assert_non_null(clshear_film_text(read, each));
+    assert_at_least(count, 1 + sizeof good / sizeof *good);
+    assert_null(clshear_film_text(read, "samplesPerPixel"));
+    assert_null(clshear_film_text(NULL, "Software"));
+    assert_null(clshear_film_text_name(NULL, 0));
+    clshear_film_free(read);
+    clshear_film_free(film);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -287,6 +365,8 @@ int main(void)
         cmocka_unit_test(full_disks_have_their_reason),
         cmocka_unit_test(pipes_and_links_stay),
         cmocka_unit_test(no_channel_is_lost),
+        cmocka_unit_test(films_recall_their_render),
+        cmocka_unit_test(texts_come_back_or_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,6 +33,9 @@ static void getters_need_no_object(void **state)
     test_refused(clshear_pattern_constants(NULL, text, sizeof text), CLSHEAR_BAD_ARGUMENT,
                  "clshear_pattern_constants: ");
     clshear_material_init(NULL);
+    assert_string_equal(clshear_context_message(NULL), "");
+    assert_string_equal(clshear_scene_message(NULL), "");
+    assert_string_equal(clshear_film_message(NULL), "");
 }
 
 /* The same of the results of the analysis. */
@@ -84,12 +87,37 @@ static void indices_end_at_the_last(void **state)
     clshear_convergence_free(result);
 }
 
+/* An integrand whose size is not set is none: it may have been made for another library. */
+static void integrands_have_a_size(void **state)
+{
+    clshear_integrand disk = {.struct_size = sizeof disk};
+    clshear_convergence *result = NULL;
+    clshear_points *points = NULL;
+    const uint32_t counts[] = {4, 16};
+    float cells[16];
+    double square, mean = 7.0;
+    (void)state;
+    test_ok(clshear_integrand_find("disk", &disk));
+    test_ok(clshear_points_draw("sz", 16, 1, 0, &points));
+    assert_true(clshear_integrand_at(&disk, 0.5, 0.5) == 1.0);
+    disk.struct_size = 0;
+    assert_true(clshear_integrand_at(&disk, 0.5, 0.5) == 0.0);
+    clshear_points_integrate(points, &disk, 0, 0, &mean);
+    assert_true(mean == 7.0);
+    test_refused(clshear_integrand_tabulate(&disk, 4, cells, &square), CLSHEAR_BAD_ARGUMENT,
+                 "integrand: struct_size is not set");
+    test_refused(clshear_converge_integrand(&disk, "sz", 0, counts, 2, 4, NULL, &result),
+                 CLSHEAR_BAD_ARGUMENT, "integrand: struct_size is not set");
+    clshear_points_free(points);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(getters_need_no_object),
         cmocka_unit_test(getters_need_no_result),
         cmocka_unit_test(indices_end_at_the_last),
+        cmocka_unit_test(integrands_have_a_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

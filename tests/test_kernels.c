@@ -149,6 +149,34 @@ static void cameras_look_and_focus(void **state)
     clshear_settings_free(settings);
 }
 
+/* A setting that another one has unset leaves nothing behind, and what needs a scene is refused. */
+static void lenses_have_what_is_set(void **state)
+{
+    static const clshear_setting by_scene[] = {CLSHEAR_F_STOP, CLSHEAR_BLUR, CLSHEAR_FOCUS_PIXEL,
+                                               CLSHEAR_FOCUS_POINT};
+    static const char *const values[] = {"8", "20", "1,2", "1,2,3"};
+    clshear_settings *settings = test_settings(NULL, 30, 20, 1);
+    clshear_lens *lens = NULL;
+    cs_camera camera;
+    (void)state;
+    test_set(settings, CLSHEAR_EYE, "1,2,3");
+    test_set(settings, CLSHEAR_TARGET, "1,2,-7");
+    test_set(settings, CLSHEAR_ORTHOGRAPHIC, "600");
+    test_set(settings, CLSHEAR_FOV, "40");
+    test_set(settings, CLSHEAR_LENS_RADIUS, "0.2");
+    for (int i = 0; i < 4; i++) {
+        test_set(settings, by_scene[i], "%s", values[i]);
+        test_refused(clshear_lens_create(settings, &lens), CLSHEAR_BAD_ARGUMENT, "needs a scene");
+        clshear_settings_unset(settings, by_scene[i]);
+    }
+    test_ok(clshear_lens_create(settings, &lens));
+    test_ok(clshear_lens_camera(lens, &camera, sizeof camera));
+    assert_false(camera.orthographic);
+    assert_true(camera.aperture_width == 0.0f);
+    clshear_lens_free(lens);
+    clshear_settings_free(settings);
+}
+
 static void source_is_the_headers(void **state)
 {
     const char *text = clshear_device_source();
@@ -164,7 +192,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(patterns_are_the_renderers), cmocka_unit_test(bad_patterns_are_refused),
         cmocka_unit_test(lenses_are_the_renderers),   cmocka_unit_test(cameras_look_and_focus),
-        cmocka_unit_test(source_is_the_headers),
+        cmocka_unit_test(lenses_have_what_is_set),    cmocka_unit_test(source_is_the_headers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

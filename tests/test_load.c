@@ -313,6 +313,10 @@ static void smoothness_is_a_setting(void **state)
     scene = load(path, settings);
     expect_colour(scene, -0.001, 0, 0, 0.5f, 0.5f, 0.5f);
     clshear_scene_free(scene);
+    test_ok(clshear_settings_set_number(settings, CLSHEAR_SMOOTH, 90.0005)); /* to the last digit */
+    scene = load(path, settings);
+    expect_colour(scene, -0.001, 0, 0, 0.5f, 0.5f, 0.5f);
+    clshear_scene_free(scene);
     clshear_settings_free(settings);
 }
 

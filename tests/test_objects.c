@@ -43,63 +43,6 @@ static void any_order_of_freeing_is_fine(void **state)
     clshear_settings_free(NULL);
 }
 
-#define expect_null(call, function) test_refused((call), CLSHEAR_BAD_ARGUMENT, function ": ")
-
-static void settings_refuse_null(void **state)
-{
-    clshear_settings *settings = small(*state);
-    clshear_setting setting;
-    int64_t whole;
-    expect_null(clshear_settings_create(NULL), "clshear_settings_create");
-    expect_null(clshear_settings_copy(NULL, &settings), "clshear_settings_copy");
-    expect_null(clshear_settings_set_integer(NULL, CLSHEAR_SPP, 1), "clshear_settings_set_integer");
-    expect_null(clshear_settings_set_text(settings, CLSHEAR_SPP, NULL),
-                "clshear_settings_set_text");
-    expect_null(clshear_settings_get_integer(settings, CLSHEAR_SPP, NULL),
-                "clshear_settings_get_integer");
-    expect_null(clshear_settings_get_integer(NULL, CLSHEAR_SPP, &whole),
-                "clshear_settings_get_integer");
-    expect_null(clshear_settings_read(settings, NULL, NULL, NULL), "clshear_settings_read");
-    expect_null(clshear_setting_find(NULL, &setting), "clshear_setting_find");
-    clshear_settings_free(settings);
-}
-
-static void null_is_refused(void **state)
-{
-    test_fixture *made = *state;
-    clshear_settings *settings = small(made);
-    clshear_film *film = NULL;
-    clshear_scene *scene = NULL;
-    clshear_context *context = NULL;
-    float *buffer = NULL;
-    expect_null(clshear_context_create(NULL, NULL), "clshear_context_create");
-    expect_null(clshear_context_create_from(NULL, NULL, NULL, NULL, &context),
-                "clshear_context_create_from");
-    expect_null(clshear_list_devices(NULL, NULL), "clshear_list_devices");
-    expect_null(clshear_scene_load(NULL, "a", NULL, &scene), "clshear_scene_load");
-    expect_null(clshear_scene_load(made->context, NULL, NULL, &scene), "clshear_scene_load");
-    expect_null(clshear_scene_load(made->context, "a", NULL, NULL), "clshear_scene_load");
-    expect_null(clshear_scene_create(NULL, &scene), "clshear_scene_create");
-    expect_null(clshear_scene_add_mesh(made->scene, NULL), "clshear_scene_add_mesh");
-    expect_null(clshear_scene_add_light(made->scene, NULL), "clshear_scene_add_light");
-    expect_null(clshear_scene_complete(NULL), "clshear_scene_complete");
-    expect_null(clshear_camera_complete(made->scene, NULL), "clshear_camera_complete");
-    expect_null(clshear_camera_focus(NULL, settings, 0, 0), "clshear_camera_focus");
-    expect_null(clshear_render(NULL, settings, &film), "clshear_render");
-    expect_null(clshear_render(made->scene, settings, NULL), "clshear_render");
-    expect_null(clshear_render_extend(made->scene, settings, NULL, &film), "clshear_render_extend");
-    expect_null(clshear_film_copy(NULL, NULL, 0, buffer, 0, 0), "clshear_film_copy");
-    expect_null(clshear_film_annotate(NULL, "a", "b"), "clshear_film_annotate");
-    expect_null(clshear_film_read(NULL, &film), "clshear_film_read");
-    expect_null(clshear_film_write(NULL, "a.exr"), "clshear_film_write");
-    expect_null(clshear_film_write_ratio(NULL, "R", "a.png"), "clshear_film_write_ratio");
-    assert_true(film == NULL && scene == NULL && context == NULL);
-    assert_string_equal(clshear_context_message(NULL), "");
-    assert_string_equal(clshear_scene_message(NULL), "");
-    assert_string_equal(clshear_film_message(NULL), "");
-    clshear_settings_free(settings);
-}
-
 #define expect_nameless(call) test_refused((call), CLSHEAR_BAD_ARGUMENT, "path is empty: give ")
 
 /* A file without a name is refused as such, not as one that is not there. */
@@ -351,12 +294,36 @@ static void foreign_contexts_render_the_same(void **state)
     clshear_settings_free(settings);
 }
 
+/* Queues that would race, or are of something else, are refused. */
+static void foreign_queues_are_checked(void **state)
+{
+    test_fixture *made = *state;
+    cl_device_id device;
+    cl_int code;
+    clshear_context *context = NULL;
+    clshear_context_objects(made->context, NULL, &device, NULL);
+    cl_context cl = clCreateContext(NULL, 1, &device, NULL, NULL, &code);
+    cl_context other = clCreateContext(NULL, 1, &device, NULL, NULL, &code);
+    cl_command_queue stray = clCreateCommandQueue(other, device, 0, &code);
+    cl_command_queue races =
+        clCreateCommandQueue(cl, device, CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE, &code);
+    test_refused(clshear_context_create_from(cl, device, stray, NULL, &context),
+                 CLSHEAR_BAD_ARGUMENT, "the queue is of another context or device");
+    if (code == CL_SUCCESS) { /* not every driver has such queues */
+        test_refused(clshear_context_create_from(cl, device, races, NULL, &context),
+                     CLSHEAR_BAD_ARGUMENT, "the queue is out of order");
+        clReleaseCommandQueue(races);
+    }
+    assert_null(context);
+    clReleaseCommandQueue(stray);
+    clReleaseContext(other);
+    clReleaseContext(cl);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_order_of_freeing_is_fine),
-        cmocka_unit_test(settings_refuse_null),
-        cmocka_unit_test(null_is_refused),
         cmocka_unit_test(empty_names_are_refused),
         cmocka_unit_test(messages_have_owners),
         cmocka_unit_test(scenes_must_be_complete),
@@ -366,6 +333,7 @@ int main(void)
         cmocka_unit_test(failures_leave_results_alone),
         cmocka_unit_test(channels_are_copied_with_strides),
         cmocka_unit_test(foreign_contexts_render_the_same),
+        cmocka_unit_test(foreign_queues_are_checked),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);
 }

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "clshear/analysis.h"
-#include "settings/table.h"
+#include "settings/settings.h"
 
 static clshear_settings *fresh(void)
 {
@@ -210,6 +210,14 @@ static void floats_survive_texts(void **state)
     }
 }
 
+static void a_text_needs_room(void **state)
+{
+    char text[1] = "";
+    test_refused(clshear_settings_get_text(*state, CLSHEAR_SPP, text, 0), CLSHEAR_BAD_ARGUMENT,
+                 "text has no room: size is 0");
+    test_ok(clshear_settings_get_text(*state, CLSHEAR_SPP, text, 1));
+}
+
 static void the_last_answer_counts(void **state)
 {
     clshear_settings *settings = *state;
@@ -230,6 +238,58 @@ static void the_last_answer_counts(void **state)
     test_set(settings, CLSHEAR_APERTURE, "square");
     test_ok(clshear_settings_get_integer(settings, CLSHEAR_APERTURE, &aperture));
     assert_int_equal(aperture, CLSHEAR_APERTURE_SQUARE);
+}
+
+/* Some value other than the fallback. */
+static void set_some(clshear_settings *settings, const cs_setting *entry)
+{
+    double low, high;
+    test_ok(clshear_setting_bounds(entry->setting, &low, &high));
+    if (entry->setting == CLSHEAR_CROP)
+        test_set(settings, CLSHEAR_CROP, "1,20,3,40");
+    else if (entry->kind == CLSHEAR_TEXT)
+        test_set(settings, entry->setting, "a text");
+    else
+        test_ok(set_all(settings, entry, high));
+}
+
+static void expect_equal_values(const clshear_settings *a, const clshear_settings *b)
+{
+    for (size_t i = 0; i < CS_SETTING_COUNT; i++) {
+        const cs_setting_value *x = &a->values[i], *y = &b->values[i];
+        assert_int_equal(x->is_set, y->is_set);
+        assert_int_equal(x->count, y->count);
+        if (x->numbers != NULL)
+            assert_memory_equal(x->numbers, y->numbers, x->count * sizeof *x->numbers);
+        assert_string_equal(x->text != NULL ? x->text : "", y->text != NULL ? y->text : "");
+    }
+}
+
+/* A setting that unsets another one leaves nothing of it, alone or in settings that override:
+ * together they are as the last one by itself. */
+static void unset_alternatives_are_gone(void **state)
+{
+    int pairs = 0;
+    (void)state;
+    for (size_t a = 0; a < CS_SETTING_COUNT; a++)
+        for (size_t b = 0; b < CS_SETTING_COUNT; b++) {
+            const cs_setting *first = &cs_setting_table[a], *last = &cs_setting_table[b];
+            clshear_settings *both = fresh(), *alone = fresh(), *under = fresh();
+            set_some(both, first);
+            set_some(under, first);
+            set_some(both, last);
+            set_some(alone, last);
+            test_ok(clshear_settings_override(under, alone));
+            if (a != b && !clshear_settings_is_set(both, first->setting)) {
+                expect_equal_values(both, alone);
+                expect_equal_values(under, alone);
+                pairs++;
+            }
+            clshear_settings_free(both);
+            clshear_settings_free(alone);
+            clshear_settings_free(under);
+        }
+    assert_int_equal(pairs, 2 * 10);
 }
 
 static void unknown_settings_are_refused(void **state)
@@ -342,12 +402,20 @@ int main(void)
 {
 #define WITH_SETTINGS(test) cmocka_unit_test_setup_teardown(test, open_settings, close_settings)
     const struct CMUnitTest tests[] = {
-        WITH_SETTINGS(bounds_are_enforced),          WITH_SETTINGS(counts_are_enforced),
-        WITH_SETTINGS(kinds_are_enforced),           WITH_SETTINGS(expectations_have_words),
-        WITH_SETTINGS(empty_texts_are_refused),      WITH_SETTINGS(texts_come_back),
-        WITH_SETTINGS(floats_survive_texts),         WITH_SETTINGS(the_last_answer_counts),
-        WITH_SETTINGS(unknown_settings_are_refused), cmocka_unit_test(the_table_is_open),
-        cmocka_unit_test(copies_are_independent),    cmocka_unit_test(infos_fit_their_callers),
+        WITH_SETTINGS(bounds_are_enforced),
+        WITH_SETTINGS(counts_are_enforced),
+        WITH_SETTINGS(kinds_are_enforced),
+        WITH_SETTINGS(expectations_have_words),
+        WITH_SETTINGS(empty_texts_are_refused),
+        WITH_SETTINGS(texts_come_back),
+        WITH_SETTINGS(floats_survive_texts),
+        WITH_SETTINGS(the_last_answer_counts),
+        WITH_SETTINGS(a_text_needs_room),
+        cmocka_unit_test(unset_alternatives_are_gone),
+        WITH_SETTINGS(unknown_settings_are_refused),
+        cmocka_unit_test(the_table_is_open),
+        cmocka_unit_test(copies_are_independent),
+        cmocka_unit_test(infos_fit_their_callers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

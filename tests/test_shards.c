@@ -130,6 +130,9 @@ static void missing_shards_are_named(void **state)
     assert_non_null(clshear_film_channel(merged, "Variance.G"));
     clshear_film_missing(merged, missing, 4);
     assert_int_equal(strlen(missing), 3);
+    test_ok(clshear_film_annotate(merged, "clshear.shard", "damaged"));
+    clshear_film_missing(merged, missing, sizeof missing);
+    assert_string_equal(missing, "?");
     for (int i = 0; i < 3; i++)
         clshear_film_free(films[i]);
     clshear_film_free(merged);

@@ -6,6 +6,7 @@
 #include <time.h>
 
 #include "base/status.h"
+#include "film/noise.h"
 
 static clshear_settings *settings_of(test_fixture *made, int size, const char *sampler)
 {
@@ -277,6 +278,42 @@ static void an_interrupted_round_is_whole(void **state)
     clshear_settings_free(settings);
 }
 
+/* A variance that floats cannot hold keeps no promise: of the picture, or of the pixels that it is
+ * averaged over, 25 of these 36. Where nothing varies, both are kept. */
+static void what_is_no_number_is_no_small_noise(void **state)
+{
+    float mean[36], variance[36] = {0.0f};
+    const cs_estimate estimate = {{mean, mean, mean}, {variance, variance, variance}, 6, 6};
+    static const float wrong[] = {NAN, INFINITY};
+    const cs_tone tone = {.exposure = 0.0f};
+    double noise = 7.0;
+    (void)state;
+    for (int i = 0; i < 36; i++)
+        mean[i] = 0.5f;
+    assert_true(cs_noise_of_picture(&estimate) == 0.0);
+    test_ok(cs_noise_of_pixels(&estimate, &tone, &noise, cs_thread_error()));
+    assert_true(noise == 0.0);
+    for (int i = 0; i < 2; i++) {
+        variance[14] = wrong[i];
+        assert_true(cs_noise_of_picture(&estimate) == INFINITY);
+        test_ok(cs_noise_of_pixels(&estimate, &tone, &noise, cs_thread_error()));
+        assert_true(noise == INFINITY);
+    }
+}
+
+/* Radiance whose square floats cannot hold is refused. */
+static void light_fits_floats(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = settings_of(made, 4, "sz");
+    clshear_film *film = NULL;
+    test_set(settings, CLSHEAR_ENVIRONMENT, "1e10,1e10,1e10");
+    test_set(settings, CLSHEAR_ENVIRONMENT_STRENGTH, "1e6");
+    test_refused(clshear_render(made->scene, settings, &film), CLSHEAR_BAD_ARGUMENT,
+                 "environment-strength 1e+06: ");
+    clshear_settings_free(settings);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -287,6 +324,8 @@ int main(void)
         cmocka_unit_test(pixels_are_judged_as_shown),
         cmocka_unit_test(adaptive_and_extended_renders_stop),
         cmocka_unit_test(an_interrupted_round_is_whole),
+        cmocka_unit_test(what_is_no_number_is_no_small_noise),
+        cmocka_unit_test(light_fits_floats),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);
 }

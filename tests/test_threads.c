@@ -1,9 +1,13 @@
 /* Concurrent work gives the same results as sequential work, bit for bit. scripts/tsan runs this
  * test under ThreadSanitizer. */
+#define _GNU_SOURCE /* sched_setaffinity */
 #include "support.h"
 
 #include <pthread.h>
+#include <sched.h>
 #include <stdio.h>
+
+#include "base/parallel.h"
 
 enum {
     SIZE = 32,
@@ -194,12 +198,29 @@ static void broken_and_good_files(void **state)
     run_both(load_good, load_broken, tasks);
 }
 
+/* A process that may use one core has one. */
+static void affinity_counts(void **state)
+{
+    cpu_set_t allowed, first;
+    int core = 0;
+    (void)state;
+    assert_int_equal(sched_getaffinity(0, sizeof allowed, &allowed), 0);
+    assert_int_equal(cs_core_count(), CPU_COUNT(&allowed));
+    while (!CPU_ISSET(core, &allowed))
+        core++;
+    CPU_ZERO(&first);
+    CPU_SET(core, &first);
+    assert_int_equal(sched_setaffinity(0, sizeof first, &first), 0);
+    assert_int_equal(cs_core_count(), 1);
+    assert_int_equal(sched_setaffinity(0, sizeof allowed, &allowed), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_contexts),           cmocka_unit_test(two_scenes_of_one_context),
         cmocka_unit_test(one_scene_two_settings), cmocka_unit_test(a_film_is_written_meanwhile),
-        cmocka_unit_test(broken_and_good_files),
+        cmocka_unit_test(broken_and_good_files),  cmocka_unit_test(affinity_counts),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);
 }

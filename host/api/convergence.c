@@ -55,12 +55,13 @@ clshear_status clshear_converge_integrand(const clshear_integrand *integrand, co
                                           uint32_t replicates, const double *reference,
                                           clshear_convergence **result)
 {
-    CS_NEEDS(integrand);
+    CS_TAKE(clshear_integrand, copy, integrand);
+    CS_NEEDS(counts);
     CS_NEEDS(result);
     const cs_study study = {counts, sizes, replicates};
     clshear_convergence made = {0};
-    const clshear_status status = cs_converge_integrand(integrand, sampler, seed, &study, reference,
-                                                        &made, cs_thread_error());
+    const clshear_status status =
+        cs_converge_integrand(&copy, sampler, seed, &study, reference, &made, cs_thread_error());
     return hand_over(status, &made, result);
 }
 
@@ -70,6 +71,7 @@ clshear_status clshear_converge_pixel(clshear_scene *scene, const clshear_settin
                                       clshear_convergence **result)
 {
     CS_NEEDS(scene);
+    CS_NEEDS(counts);
     CS_NEEDS(result);
     clshear_convergence made = {0};
     const cs_study study = {counts, sizes, replicates};
@@ -83,7 +85,7 @@ clshear_status clshear_converge_image(clshear_scene *scene, const clshear_settin
                                       const clshear_film *reference, clshear_convergence **result)
 {
     CS_NEEDS(scene);
-    CS_NEEDS(settings);
+    CS_NEEDS(counts);
     CS_NEEDS(result);
     clshear_convergence made = {0};
     const cs_study study = {counts, sizes, replicates};

@@ -29,6 +29,8 @@ clshear_status clshear_film_copy(clshear_film *film, const char *const *channels
     CS_NEEDS(film);
     CS_NEEDS(channels);
     CS_NEEDS(target);
+    for (size_t i = 0; i < count; i++)
+        CS_NEEDS(channels[i]);
     return cs_message_keep(&film->message,
                            cs_film_copy(film, channels, count, target, pixel_stride, row_stride));
 }
@@ -54,7 +56,19 @@ clshear_status clshear_film_annotate(clshear_film *film, const char *name, const
     CS_NEEDS(film);
     CS_NEEDS(name);
     CS_NEEDS(text);
-    return cs_message_keep(&film->message, cs_film_annotate(film, name, text));
+    clshear_status status = cs_film_check_name(film, name);
+    if (status == CLSHEAR_OK) status = cs_film_annotate(film, name, text);
+    return cs_message_keep(&film->message, status);
+}
+
+const char *clshear_film_text(const clshear_film *film, const char *name)
+{
+    return film != NULL && name != NULL ? cs_film_text(film, name) : NULL;
+}
+
+const char *clshear_film_text_name(const clshear_film *film, size_t index)
+{
+    return film != NULL ? cs_film_text_name(film, index) : NULL;
 }
 
 clshear_status clshear_film_merge(const clshear_film *const *films, size_t count,
@@ -75,7 +89,11 @@ void clshear_film_missing(const clshear_film *film, char *text, size_t size)
     if (text == NULL || size == 0) return;
     *text = '\0';
     const char *held = film != NULL ? cs_film_text(film, "clshear.shard") : NULL;
-    if (held == NULL || cs_shards_read(held, &shards, cs_thread_error()) != CLSHEAR_OK) return;
+    if (held == NULL) return;
+    if (cs_shards_read(held, &shards, cs_thread_error()) != CLSHEAR_OK) {
+        snprintf(text, size, "?");
+        return;
+    }
     cs_shards_print(&shards, 0, text, size);
     cs_shards_free(&shards);
 }

@@ -61,6 +61,7 @@ static clshear_status find_count(const char *name, uint32_t wanted, cs_u32 *samp
 
 clshear_status clshear_sampler_count(const char *sampler, uint32_t wanted, uint32_t *count)
 {
+    CS_NEEDS(count);
     cs_u32 number;
     return find_count(sampler, wanted, &number, count);
 }
@@ -68,6 +69,7 @@ clshear_status clshear_sampler_count(const char *sampler, uint32_t wanted, uint3
 clshear_status clshear_pattern_create(const char *sampler, uint32_t wanted,
                                       clshear_sample_order order, clshear_pattern **result)
 {
+    CS_NEEDS(result);
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
     clshear_pattern *pattern = calloc(1, sizeof *pattern);
@@ -139,10 +141,24 @@ static void make_camera(const clshear_settings *settings, const cs_view *view, c
     lens->camera.optics = lens->made.optics;
 }
 
+/* Fails for settings that only a scene turns into a lens radius or a focal distance. */
+static clshear_status check_numbers(const clshear_settings *settings)
+{
+    static const int by_scene[] = {CS_INDEX_F_STOP, CS_INDEX_BLUR, CS_INDEX_FOCUS_PIXEL,
+                                   CS_INDEX_FOCUS_POINT};
+    for (size_t i = 0; i < sizeof by_scene / sizeof *by_scene; i++)
+        if (settings->values[by_scene[i]].is_set)
+            return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,
+                           "%s: needs a scene; clshear_camera_complete turns it into a number",
+                           cs_setting_table[by_scene[i]].name);
+    return CLSHEAR_OK;
+}
+
 clshear_status clshear_lens_create(const clshear_settings *settings, clshear_lens **result)
 {
     CS_NEEDS(settings);
     CS_NEEDS(result);
+    if (check_numbers(settings) != CLSHEAR_OK) return CLSHEAR_BAD_ARGUMENT;
     cs_error *error = cs_thread_error();
     cs_view view;
     clshear_lens *lens = calloc(1, sizeof *lens);

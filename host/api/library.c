@@ -1,7 +1,25 @@
 /* Public functions without an object: version, status, samplers. */
 #include "api/arguments.h"
+#include "clshear/analysis.h"
 #include "clshear/clshear.h"
 #include "pattern/pattern.h"
+
+/* Public structs end without padding: a member more makes them larger, so that their size tells
+ * whether a caller has set it. */
+#define CS_ENDS_WITH(type, last)                                                        \
+    _Static_assert(offsetof(type, last) + sizeof(((type *)NULL)->last) == sizeof(type), \
+                   #type " ends without padding")
+CS_ENDS_WITH(clshear_fit, slope_high);
+CS_ENDS_WITH(clshear_film_info, full_height);
+CS_ENDS_WITH(clshear_integrand, extent);
+CS_ENDS_WITH(clshear_light, edge2);
+CS_ENDS_WITH(clshear_material, reserved);
+CS_ENDS_WITH(clshear_mesh, normals_to);
+CS_ENDS_WITH(clshear_progress, noise_pixel);
+CS_ENDS_WITH(clshear_reach, points);
+CS_ENDS_WITH(clshear_sampler_info, is_default);
+CS_ENDS_WITH(clshear_scene_info, high);
+CS_ENDS_WITH(clshear_setting_info, most);
 
 const char *clshear_version(void)
 {

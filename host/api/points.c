@@ -90,14 +90,17 @@ clshear_status clshear_points_write(const clshear_points *points, const char *pa
 void clshear_points_integrate(const clshear_points *points, const clshear_integrand *integrand,
                               int homogenise, uint32_t seed, double *means)
 {
-    if (points != NULL && integrand != NULL && means != NULL)
-        cs_points_integrate(points, integrand, homogenise, seed, means);
+    clshear_integrand copy;
+    if (points == NULL || integrand == NULL || means == NULL) return;
+    if (cs_struct_in(&copy, sizeof copy, integrand, "integrand") == CLSHEAR_OK)
+        cs_points_integrate(points, &copy, homogenise, seed, means);
 }
 
 clshear_status clshear_points_integrate_4d(const clshear_points *points, clshear_function function,
                                            void *user, int homogenise, uint32_t seed, double *means)
 {
     CS_NEEDS(points);
+    CS_NEEDS(function);
     CS_NEEDS(means);
     return cs_points_integrate_4d(points, function, user, homogenise, seed, means);
 }

@@ -17,16 +17,19 @@ clshear_status clshear_integrand_find(const char *name, clshear_integrand *integ
 
 double clshear_integrand_at(const clshear_integrand *integrand, double x, double y)
 {
-    return integrand != NULL ? cs_integrand_at(integrand, x, y) : 0.0;
+    clshear_integrand copy;
+    if (integrand == NULL) return 0.0;
+    const clshear_status status = cs_struct_in(&copy, sizeof copy, integrand, "integrand");
+    return status == CLSHEAR_OK ? cs_integrand_at(&copy, x, y) : 0.0;
 }
 
 clshear_status clshear_integrand_tabulate(const clshear_integrand *integrand, size_t side,
                                           float *cells, double *mean_square)
 {
-    CS_NEEDS(integrand);
+    CS_TAKE(clshear_integrand, copy, integrand);
     CS_NEEDS(cells);
     CS_NEEDS(mean_square);
-    return cs_integrand_tabulate(integrand, side, cells, mean_square);
+    return cs_integrand_tabulate(&copy, side, cells, mean_square);
 }
 
 clshear_status clshear_predict_variance(const clshear_spectrum *samples, const float *integrand,
@@ -50,6 +53,7 @@ clshear_status clshear_predict_variance_4d(clshear_context *context, const clshe
 {
     CS_NEEDS(context);
     CS_NEEDS(samples);
+    CS_NEEDS(function);
     CS_NEEDS(reach);
     CS_NEEDS(prediction);
     clshear_prediction made;

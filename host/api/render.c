@@ -29,6 +29,7 @@ clshear_status clshear_render_extend(clshear_scene *scene, const clshear_setting
 float clshear_lens_extent(const clshear_settings *settings)
 {
     cs_view view;
+    if (settings == NULL) return 0.0f;
     cs_view_of(settings, NULL, &view);
     return cs_lens_extent(&view);
 }

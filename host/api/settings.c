@@ -177,6 +177,7 @@ clshear_status clshear_settings_get_numbers(const clshear_settings *settings,
                                             size_t capacity, size_t *count)
 {
     CS_NEEDS(settings);
+    if (capacity > 0) CS_NEEDS(numbers);
     CS_NEEDS(count);
     const size_t index = cs_setting_index(setting);
     if (index == CS_SETTING_COUNT || cs_setting_table[index].kind == CLSHEAR_TEXT)
@@ -197,9 +198,11 @@ clshear_status clshear_settings_get_text(const clshear_settings *settings, clshe
     CS_NEEDS(settings);
     CS_NEEDS(text);
     const size_t index = cs_setting_index(setting);
-    if (index == CS_SETTING_COUNT || size == 0)
+    if (index == CS_SETTING_COUNT)
         return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT, "setting %d is not known",
                        (int)setting);
+    if (size == 0)
+        return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT, "text has no room: size is 0");
     const clshear_status status = check_value(settings, setting);
     if (status == CLSHEAR_OK) cs_settings_print(settings, index, text, size);
     return status;

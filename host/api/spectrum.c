@@ -77,5 +77,9 @@ clshear_status clshear_image_write(const char *path, int width, int height, size
     CS_NEEDS_NAME(path);
     CS_NEEDS(names);
     CS_NEEDS(planes);
+    for (size_t i = 0; i < channels; i++) {
+        CS_NEEDS(names[i]);
+        CS_NEEDS(planes[i]);
+    }
     return cs_planes_write(path, width, height, channels, names, planes);
 }

@@ -1,6 +1,7 @@
 #include "base/output_file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,17 +84,37 @@ int cs_output_open(const char *path, cs_output_file *file)
     return reason;
 }
 
+/* Whether all that was written is on the disk; else errno says why not. */
+static int is_on_disk(FILE *stream)
+{
+    return fflush(stream) == 0 && fsync(fileno(stream)) == 0;
+}
+
+/* Puts the names in a file's folder on the disk. Where the file system cannot, either of the two
+ * files has the name after a power cut. */
+static void sync_names(char *target)
+{
+    char *slash = strrchr(target, '/');
+    if (slash != NULL) slash[slash == target] = '\0';
+    const int folder = open(slash != NULL ? target : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return;
+    fsync(folder);
+    close(folder);
+}
+
 int cs_output_end(cs_output_file *file, int good)
 {
     const int special = strcmp(file->part, file->target) == 0;
     int reason = 0;
     if (file->stream != NULL) {
         errno = 0;
-        const int broken = ferror(file->stream);
+        const int broken = ferror(file->stream) ||
+                           (good && file->is_durable && !special && !is_on_disk(file->stream));
         if (fclose(file->stream) != 0 || broken) reason = errno != 0 ? errno : EIO;
     }
     if (good && reason == 0 && !special && rename(file->part, file->target) != 0) reason = errno;
     if ((!good || reason != 0) && !special) unlink(file->part);
+    if (good && reason == 0 && file->is_durable && !special) sync_names(file->target);
     free(file->target);
     free(file->part);
     *file = (cs_output_file){0};

@@ -14,6 +14,7 @@ typedef struct cs_output_file {
     char *target; /* final path; owned */
     char *part;   /* temporary path beside the target, or the target itself; owned */
     FILE *stream;
+    int is_durable; /* set after opening: a power cut leaves the new file or the one before */
 } cs_output_file;
 
 /* Returns 1 if the path is a device, a pipe or a folder, else 0. */

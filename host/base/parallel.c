@@ -1,6 +1,8 @@
+#define _GNU_SOURCE /* sched_getaffinity */
 #include "base/parallel.h"
 
 #include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
 #include <unistd.h>
 
@@ -30,7 +32,9 @@ static void *run_ranges(void *argument)
 
 int cs_core_count(void)
 {
-    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    cpu_set_t allowed; /* has no room for all of a very large machine */
+    const int is_known = sched_getaffinity(0, sizeof allowed, &allowed) == 0;
+    const long cores = is_known ? CPU_COUNT(&allowed) : sysconf(_SC_NPROCESSORS_ONLN);
     if (cores < 1) return 1;
     if (cores > MAX_THREADS) return MAX_THREADS;
     return (int)cores;

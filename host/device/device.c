@@ -113,24 +113,54 @@ done:
     return status;
 }
 
+/* Fails unless the queue is one of the context and the device, and in order: launches follow each
+ * other without events. */
+static clshear_status check_queue(cl_context context, cl_device_id id, cl_command_queue queue,
+                                  cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cl_context its_context = NULL;
+    cl_device_id its_device = NULL;
+    cl_command_queue_properties properties = 0;
+    CS_OPENCL(
+        clGetCommandQueueInfo(queue, CL_QUEUE_CONTEXT, sizeof its_context, &its_context, NULL),
+        "the queue cannot be used");
+    CS_OPENCL(clGetCommandQueueInfo(queue, CL_QUEUE_DEVICE, sizeof its_device, &its_device, NULL),
+              "the queue has no device");
+    CS_OPENCL(
+        clGetCommandQueueInfo(queue, CL_QUEUE_PROPERTIES, sizeof properties, &properties, NULL),
+        "the queue has no properties");
+    CS_REQUIRE(its_context == context && its_device == id, CLSHEAR_BAD_ARGUMENT,
+               "the queue is of another context or device");
+    CS_REQUIRE((properties & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE) == 0, CLSHEAR_BAD_ARGUMENT,
+               "the queue is out of order; it must be in order");
+done:
+    return status;
+}
+
 clshear_status cs_device_adopt(cl_context context, cl_device_id id, cl_command_queue queue,
                                int packet, cs_device **result, cs_error *error)
 {
+    clshear_status status = check_queue(context, id, queue, error);
     cl_uint units = 1;
+    if (status != CLSHEAR_OK) return status;
     cs_device *device = calloc(1, sizeof *device);
     if (device == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     pthread_mutex_init(&device->lock, NULL);
     device->id = id;
+    CS_OPENCL(clRetainContext(context), "the context cannot be retained");
     device->context = context;
+    CS_OPENCL(clRetainCommandQueue(queue), "the queue cannot be retained");
     device->queue = queue;
-    clRetainContext(context);
-    clRetainCommandQueue(queue);
     cs_opencl_describe(id, device->name, device->driver, sizeof device->name);
     clGetDeviceInfo(id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
     device->threads = (int)units;
     choose_widths(device, packet);
     *result = device;
-    return CLSHEAR_OK;
+    device = NULL;
+done:
+    cs_device_close(device);
+    return status;
 }
 
 void cs_device_objects(const cs_device *device, cl_context *context, cl_device_id *id,

@@ -126,14 +126,15 @@ static clshear_status learn_channels(cs_viewer *viewer, const clshear_film *film
 static clshear_status count_tiles(cs_viewer *viewer, const clshear_film *film, cs_error *error)
 {
     const size_t count = tiles_along(film->info.width) * tiles_along(film->info.height);
-    if (viewer->sampled != NULL && memcmp(viewer->window, film->window, sizeof film->window) == 0)
+    if (viewer->sampled != NULL &&
+        memcmp(viewer->window, film->info.window, sizeof film->info.window) == 0)
         return CLSHEAR_OK;
     free(viewer->sampled);
     viewer->sampled = malloc(count * sizeof *viewer->sampled);
     if (viewer->sampled == NULL) return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     viewer->tile_count = count;
     viewer->stage = REMOVE;
-    memcpy(viewer->window, film->window, sizeof film->window);
+    memcpy(viewer->window, film->info.window, sizeof film->info.window);
     return CLSHEAR_OK;
 }
 
@@ -166,8 +167,8 @@ static int make_picture(cs_viewer *viewer)
     const char **names = names_of(&viewer->names);
     if (names == NULL) return 0;
     const cs_channel_names list = {names, viewer->names.count};
-    cs_packet_create(&viewer->packet, viewer->picture, viewer->film->full_width,
-                     viewer->film->full_height, &list);
+    cs_packet_create(&viewer->packet, viewer->picture, viewer->film->info.full_width,
+                     viewer->film->info.full_height, &list);
     free(names);
     return viewer->packet.is_good;
 }
@@ -177,8 +178,8 @@ static int fill_tile(cs_viewer *viewer, const cs_rectangle *tile)
     const clshear_film *film = viewer->film;
     const cs_channel *channels = film->channels.items;
     const size_t width = (size_t)film->info.width;
-    const cs_rectangle where = {tile->x + film->window[0], tile->y + film->window[2], tile->width,
-                                tile->height};
+    const cs_rectangle where = {tile->x + film->info.window[0], tile->y + film->info.window[2],
+                                tile->width, tile->height};
     const char **names = names_of(&film->channels);
     const float **planes = malloc((film->channels.count + 1) * sizeof *planes);
     const int good = names != NULL && planes != NULL;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "clshear/clshear.h"
+#include "film/shards.h"
 
 clshear_status cs_film_create(const int *window, int full_width, int full_height, cs_error *error,
                               clshear_film **result)
@@ -18,9 +19,9 @@ clshear_status cs_film_create(const int *window, int full_width, int full_height
     film->info.complete = 1;
     film->channels.item_size = sizeof(cs_channel);
     film->attributes.item_size = sizeof(cs_attribute);
-    memcpy(film->window, window, sizeof film->window);
-    film->full_width = full_width;
-    film->full_height = full_height;
+    memcpy(film->info.window, window, sizeof film->info.window);
+    film->info.full_width = full_width;
+    film->info.full_height = full_height;
     film->info.width = window[1] - window[0];
     film->info.height = window[3] - window[2];
     *result = film;
@@ -169,10 +170,10 @@ static clshear_status write_channels(const clshear_film *film, const char *path,
     const cs_picture picture = {
         .width = film->info.width,
         .height = film->info.height,
-        .x = film->window[0],
-        .y = film->window[2],
-        .full_width = film->full_width,
-        .full_height = film->full_height,
+        .x = film->info.window[0],
+        .y = film->info.window[2],
+        .full_width = film->info.full_width,
+        .full_height = film->info.full_height,
         .channel_count = film->channels.count,
         .names = names,
         .planes = planes,
@@ -236,6 +237,32 @@ static clshear_status copy_picture(clshear_film *film, const cs_picture *picture
     return CLSHEAR_OK;
 }
 
+/* Whether a film that was read has all of its shards: one by itself is a whole render. */
+static int has_its_shards(const clshear_film *film)
+{
+    cs_shards shards;
+    cs_error unused;
+    const char *text = cs_film_text(film, "clshear.shard");
+    if (text == NULL) return 1;
+    if (cs_shards_read(text, &shards, &unused) != CLSHEAR_OK) return 0;
+    const int whole = shards.held == 1 || shards.held == shards.count;
+    cs_shards_free(&shards);
+    return whole;
+}
+
+/* What the channels and the metadata of a film that was read say of its render. */
+static void recall_info(clshear_film *film)
+{
+    const float *samples = cs_film_channel(film, "Samples");
+    const size_t pixels = (size_t)film->info.width * (size_t)film->info.height;
+    int is_interrupted = 0;
+    for (size_t i = 0; samples != NULL && i < pixels; i++)
+        if (samples[i] > 0.0f && samples[i] <= 2e9f) film->info.samples += (uint64_t)samples[i];
+    cs_film_int(film, "clshear.interrupted", &is_interrupted);
+    film->info.complete = !is_interrupted && has_its_shards(film);
+    film->info.render_s = (double)cs_film_float(film, "renderTimeSeconds");
+}
+
 clshear_status cs_film_read(const char *path, cs_error *error, clshear_film **result)
 {
     clshear_status status = CLSHEAR_OK;
@@ -246,7 +273,9 @@ clshear_status cs_film_read(const char *path, cs_error *error, clshear_film **re
     const int window[4] = {p->x, p->x + p->width, p->y, p->y + p->height};
     CS_TRY(cs_film_create(window, p->full_width, p->full_height, error, &film));
     CS_TRY(copy_picture(film, p));
+    recall_info(film);
     film->path = strdup(path);
+    CS_REQUIRE(film->path != NULL, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
     *result = film;
     film = NULL;
 done:

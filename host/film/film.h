@@ -17,9 +17,6 @@ struct clshear_film {
     cs_message message;
     cs_array channels;   /* cs_channel */
     cs_array attributes; /* cs_attribute */
-    int window[4];       /* x0, x1, y0, y1 in the full image, px */
-    int full_width;
-    int full_height;
     clshear_film_info info;
     char *path; /* of the file it was read from; NULL: it was made */
 };
@@ -47,10 +44,15 @@ void cs_film_free(clshear_film *film);
 /* Adds a plane of zeros. Returns NULL when out of memory. */
 float *cs_film_add_channel(clshear_film *film, const char *name);
 
-/* A text or number of the metadata; NULL or 0 if the film has none of that name. */
+/* A text or number of the metadata; NULL or 0 if the film has none of that name. And the name of
+ * text number `index`, or NULL. */
 const char *cs_film_text(const clshear_film *film, const char *name);
+const char *cs_film_text_name(const clshear_film *film, size_t index);
 int cs_film_int(const clshear_film *film, const char *name, int *value);
 float cs_film_float(const clshear_film *film, const char *name);
+
+/* Fails unless a caller's line of metadata can have this name: written, and read again. */
+clshear_status cs_film_check_name(const clshear_film *film, const char *name);
 
 /* Gives a film the metadata of another. */
 clshear_status cs_film_copy_attributes(const clshear_film *from, clshear_film *to);

@@ -35,6 +35,7 @@ static merge_kind kind_of(const char *name)
                   {"CoC", KEPT},
                   {"Oracle", KEPT},
                   {"Gain", KEPT},
+                  {"Velocity", KEPT},
                   {"Samples", TOTAL},
                   {"P", MEAN_OF_HITS},
                   {"Depth", MEAN_OF_HITS},
@@ -97,7 +98,8 @@ static const char *difference(const part *a, const part *b)
             x != y)
             return numbers[i] + strlen("clshear.");
     if (a->shards.count != b->shards.count) return "number of shards";
-    if (memcmp(a->film->window, b->film->window, sizeof a->film->window) != 0) return "crop";
+    if (memcmp(a->film->info.window, b->film->info.window, sizeof a->film->info.window) != 0)
+        return "crop";
     for (size_t c = 0; c < a->film->channels.count; c++) {
         const char *channel = cs_film_channel_name(a->film, c);
         if (kind_of(channel) != VARIANCE && cs_film_channel(b->film, channel) == NULL)
@@ -285,7 +287,8 @@ clshear_status cs_film_merge(const clshear_film *const *films, size_t count, cls
     qsort(parts, count, sizeof *parts, by_first_shard); /* so that the order given does not count */
     CS_TRY(join(parts, count, &shards, &patterns, error));
     const clshear_film *first = parts[0].film;
-    CS_TRY(cs_film_create(first->window, first->full_width, first->full_height, error, &merged));
+    CS_TRY(cs_film_create(first->info.window, first->info.full_width, first->info.full_height,
+                          error, &merged));
     CS_TRY(merge_channels(parts, count, patterns, merged, error));
     CS_TRY(describe(parts, count, &shards, patterns, merged, error));
     *result = merged;

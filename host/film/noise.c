@@ -19,7 +19,8 @@ double cs_noise_of_picture(const cs_estimate *estimate)
         }
     variance /= 3.0 * (double)pixels;
     mean /= 3.0 * (double)pixels;
-    return variance > 0.0 ? sqrt(variance) / mean : 0.0;
+    if (variance == 0.0) return 0.0;
+    return isfinite(variance) && mean > 0.0 ? sqrt(variance) / mean : INFINITY;
 }
 
 double cs_smoothed(const float *plane, int width, int height, int x, int y)
@@ -52,6 +53,7 @@ static float error_at(const cs_estimate *estimate, const cs_tone *tone, float sc
     for (int c = 0; c < 3; c++) {
         const float deviation = (float)sqrt(
             cs_smoothed(estimate->variance[c], estimate->width, estimate->height, x, y));
+        if (!isfinite(deviation) || !isfinite(estimate->mean[c][pixel])) return INFINITY;
         ends[c] = estimate->mean[c][pixel] - deviation;
         ends[3 + c] = estimate->mean[c][pixel] + deviation;
     }

@@ -65,7 +65,7 @@ int main(int argc, char **argv)
                 argv[0]);
         return 2;
     }
-    const cs_import_options options = {.smooth_degrees = atof(argv[2]) / 1000.0,
+    const cs_import_options options = {.smooth_degrees = strtod(argv[2], NULL),
                                        .is_played = strcmp(argv[3], "-") != 0,
                                        .time_s = strtod(argv[3], NULL)};
     limit(RLIMIT_CORE, 0.0);

@@ -35,8 +35,8 @@ static clshear_status start(const char *helper, const cs_import_options *options
                             cs_error *error)
 {
     int ends[2];
-    char smooth[32], time[48];
-    snprintf(smooth, sizeof smooth, "%d", (int)(options->smooth_degrees * 1000.0));
+    char smooth[48], time[48];
+    cs_format_number(smooth, sizeof smooth, options->smooth_degrees, 17);
     snprintf(time, sizeof time, "-");
     if (options->is_played) cs_format_number(time, sizeof time, options->time_s, 17);
     char *arguments[] = {(char *)helper, (char *)made->path, smooth, time, NULL};

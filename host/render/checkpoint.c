@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/checksum.h"
 #include "base/output_file.h"
@@ -201,9 +200,8 @@ clshear_status cs_checkpoint_save(cs_job *job, cs_pass *pass, int at_once, cs_er
     clshear_status status = CLSHEAR_OK;
     if (reason == 0) {
         tape tape = tape_of(file.stream, 1);
+        file.is_durable = 1;
         status = write_all(job, pass, &tape, error);
-        if (tape.is_good && status == CLSHEAR_OK && fflush(file.stream) == 0)
-            fsync(fileno(file.stream)); /* so that the name never comes before the bytes */
         reason = cs_output_end(&file, tape.is_good && status == CLSHEAR_OK);
         if (!tape.is_good) reason = tape.reason;
     }

@@ -114,6 +114,9 @@ static clshear_status add_environment(const clshear_scene *scene, const clshear_
                                      &light, &lighting->environment,
                                      &lighting->environment_fingerprint, error));
     cs_environment_show(&view, &light);
+    CS_REQUIRE(cs_is_colour(light.colour), CLSHEAR_BAD_ARGUMENT,
+               "environment-strength %g: times the environment's colour it must be at most 1e15",
+               view.strength);
     CS_TRY(add(lights, &light, error));
 done:
     return status;

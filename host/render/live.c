@@ -98,6 +98,7 @@ clshear_status cs_live_update(cs_job *job, cs_error *error)
     clshear_status status = CLSHEAR_OK;
     cs_live *live = &job->live;
     clshear_film *film = NULL;
+    cs_error reason;
     feed_viewer(job, 0.0);
     const wishes wanted = wishes_of(job);
     if (!wanted.caller && !wanted.file && !wanted.viewer) return CLSHEAR_OK;
@@ -110,7 +111,10 @@ clshear_status cs_live_update(cs_job *job, cs_error *error)
     if (wanted.file) keep(job, film);
     if (!wanted.viewer) goto done;
     live->shown_s = cs_now_s();
-    CS_TRY(cs_viewer_show(live->viewer, film, 0, error));
+    if (cs_viewer_show(live->viewer, film, 0, &reason) != CLSHEAR_OK) {
+        lose_viewer(job, &reason);
+        goto done;
+    }
     live->film = film;
     film = NULL;
     feed_viewer(job, 0.0);

@@ -96,7 +96,7 @@ static clshear_status tell(const clshear_settings *settings, const clshear_progr
 
 clshear_status cs_pass_ask(const clshear_settings *settings, cs_error *error)
 {
-    const clshear_progress nothing = {0};
+    const clshear_progress nothing = {.struct_size = sizeof nothing};
     return tell(settings, &nothing, error);
 }
 
@@ -106,6 +106,7 @@ static clshear_status report(const cs_pass *pass, double now_s, cs_error *error)
     const double mean_rate = pass->done / (now_s - pass->start_s);
     const double part = pass->total > 0.0 ? pass->done / pass->total : 0.0;
     const clshear_progress progress = {
+        .struct_size = sizeof progress,
         .fraction = part < 1.0 ? part : 1.0,
         .samples_per_s = mean_rate,
         .remaining_s = pass->total > pass->done && !pass->is_open

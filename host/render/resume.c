@@ -1,11 +1,13 @@
 /* Going on with a render: more samples of the same patterns, without redoing those it has. */
 #include "render/resume.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "oracle/oracle.h"
 #include "pattern/pattern.h"
 #include "render/aov.h"
 #include "render/recipe.h"
@@ -21,21 +23,58 @@ static void plane_name(char *name, size_t size, uint32_t replicate, int colour)
     snprintf(name, size, "Pattern%u.%c", replicate, "RGB"[colour]);
 }
 
-/* Whether a film has all the planes that load() reads, and counts of samples to go with them. */
-static int holds_state(const clshear_film *base, uint32_t replicates, int *samples)
+/* The planes that a continued render reads, the means of the patterns last: the name of number
+ * `index` from 0, or NULL past the last one. */
+static const char *needed_plane(uint32_t replicates, size_t index, char *name, size_t size)
 {
     static const char *const needed[] = {
         "R",     "G",     "B", "SampleVariance.R", "SampleVariance.G", "SampleVariance.B",
         "Shear", "Oracle"};
-    char name[32];
+    const size_t others = sizeof needed / sizeof *needed;
+    if (index < others) return needed[index];
+    if (index - others >= 3 * (size_t)replicates) return NULL;
+    plane_name(name, size, (uint32_t)(index - others) / 3, (int)(index - others) % 3);
+    return name;
+}
+
+/* Whether a film has all these planes, and counts of samples to go with them. */
+static int holds_state(const clshear_film *base, uint32_t replicates, int *samples)
+{
+    char text[32];
+    const char *name;
     int good = cs_film_int(base, "samplesPerPixel", samples) && *samples >= (int)replicates;
-    for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
-        good &= cs_film_channel(base, needed[i]) != NULL;
-    for (uint32_t plane = 0; good && plane < 3 * replicates; plane++) {
-        plane_name(name, sizeof name, plane / 3, (int)(plane % 3));
+    for (size_t i = 0; (name = needed_plane(replicates, i, text, sizeof text)) != NULL; i++)
         good &= cs_film_channel(base, name) != NULL;
-    }
     return good;
+}
+
+/* Fails unless all pixels of a plane have numbers that a render writes. */
+static clshear_status check_plane(const clshear_film *base, const char *name, cs_error *error)
+{
+    const size_t width = (size_t)base->info.width, pixels = width * (size_t)base->info.height;
+    const float *plane = cs_film_channel(base, name);
+    const int is_rule = strcmp(name, "Oracle") == 0;
+    for (size_t i = 0; i < pixels; i++) {
+        const float value = plane[i];
+        const int is_known = value >= 0.0f && value < CS_RULE_COUNT && value == floorf(value);
+        if (is_rule ? !is_known : !isfinite(value))
+            return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                           "is damaged: pixel %d,%d has %g in channel %s",
+                           base->info.window[0] + (int)(i % width),
+                           base->info.window[2] + (int)(i / width), (double)value, name);
+    }
+    return CLSHEAR_OK;
+}
+
+static clshear_status check_planes(const clshear_film *base, uint32_t replicates, cs_error *error)
+{
+    char text[32];
+    const char *name;
+    clshear_status status = CLSHEAR_OK;
+    for (size_t i = 0; (name = needed_plane(replicates, i, text, sizeof text)) != NULL; i++)
+        CS_TRY(check_plane(base, name, error));
+done:
+    return status;
 }
 
 const char *cs_resume_name(const cs_job *job)
@@ -76,9 +115,10 @@ static clshear_status check_base(cs_job *job, cs_error *error)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "was made with another %s; give all flags as before, but for --spp", name);
     }
-    if (memcmp(base->window, job->window, sizeof job->window) != 0)
+    if (memcmp(base->info.window, job->window, sizeof job->window) != 0)
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "shows other pixels; give the same --crop");
-    const clshear_status status = cs_aov_check(job, error);
+    clshear_status status = check_planes(base, job->replicates, error);
+    if (status == CLSHEAR_OK) status = cs_aov_check(job, error);
     if (status != CLSHEAR_OK) return status;
     const uint32_t had = (uint32_t)samples / job->replicates;
     if (job->pattern.grid.count <= had)

@@ -93,7 +93,7 @@ static double lit_distance(const clshear_scene *scene, const clshear_settings *s
                            const stand *at, double otherwise)
 {
     const float eye[3] = {(float)at->eye[0], (float)at->eye[1], (float)at->eye[2]};
-    const double half = tan(cs_number(settings, FOV) * pi / 360.0);
+    const double half = tan(cs_number(settings, FOV) * CS_PI_DOUBLE / 360.0);
     double distances[LIT_PLACES * LIT_PLACES], logarithms = 0.0;
     size_t count = 0;
     for (int k = 0; k < LIT_PLACES * LIT_PLACES; k++) {

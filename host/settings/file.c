@@ -23,7 +23,7 @@ static char *read_text(const char *path)
         if (larger == NULL) free(text);
         text = larger;
     }
-    const int reason = ferror(stream) ? errno : 0;
+    const int reason = text == NULL ? ENOMEM : ferror(stream) ? errno : 0;
     fclose(stream);
     if (text != NULL) text[size] = '\0';
     if (reason == 0) return text;
@@ -78,7 +78,8 @@ clshear_status cs_settings_read(clshear_settings *settings, const char *path,
     clshear_status status = CLSHEAR_OK;
     char *text = read_text(path), place[600];
     int number = 1;
-    CS_REQUIRE(text != NULL, CLSHEAR_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
+    CS_REQUIRE(text != NULL, errno == ENOMEM ? CLSHEAR_OUT_OF_MEMORY : CLSHEAR_BAD_FILE,
+               "%s: cannot be read: %s", path, strerror(errno));
     /* Editors put a byte order mark before UTF-8. */
     const size_t mark = strncmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     for (char *line = text + mark; line != NULL; number++) {

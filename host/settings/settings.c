@@ -105,7 +105,7 @@ static void unset_alternatives(clshear_settings *settings, size_t index)
     for (size_t i = 0; i < sizeof alternatives / sizeof *alternatives; i++)
         for (int k = 0; k < 2; k++)
             if ((size_t)alternatives[i][k] == index)
-                settings->values[alternatives[i][1 - k]].is_set = 0;
+                cs_settings_unset(settings, (size_t)alternatives[i][1 - k]);
     if (index != CS_INDEX_BLADES) return;
     cs_number(settings, APERTURE) = polygon;
     cs_is_set(settings, APERTURE) = 1;

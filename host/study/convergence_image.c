@@ -86,7 +86,7 @@ static clshear_status render_size(clshear_scene *scene, const clshear_settings *
     CS_REQUIRE(film->info.complete, CLSHEAR_BAD_ARGUMENT, "stopped by the progress callback");
     result->counts[size] =
         (uint32_t)(*cs_film_channel(film, "Samples") / (float)study->replicates + 0.5f);
-    memcpy(result->window, film->window, sizeof result->window);
+    memcpy(result->window, film->info.window, sizeof result->window);
     result->mean = map_errors(film, reference, study->replicates, t->columns,
                               result->maps + size * t->width * t->height, part);
     for (size_t i = 0; i < t->tiles; i++)
@@ -102,8 +102,12 @@ clshear_status cs_converge_image(clshear_scene *scene, const clshear_settings *s
                                  clshear_convergence *result, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    const tiling t = tiling_of(settings);
-    double *parts = calloc((study->sizes + 1) * t.tiles, sizeof *parts);
+    clshear_settings fallbacks = {0};
+    tiling t;
+    double *parts = NULL;
+    CS_TRY(cs_settings_init(&fallbacks, error));
+    t = tiling_of(settings != NULL ? settings : &fallbacks);
+    parts = calloc((study->sizes + 1) * t.tiles, sizeof *parts);
     CS_REQUIRE(parts != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
     CS_REQUIRE(t.tiles >= 2, CLSHEAR_BAD_ARGUMENT,
                "an image of %zu x %zu pixels: an interval needs more than one tile of %d x %d",
@@ -117,6 +121,7 @@ clshear_status cs_converge_image(clshear_scene *scene, const clshear_settings *s
                            error));
     CS_TRY(cs_convergence_fit(parts, t.tiles, 1, NULL, result));
 done:
+    cs_settings_free(&fallbacks);
     free(parts);
     return status;
 }

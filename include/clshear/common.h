@@ -10,7 +10,7 @@
  * - A function that returns no status takes a NULL object or target too: it returns NULL or 0
  *   (clshear_film_mean_variance: NaN) and does nothing else. The same for an index past the last.
  * - Functions copy the arrays and texts in their arguments.
- * - Public structs begin with `struct_size`. The caller sets it to the size of the struct:
+ * - Public structs begin with `struct_size`. Who makes the struct sets it to its size:
  *   `clshear_film_info info = {.struct_size = sizeof info};`. The library writes no
  *   member beyond this size, reads missing members as zero and ignores unknown ones, so that
  *   programs work with newer and older libraries.

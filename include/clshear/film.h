@@ -29,6 +29,9 @@ typedef struct clshear_film_info {
                              * the promise is kept */
     uint64_t host_bytes;    /* memory that the render took at its fullest, estimated, */
     uint64_t device_bytes;  /* ... and that on the device; both without the scene */
+    int window[4];          /* the crop in the full image: x0 <= x < x1, y0 <= y < y1, px */
+    int full_width;         /* of the full image, px */
+    int full_height;
 } clshear_film_info;
 
 /* Fills in `info`. The caller sets `info->struct_size`. */
@@ -42,7 +45,10 @@ CLSHEAR_API void clshear_film_describe(const clshear_film *film, clshear_film_in
  *   Z.near, Z.far         nearest and farthest depth of the lens rays
  *   Shear                 shear of the samples, px
  *   CoC                   circle of confusion at the pixel's centre, px
- *   Oracle                rule of the shear: 0 centre, 1 median, 2 near, 3 far, 4 no shear
+ *   Oracle                rule of the shear: 0 centre, 1 median, 2 near, 3 far, 4 no shear; where
+ *                         something moves, the pilot also chooses 5 lens alone, 6 motion alone
+ *   Velocity.X/Y          where something moves: velocity on the film of what the pixel's centre
+ *                         sees, px while the shutter is open, to the right and down
  *   Samples               number of samples
  *   Gain                  with CLSHEAR_GAIN: variance of small patterns without shear over their
  *                         variance with it, both averaged over 5 x 5 pixels
@@ -63,11 +69,19 @@ CLSHEAR_API clshear_status clshear_film_copy(clshear_film *film, const char *con
 /* Mean of the channels Variance.R/G/B over pixels and colours; NaN if they are absent. */
 CLSHEAR_API double clshear_film_mean_variance(const clshear_film *film);
 
-/* Adds a line of text to the metadata of written files. Replaces a line of the same name. */
+/* Adds a line of text to the metadata of written files. Replaces a line of the same name. The name
+ * has 1 to 47 bytes and no colon, and is neither a number of the film nor one that EXR keeps for
+ * itself, as dataWindow. */
 CLSHEAR_API clshear_status clshear_film_annotate(clshear_film *film, const char *name,
                                                  const char *text);
 
-/* Reads an EXR written by clshear_film_write. */
+/* A line of text of the metadata: by its name, or NULL if the film has none of it; and the name of
+ * line number `index` from 0, or NULL past the last one. Owned by the film. */
+CLSHEAR_API const char *clshear_film_text(const clshear_film *film, const char *name);
+CLSHEAR_API const char *clshear_film_text_name(const clshear_film *film, size_t index);
+
+/* Reads an EXR written by clshear_film_write. Of its render, clshear_film_describe then has
+ * `complete`, `samples` and `render_s`. */
 CLSHEAR_API clshear_status clshear_film_read(const char *path, clshear_film **film);
 
 /* Merges `count` films of shards of one render (CLSHEAR_SHARD), or merges of them: means weighted
@@ -78,7 +92,7 @@ CLSHEAR_API clshear_status clshear_film_merge(const clshear_film *const *films, 
                                               clshear_film **merged);
 
 /* Prints the shards of a film that are missing, as "2,5-7", truncated to `size` bytes; "" if none
- * are, or if the film is no shard. */
+ * are, or if the film is no shard; "?" if what it says of its shards cannot be read. */
 CLSHEAR_API void clshear_film_missing(const clshear_film *film, char *text, size_t size);
 
 /* Writes all channels as float32 (.exr), or R G B with the sRGB curve (.png, .jpg, .tif). An

@@ -65,7 +65,9 @@ typedef struct clshear_lens clshear_lens;
 
 /* Creates the aperture, the pixel filter and, if eye, target and field of view are set, the camera
  * of the settings. Settings that are not set have their fallbacks; an unset up is +Y, an unset lens
- * radius 0 (a pinhole), and an unset focal distance 1. */
+ * radius 0 (a pinhole), and an unset focal distance 1. Fails for CLSHEAR_F_STOP, _BLUR,
+ * _FOCUS_PIXEL and _FOCUS_POINT, which need a scene: clshear_camera_complete turns them into
+ * numbers. */
 CLSHEAR_API clshear_status clshear_lens_create(const clshear_settings *settings,
                                                clshear_lens **lens);
 CLSHEAR_API void clshear_lens_free(clshear_lens *lens);

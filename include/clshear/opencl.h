@@ -17,9 +17,9 @@
 extern "C" {
 #endif
 
-/* Creates a context from the caller's OpenCL context, device and in-order command queue, which it
- * retains. It uses the settings CLSHEAR_PACKET and CLSHEAR_THREADS (for Embree) only; NULL:
- * fallbacks. */
+/* Creates a context from the caller's OpenCL context, device and command queue, which it retains.
+ * The queue must be in order, and of that context and device. Of the settings (NULL: fallbacks)
+ * count CLSHEAR_PACKET, CLSHEAR_THREADS (for Embree) and CLSHEAR_FORCE. */
 CLSHEAR_API clshear_status clshear_context_create_from(cl_context cl, cl_device_id device,
                                                        cl_command_queue queue,
                                                        const clshear_settings *settings,

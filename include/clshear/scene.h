@@ -40,6 +40,7 @@ typedef struct clshear_material {
                           below 1.01 is taken as a thin wall */
     float attenuation_colour[3]; /* of white light, what is left inside a solid after ... */
     float attenuation_distance;  /* ... this way, in units of the scene; 0: all of it */
+    uint32_t reserved;           /* 0 */
 } clshear_material;
 
 /* A triangle mesh with one material. */
@@ -100,9 +101,11 @@ typedef struct clshear_scene_info {
 } clshear_scene_info;
 
 /* Reads OBJ, glTF 2.0, PLY, STL or another format that Assimp supports, and completes the scene. Of
- * the settings (NULL: fallbacks) CLSHEAR_SMOOTH counts. Repairs are reported to the context's
- * warning callback: missing material files and textures, invalid colours (negative or not finite),
- * degenerate triangles.
+ * the settings (NULL: fallbacks), those that say how the file is read count: CLSHEAR_SMOOTH, and
+ * for motion CLSHEAR_FRAME, _FPS, _SHUTTER, _SHUTTER_ANGLE, _TO and _TURNTABLE. Give the same ones
+ * to the render: there they have no effect, but its film names them. Repairs are reported to the
+ * context's warning callback: missing material files and textures, invalid colours (negative or not
+ * finite), degenerate triangles.
  *
  * The program clshear-import reads the file, in a process with limits on time and memory, so that a
  * damaged file ends in a message. It is looked for beside the library, in libexec/clshear, and at

@@ -48,8 +48,9 @@ CLSHEAR_API void clshear_settings_free(clshear_settings *settings);
 /* Set one value. They fail with CLSHEAR_BAD_ARGUMENT, and change nothing, if the setting is of
  * another kind or the value is out of bounds. A CHOICE takes its number here.
  *
- * Some settings are alternatives, and setting one unsets the other: lens radius and f-number; focal
- * distance and focus pixel. Setting the blades chooses the polygon. */
+ * Some settings are alternatives, and setting one unsets the others: lens radius, f-number and
+ * blur; focal distance, focus pixel and focus point; field of view and orthographic; orbit, and
+ * eye, target or camera. Setting the blades chooses the polygon. */
 CLSHEAR_API clshear_status clshear_settings_set_integer(clshear_settings *settings,
                                                         clshear_setting setting, int64_t value);
 CLSHEAR_API clshear_status clshear_settings_set_number(clshear_settings *settings,
@@ -131,6 +132,7 @@ CLSHEAR_API int clshear_setting_choice(clshear_setting setting, size_t index, co
                                        const char **meaning);
 
 typedef struct clshear_progress {
+    size_t struct_size;   /* set by the library */
     double fraction;      /* finished part, 0 to 1; 0 before the samples that count */
     double samples_per_s; /* mean rate since the start; 0 while depths are found */
     double remaining_s;   /* estimate; 0 while it is unknown */
