@@ -3,10 +3,15 @@ import os
 import resource
 import subprocess
 
+import drjit as dr
 import mitsuba as mi
 import numpy as np
 
 from gltf import write_gltf
+
+# With one thread Mitsuba's pool has no worker, and it waits for ever at the first EXR file.
+if dr.thread_count() < 2:
+    dr.set_thread_count(2)
 
 EYE, TARGET, FOV, LENS, FOCUS = [0.0, 3.0, 5.0], [0.0, 0.6, 0.0], 40.0, 0.05, 5.2
 
