@@ -5,8 +5,7 @@
 #include "base/status.h"
 
 enum {
-    CS_MOST_SHARDS = 65536,
-    CS_SHARDS_TEXT = 512 /* bytes that a text may have; longer ones are not made */
+    CS_MOST_SHARDS = 65536
 };
 
 typedef struct cs_shards {

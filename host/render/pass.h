@@ -1,6 +1,6 @@
 /* Launches of the render kernel: patterns of one kind for some pixels, in pieces. */
-#ifndef CS_RENDER_SWEEP_H
-#define CS_RENDER_SWEEP_H
+#ifndef CS_RENDER_PASS_H
+#define CS_RENDER_PASS_H
 
 #include "kernels/launch.h"
 #include "render/lighting.h"

@@ -1,7 +1,7 @@
 /* Continuing a render, and keeping the means of its patterns. Everything here does nothing for a
  * job that neither extends one nor is to be extended nor keeps patterns. */
-#ifndef CS_RENDER_EXTEND_H
-#define CS_RENDER_EXTEND_H
+#ifndef CS_RENDER_RESUME_H
+#define CS_RENDER_RESUME_H
 
 #include "render/render_job.h"
 

@@ -1,10 +1,5 @@
-/* clshear: enumerations of the settings with named choices, from setting_list.h.
- *
- * CLSHEAR_SHEAR_NONE, _TOROIDAL, _EQUAL_AREA; CLSHEAR_ORACLE_CENTRE, _MEDIAN, _NEAR, _FAR, _PILOT,
- * _EDGE; CLSHEAR_FILTER_BOX, _TENT, _GAUSSIAN, _BLACKMAN_HARRIS; CLSHEAR_APERTURE_DISK, _SQUARE,
- * _POLYGON, _IMAGE; CLSHEAR_AOV_ALBEDO, _NORMAL, _POSITION, _DEPTH, _COVERAGE, _EMISSION, _DIRECT,
- * _INDIRECT; CLSHEAR_TONE_SRGB, _FILMIC, _AGX; CLSHEAR_EMITTERS_TREE, _POWER.
- */
+/* clshear: enumerations of the settings with named choices, from the lists in setting_list.h:
+ * CLSHEAR_SHEAR_NONE is the line NONE of CLSHEAR_SHEAR_LIST. */
 #ifndef CLSHEAR_CHOICES_H
 #define CLSHEAR_CHOICES_H
 

@@ -1,9 +1,9 @@
 /* clshear: the table of settings.
  *
- * Every option of a render has one line here. The enumerations of clshear.h, the bounds of the
- * setters, the program's flags, help and manual page, settings files, image metadata, and the check
- * of a continued render are made from this table. A new setting is one line here and the code that
- * implements it. */
+ * Every option of a render has one line here. The enumerations of settings.h and choices.h, the
+ * bounds of the setters, the program's flags, help and manual page, settings files, image metadata,
+ * and the check of a continued render are made from this table. A new setting is one line here and
+ * the code that implements it. */
 #ifndef CLSHEAR_SETTING_LIST_H
 #define CLSHEAR_SETTING_LIST_H
 
@@ -64,7 +64,7 @@
  *
  * number    value of the enumerator; never reused, because compiled programs depend on it. It also
  *           gives the group in lists: 1 samples, 20 image, 40 camera, 50 lens, 60 light,
- *           70 reading, 80 device, 90 stopping, 100 motion, 110 live view, and all numbers up to
+ *           70 scene file, 80 device, 90 stopping, 100 motion, 110 live view, and all numbers up to
  *           the next group
  * name      name of the flag, without dashes
  * aliases   other names of the flag, separated by spaces
@@ -73,8 +73,8 @@
  * most      largest number of values; above 1, each use of the flag appends one
  * fallback  default value; "": the render chooses it
  * low, high bounds of each number, both inclusive
- * choices   list of a CHOICE: shear, oracle, filter, aperture, sampler, tone,
- *           aov; otherwise none
+ * choices   list of a CHOICE: shear, oracle, filter, aperture, sampler, emitters, tone, aov;
+ *           otherwise none
  * use       RECIPE: affects the picture or its noise, is written to the metadata, and must be the
  *           same when a render is continued; RECORD: is written to the metadata; PRIVATE: neither
  * argument  placeholder in the help; "": the flag takes no value

@@ -15,8 +15,8 @@ const char *setting_group(clshear_setting setting)
     static const struct {
         int first;
         const char *name;
-    } groups[] = {{1, "Samples"},  {20, "Image"},     {40, "Camera"}, {50, "Lens"},
-                  {60, "Light"},   {70, "Reading"},   {80, "Device"}, {90, "Stopping"},
+    } groups[] = {{1, "Samples"},  {20, "Image"},      {40, "Camera"}, {50, "Lens"},
+                  {60, "Light"},   {70, "Scene file"}, {80, "Device"}, {90, "Stopping"},
                   {100, "Motion"}, {110, "Live view"}};
     const char *name = "Others";
     for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)

@@ -1,6 +1,6 @@
 /* Remarks on a finished picture that cannot be what was meant. */
-#ifndef CS_PROGRAM_PICTURE_H
-#define CS_PROGRAM_PICTURE_H
+#ifndef CS_PROGRAM_REPORT_PICTURE_H
+#define CS_PROGRAM_REPORT_PICTURE_H
 
 #include "clshear/clshear.h"
 
