@@ -46,7 +46,8 @@ build/clshear --print-settings md | diff - "$root/docs/settings.md" ||
 # film.h lists every channel, of what moves too.
 build/clshear scenes/wheel.gltf --width 8 --height 8 --spp 16 --shutter 0,0.25 --gain-channel --keep-patterns \
     --aov albedo --quiet --out channels.exr
-for channel in $(oiiotool --info -v channels.exr | sed -n 's/ *channel list: //p' | tr -d ,); do
+channels=$(oiiotool --info -v channels.exr | sed -n 's/ *channel list: //p' | tr -d ,)
+for channel in ${channels:?oiiotool names no channel}; do
     layer=${channel%%.*}
     grep -q "^ \*   .*\b${layer%%[0-9]*}\b" "$root/include/clshear/film.h" ||
         { echo "film.h does not list the channel $channel"; exit 1; }

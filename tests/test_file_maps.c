@@ -106,23 +106,44 @@ static void maps_of_mtl(void **state)
     cs_scene_free(&scene);
 }
 
-/* A PNG of one texel, (128, 128, 255), whose gAMA chunk says 1 / 2.2. */
-static void gamma_of_png(void **state)
+/* Writes a PNG of one texel, (128, 128, 255), with a gAMA chunk: its number and checksum. */
+static void write_png(const char *name, const unsigned char *gamma)
 {
-    static const unsigned char picture[] = {
+    unsigned char picture[] = {
         0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44,
         0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x90,
-        0x77, 0x53, 0xde, 0x00, 0x00, 0x00, 0x04, 0x67, 0x41, 0x4d, 0x41, 0x00, 0x00, 0xb1, 0x8f,
-        0x0b, 0xfc, 0x61, 0x05, 0x00, 0x00, 0x00, 0x0c, 0x49, 0x44, 0x41, 0x54, 0x78, 0xda, 0x63,
+        0x77, 0x53, 0xde, 0x00, 0x00, 0x00, 0x04, 0x67, 0x41, 0x4d, 0x41, 0x00, 0x00, 0x00, 0x00,
+        0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x0c, 0x49, 0x44, 0x41, 0x54, 0x78, 0xda, 0x63,
         0x68, 0x68, 0xf8, 0x0f, 0x00, 0x03, 0x83, 0x02, 0x00, 0x3e, 0x58, 0x28, 0x25, 0x00, 0x00,
         0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+    memcpy(picture + 41, gamma, 8);
+    test_bytes(name, picture, sizeof picture);
+}
+
+/* MTL obeys the chunk: 1 / 2.2 stands for sRGB's curve, 1 is linear. glTF 2.0 has it
+ * ignored. */
+static void gamma_of_png(void **state)
+{
+    static const unsigned char usual[8] = {0x00, 0x00, 0xb1, 0x8f, 0x0b, 0xfc, 0x61, 0x05};
+    static const unsigned char linear[8] = {0x00, 0x01, 0x86, 0xa0, 0x31, 0xe8, 0x96, 0x5f};
+    const double on_curve = pow((128.0 / 255.0 + 0.055) / 1.055, 2.4);
     (void)state;
-    test_bytes("gamma.png", picture, sizeof picture);
-    cs_scene scene = material_scene_mtl("Kd 1 1 1\nmap_Kd gamma.png");
-    expect_texel(&scene, base_of(&scene), pow(128.0 / 255.0, 2.2), pow(128.0 / 255.0, 2.2), 1, 1);
+    write_png("usual.png", usual);
+    write_png("linear.png", linear);
+    cs_scene scene = material_scene_mtl("Kd 1 1 1\nmap_Kd usual.png");
+    expect_texel(&scene, base_of(&scene), on_curve, on_curve, 1, 1);
     cs_scene_free(&scene);
-    scene = material_scene_mtl("norm gamma.png"); /* numbers are as they are */
+    scene = material_scene_mtl("Kd 1 1 1\nmap_Kd linear.png");
+    expect_texel(&scene, base_of(&scene), 128.0 / 255.0, 128.0 / 255.0, 1, 1);
+    cs_scene_free(&scene);
+    scene = material_scene_mtl("norm usual.png"); /* numbers are as they are */
     expect_texel(&scene, import_material(&scene, 0)->normal_texture, 0.502, 0.502, 1, 1);
+    cs_scene_free(&scene);
+    write_png("my four.ppm", linear); /* what the square's texture is called */
+    scene = import_load(import_gltf_square(
+        ",\"TEXCOORD_0\":2", "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}",
+        "{\"mesh\":0}", ""));
+    expect_texel(&scene, base_of(&scene), on_curve, on_curve, 1, 1);
     cs_scene_free(&scene);
 }
 

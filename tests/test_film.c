@@ -337,8 +337,14 @@ static void texts_come_back_or_are_refused(void **state)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         test_refused(clshear_film_annotate(film, bad[i], "a text"), CLSHEAR_BAD_ARGUMENT,
                      "keeps this name for itself");
+    test_refused(clshear_film_annotate(film, "SamplesPerPixel", "5"), CLSHEAR_BAD_ARGUMENT,
+                 "is a number of the film");
     for (size_t i = 0; i < sizeof good / sizeof *good; i++)
         test_ok(clshear_film_annotate(film, good[i], "a text"));
+    test_refused(clshear_film_annotate(film, "NAME", "a text"), CLSHEAR_BAD_ARGUMENT,
+                 "files do not tell this name from name");
+    test_refused(clshear_film_annotate(film, "datetime", "a text"), CLSHEAR_BAD_ARGUMENT,
+                 "files do not tell this name from DateTime");
     test_ok(clshear_film_write(film, path));
     test_ok(clshear_film_read(path, &read));
     assert_string_equal(clshear_film_text(read, name), "a text");

@@ -63,10 +63,12 @@ static void harmless_gltf(void **state)
         "{\"name\":\"a\\u0007b\",\"alphaMode\":\"BLEND\",\"extensions\":{\"ACME_fur\":{}}}",
         "{\"mesh\":0,\"children\":[1],\"extras\":{\"id\":99999999999999999999,\"n\":\"a\\u0000b\"}}"
         ","
-        "{\"mesh\":0,\"extensions\":{\"KHR_node_visibility\":{\"visible\":false}}}",
-        ",\"extensionsRequired\":[\"KHR_materials_ior\",\"KHR_materials_transmission\","
+        "{\"mesh\":0,\"camera\":0,\"extensions\":{\"KHR_node_visibility\":{\"visible\":false}}}",
+        ",\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":1}}],"
+        "\"extensionsRequired\":[\"KHR_materials_ior\",\"KHR_materials_transmission\","
         "\"KHR_materials_pbrSpecularGlossiness\",\"KHR_materials_variants\"]"));
     assert_int_equal(scene.indices.count, 2);
+    assert_int_equal(scene.cameras.count, 1); /* what is hidden may still look */
     import_warned("\"a?b\": not supported, left out: ACME_fur\n"); /* no code for the terminal */
     import_warned("the alpha of its vertices is not supported");
     cs_scene_free(&scene);

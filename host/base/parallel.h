@@ -9,7 +9,7 @@
 void cs_parallel(int threads, size_t count, void (*body)(void *user, size_t begin, size_t end),
                  void *user);
 
-/* Number of cores that this process may use, 1 to 256. */
+/* Number of cores that the calling thread, and those that it starts, may use, 1 to 256. */
 int cs_core_count(void);
 
 #endif

@@ -50,9 +50,23 @@ static int is_number(const clshear_film *film, const char *name)
 {
     const cs_attribute *attributes = film->attributes.items;
     for (size_t i = 0; i < film->attributes.count; i++)
-        if (attributes[i].kind != CS_ATTRIBUTE_TEXT && strcmp(attributes[i].name, name) == 0)
+        if (attributes[i].kind != CS_ATTRIBUTE_TEXT && strcasecmp(attributes[i].name, name) == 0)
             return 1;
     return 0;
+}
+
+/* The name that files would take this one for, whose capitals differ; NULL: there is none. */
+static const char *same_in_files(const clshear_film *film, const char *name)
+{
+    static const char *const of_openimageio[] = {"Copyright", "DateTime", "ImageDescription"};
+    const cs_attribute *attributes = film->attributes.items;
+    for (size_t i = 0; i < sizeof of_openimageio / sizeof *of_openimageio; i++)
+        if (strcasecmp(of_openimageio[i], name) == 0 && strcmp(of_openimageio[i], name) != 0)
+            return of_openimageio[i];
+    for (size_t i = 0; i < film->attributes.count; i++)
+        if (strcasecmp(attributes[i].name, name) == 0 && strcmp(attributes[i].name, name) != 0)
+            return attributes[i].name;
+    return NULL;
 }
 
 const char *cs_film_text_name(const clshear_film *film, size_t index)
@@ -77,5 +91,9 @@ clshear_status cs_film_check_name(const clshear_film *film, const char *name)
     if (is_number(film, name))
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
                        "metadata %s: is a number of the film; choose another name", name);
+    const char *same = same_in_files(film, name);
+    if (same != NULL)
+        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+                       "metadata %s: files do not tell this name from %s; write it so", name, same);
     return CLSHEAR_OK;
 }

@@ -21,6 +21,7 @@ typedef struct cs_texel_use {
     cs_texel_kind kind;
     float base; /* colours and numbers, not alpha, are base + gain * those of the file */
     float gain;
+    int is_srgb; /* colours of integers are on sRGB's curve, whatever the file says of it */
 } cs_texel_use;
 
 /* The roughness whose facets give Blinn's highlight of an exponent: its square is the width

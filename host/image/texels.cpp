@@ -16,19 +16,28 @@
 namespace
 {
 
+/* What an image's colours are on. */
+enum class Curve {
+    none,  /* they are no colours: numbers as they are */
+    files, /* what the file says; else files of integers have sRGB's, of floats none */
+    srgb   /* sRGB's in files of integers, whatever they say; in files of floats none */
+};
+
 /* Linear colours of those on the curve `space`, as OpenImageIO calls it. A PNG's gAMA chunk makes
- * it "Gamma2.2", and others "GammaCorrected"; the power is an attribute of its own. */
+ * it "Gamma2.2" or "GammaCorrected" with the power as an attribute of its own. That 2.2 is what
+ * files on sRGB's curve say (PNG specification, gAMA and sRGB), so it stands for that. */
 ImageBuf linear_of(ImageBuf &&rgba, const std::string &space, float gamma)
 {
     const float powers[4] = {gamma, gamma, gamma, 1.0f};
-    if (space == "sRGB") return OIIO::ImageBufAlgo::colorconvert(rgba, "sRGB", "linear", false);
+    if (space == "sRGB" || space == "Gamma2.2")
+        return OIIO::ImageBufAlgo::colorconvert(rgba, "sRGB", "linear", false);
     if (space.compare(0, 5, "Gamma") != 0 || !(gamma > 0.0f)) return std::move(rgba);
     return OIIO::ImageBufAlgo::pow(rgba, OIIO::cspan<float>(powers, 4));
 }
 
 /* Any number of channels as RGBA: grey is repeated, alpha is 1 where there is none. Colours become
- * linear; files of integers (`is_integer`) that say nothing of their curve have that of sRGB. */
-ImageBuf linear_rgba(const ImageBuf &source, bool is_integer, bool is_colour)
+ * linear. is_integer: whether the file has integers. */
+ImageBuf linear_rgba(const ImageBuf &source, bool is_integer, Curve curve)
 {
     const int channels = source.nchannels();
     const int alpha = source.spec().alpha_channel;
@@ -37,8 +46,8 @@ ImageBuf linear_rgba(const ImageBuf &source, bool is_integer, bool is_colour)
     const float fill[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     ImageBuf rgba = OIIO::ImageBufAlgo::channels(source, 4, order, fill);
     std::string space = source.spec().get_string_attribute("oiio:ColorSpace");
-    if (space.empty()) space = is_integer ? "sRGB" : "linear";
-    if (!is_colour) return rgba;
+    if (space.empty() || curve == Curve::srgb) space = is_integer ? "sRGB" : "linear";
+    if (curve == Curve::none) return rgba;
     return linear_of(std::move(rgba), space, source.spec().get_float_attribute("oiio:Gamma", 2.2f));
 }
 
@@ -100,8 +109,8 @@ constexpr float most_light = 65504.0f;
 /* Texels in one image: more are a damaged head rather than a picture. */
 constexpr uint64_t most_texels = uint64_t(1) << 28;
 
-/* An image as RGBA, its colours (`is_colour`) linear. */
-clshear_status read_rgba(const Source &from, bool is_colour, ImageBuf &rgba, cs_error *error)
+/* An image as RGBA, its colours linear. */
+clshear_status read_rgba(const Source &from, Curve curve, ImageBuf &rgba, cs_error *error)
 {
     const char *flaw = from.memory == nullptr ? cs_not_a_file(from.path) : nullptr;
     if (flaw != nullptr) return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label, flaw);
@@ -129,7 +138,7 @@ clshear_status read_rgba(const Source &from, bool is_colour, ImageBuf &rgba, cs_
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
                        reason_of(source, path).c_str());
     const bool is_integer = !source.nativespec().format.is_floating_point();
-    rgba = linear_rgba(without_alpha(std::move(source)), is_integer, is_colour);
+    rgba = linear_rgba(without_alpha(std::move(source)), is_integer, curve);
     if (rgba.has_error())
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
                        first_line(rgba.geterror()).c_str());
@@ -158,7 +167,9 @@ clshear_status read_texels(const Source &from, const cs_texel_use &use, cs_texel
                            cs_error *error)
 {
     ImageBuf rgba;
-    clshear_status status = read_rgba(from, use.kind == CS_TEXELS_COLOUR, rgba, error);
+    const Curve given = use.is_srgb != 0 ? Curve::srgb : Curve::files;
+    clshear_status status =
+        read_rgba(from, use.kind == CS_TEXELS_COLOUR ? given : Curve::none, rgba, error);
     if (status != CLSHEAR_OK) return status;
     convert_texels(use, rgba);
     rgba = OIIO::ImageBufAlgo::clamp(rgba, 0.0f, most_light); /* what is no number becomes 0 */
@@ -182,7 +193,7 @@ clshear_status read_luminance(const char *path, int most, float **luminance, int
                               int *height, cs_error *error)
 {
     ImageBuf rgba;
-    clshear_status status = read_rgba({path, path, nullptr, 0}, true, rgba, error);
+    clshear_status status = read_rgba({path, path, nullptr, 0}, Curve::files, rgba, error);
     if (status != CLSHEAR_OK) return status;
     const int full_width = rgba.spec().width, full_height = rgba.spec().height;
     const int longer = full_width > full_height ? full_width : full_height;
@@ -208,7 +219,7 @@ clshear_status read_colours(const char *path, float **colours, size_t *width, si
                             cs_error *error)
 {
     ImageBuf rgba;
-    clshear_status status = read_rgba({path, path, nullptr, 0}, true, rgba, error);
+    clshear_status status = read_rgba({path, path, nullptr, 0}, Curve::files, rgba, error);
     if (status != CLSHEAR_OK) return status;
     *width = static_cast<size_t>(rgba.spec().width);
     *height = static_cast<size_t>(rgba.spec().height);

@@ -45,7 +45,8 @@ static layer_key key_of(const cs_map *map, unsigned channels)
 static int is_alike(const layer_key *a, const layer_key *b)
 {
     return a->image == b->image && a->channels == b->channels && a->use.kind == b->use.kind &&
-           a->use.base == b->use.base && a->use.gain == b->use.gain;
+           a->use.base == b->use.base && a->use.gain == b->use.gain &&
+           a->use.is_srgb == b->use.is_srgb;
 }
 
 /* Reads an image; one that cannot be read is reported and has no texels. */

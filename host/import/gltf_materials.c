@@ -91,6 +91,7 @@ static clshear_status read_map(gltf_reader *reader, const json_t *parent, const 
     const cs_texel_use use = map->use;
     cs_map_init(map);
     map->use = use;
+    map->use.is_srgb = 1; /* glTF 2.0, on images: what a PNG says of its colours is ignored */
     map->set = set > 0 && set < 64 ? (int)set : 0;
     set_transform(info, map);
     const long long number = gltf_index(texture, "sampler");

@@ -10,6 +10,7 @@
 typedef struct gltf_visit {
     long long node;
     double matrix[16]; /* columns */
+    int is_hidden;     /* its mesh and lights, and those below it */
 } gltf_visit;
 
 static void identity(double *m)
@@ -165,7 +166,7 @@ static clshear_status add_light(gltf_reader *reader, long long index, const json
 /* ----- The walk ----- */
 
 static clshear_status push(gltf_reader *reader, cs_array *waiting, const json_t *list,
-                           const double *matrix)
+                           const double *matrix, int is_hidden)
 {
     for (size_t i = json_array_size(list); i > 0; i--) { /* the first one comes off first */
         const json_t *value = json_array_get(list, i - 1);
@@ -173,6 +174,7 @@ static clshear_status push(gltf_reader *reader, cs_array *waiting, const json_t 
         if (visit == NULL) return cs_model_full(reader->model, reader->error);
         const double number = json_is_number(value) ? json_number_value(value) : -1.0;
         visit->node = number >= 0.0 && number < 9e15 ? (long long)number : -1;
+        visit->is_hidden = is_hidden;
         memcpy(visit->matrix, matrix, sizeof visit->matrix);
     }
     return CLSHEAR_OK;
@@ -188,21 +190,23 @@ static clshear_status visit_node(gltf_reader *reader, cs_array *waiting, const g
     if (seen[visit->node]++)
         return gltf_complain(reader, "nodes", visit->node,
                              "has two parents, or is its own; nodes must be a tree");
-    if (json_is_false(json_object_get(gltf_extension(node, "KHR_node_visibility"), "visible")))
-        return CLSHEAR_OK; /* neither is what is below it */
+    const json_t *visible = json_object_get(gltf_extension(node, "KHR_node_visibility"), "visible");
+    const int is_hidden = visit->is_hidden || json_is_false(visible);
     local_matrix(node, local);
     gltf_multiply(visit->matrix, local, matrix);
     const long long camera = gltf_index(node, "camera");
     const json_t *light = gltf_extension(node, "KHR_lights_punctual");
-    if (json_object_get(node, "mesh") != NULL) CS_TRY(gltf_mesh(reader, node, matrix));
+    if (json_object_get(node, "mesh") != NULL && !is_hidden)
+        CS_TRY(gltf_mesh(reader, node, matrix));
     if (camera != -1) CS_TRY(add_camera(reader, camera, node, matrix));
-    if (light != NULL) CS_TRY(add_light(reader, gltf_index(light, "light"), node, matrix));
-    if (gltf_extension(node, "EXT_mesh_gpu_instancing") != NULL)
+    if (light != NULL && !is_hidden)
+        CS_TRY(add_light(reader, gltf_index(light, "light"), node, matrix));
+    if (gltf_extension(node, "EXT_mesh_gpu_instancing") != NULL && !is_hidden)
         cs_warn(reader->model->log,
                 "%s: nodes[%lld]: EXT_mesh_gpu_instancing is not supported; one "
                 "instance is read",
                 reader->model->path, visit->node);
-    CS_TRY(push(reader, waiting, json_object_get(node, "children"), matrix));
+    CS_TRY(push(reader, waiting, json_object_get(node, "children"), matrix, is_hidden));
 done:
     return status;
 }
@@ -230,6 +234,7 @@ static clshear_status push_roots(gltf_reader *reader, cs_array *waiting, const d
             continue;
         }
         visit->node = (long long)i - 1;
+        visit->is_hidden = 0;
         memcpy(visit->matrix, matrix, sizeof visit->matrix);
     }
     free(is_child);
@@ -249,7 +254,8 @@ clshear_status gltf_nodes(gltf_reader *reader)
     if (gltf_count(reader, "scenes") > 0) {
         const json_t *scene = gltf_at(reader, "scenes", chosen >= 0 ? chosen : 0);
         if (scene == NULL) status = CLSHEAR_BAD_FILE;
-        if (scene != NULL) status = push(reader, &waiting, json_object_get(scene, "nodes"), start);
+        if (scene != NULL)
+            status = push(reader, &waiting, json_object_get(scene, "nodes"), start, 0);
     } else {
         status = push_roots(reader, &waiting, start);
     }

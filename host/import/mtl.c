@@ -178,11 +178,23 @@ static int take_option(char **at, cs_map *map, double *scale, double *shift, dou
     return 0;
 }
 
+/* Finds the image of that name, or else of what is before a comment: names may hold a # as well.
+ * Returns whether it is there; `found` gets the path. */
+static int find_image(const mtl_reader *reader, const char *name, char found[CS_FILE_PATH])
+{
+    const char *folders[] = {reader->folders[0], reader->folders[1]};
+    int there = cs_find_file(name, folders, 2, found);
+    char *uncommented = there ? NULL : strdup(name);
+    if (uncommented != NULL && cs_cut_comment(uncommented))
+        there = cs_find_file(uncommented, folders, 2, found);
+    free(uncommented);
+    return there;
+}
+
 static clshear_status read_map(mtl_reader *reader, cs_material_description *material,
                                const map_line *entry, char *at)
 {
     cs_map *map = (cs_map *)(void *)((char *)material + entry->offset);
-    const char *folders[] = {reader->folders[0], reader->folders[1]};
     double scale[2] = {1, 1}, shift[2] = {0, 0}, bump = 1.0;
     char found[CS_FILE_PATH];
     cs_map_init(map);
@@ -196,8 +208,7 @@ static clshear_status read_map(mtl_reader *reader, cs_material_description *mate
     map->across[2] = shift[0];
     map->up[1] = scale[1];
     map->up[2] = shift[1];
-    int there = cs_find_file(name, folders, 2, found);
-    if (!there && cs_cut_comment(name)) there = cs_find_file(name, folders, 2, found);
+    const int there = find_image(reader, name, found);
     return cs_model_add_image(reader->model, there ? found : "", there ? found : name, NULL, 0,
                               &map->image, reader->error);
 }

@@ -15,7 +15,8 @@ clshear_status cs_interior_view(const clshear_scene *scene, int z_up, int *is_ro
 float cs_interior_sky(const clshear_scene *scene, const float *point);
 
 /* The distance, in lengths of `direction`, of the first surface without alpha; INFINITY if there is
- * none. `from` is relative to the scene's origin. */
+ * none, and where the search ended behind too many surfaces with alpha. `from` is relative to the
+ * scene's origin. */
 float cs_interior_distance(const clshear_scene *scene, const float *from, const float *direction);
 
 #endif

@@ -71,7 +71,8 @@ CLSHEAR_API double clshear_film_mean_variance(const clshear_film *film);
 
 /* Adds a line of text to the metadata of written files. Replaces a line of the same name. The name
  * has 1 to 47 bytes and no colon, and is neither a number of the film nor one that EXR keeps for
- * itself, as dataWindow. */
+ * itself, as dataWindow. Names that differ in capitals only are one name in files: the second is
+ * refused. An empty text is not written. */
 CLSHEAR_API clshear_status clshear_film_annotate(clshear_film *film, const char *name,
                                                  const char *text);
 

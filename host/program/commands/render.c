@@ -60,7 +60,8 @@ const program_command render_command = {
              "Render SCENE (OBJ, glTF, PLY, STL) with depth of field. Each command has its own\n"
              "--help.\n\n"
              "  clshear scenes/cornell.obj --spp 1024 --out img.exr\n",
-    .notes = "Without --out, writes the scene's name with .exr in the current folder.\n"
+    .notes = "Words after -- are names, even those that begin with a dash.\n"
+             "Without --out, writes the scene's name with .exr in the current folder.\n"
              "Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted (what was\n"
              "rendered so far is written).\n",
     COMMAND_FLAGS(flags),
