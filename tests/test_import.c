@@ -34,7 +34,7 @@ static void alpha_does_not_darken(void **state)
 {
     const unsigned char tga[] = {0, 0, 2, 0, 0,  0, 0, 0,   0,   0, 0, 0,
                                  1, 0, 1, 0, 32, 8, 0, 128, 255, 64}; /* blue, green, red, alpha */
-    const cs_texel_use use = {CS_TEXELS_COLOUR, 0.0f, 1.0f};
+    const cs_texel_use use = {.kind = CS_TEXELS_COLOUR, .gain = 1.0f};
     cs_texels texels;
     cs_error error;
     (void)state;

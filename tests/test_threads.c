@@ -202,7 +202,7 @@ static void broken_and_good_files(void **state)
 static void affinity_counts(void **state)
 {
     cpu_set_t allowed, first;
-    int core = 0;
+    size_t core = 0;
     (void)state;
     if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) skip(); /* more than 1024 cores */
     assert_int_equal(cs_core_count(), CPU_COUNT(&allowed) < 256 ? CPU_COUNT(&allowed) : 256);
