@@ -97,8 +97,9 @@ static double lit_distance(const clshear_scene *scene, const clshear_settings *s
     double distances[LIT_PLACES * LIT_PLACES], logarithms = 0.0;
     size_t count = 0;
     for (int k = 0; k < LIT_PLACES * LIT_PLACES; k++) {
-        const double x = half * (2.0 * (k % LIT_PLACES + 0.5) / LIT_PLACES - 1.0);
-        const double y = half * (2.0 * (k / LIT_PLACES + 0.5) / LIT_PLACES - 1.0);
+        const int column = k % LIT_PLACES, row = k / LIT_PLACES;
+        const double x = half * (2.0 * (column + 0.5) / LIT_PLACES - 1.0);
+        const double y = half * (2.0 * (row + 0.5) / LIT_PLACES - 1.0);
         double direction[3];
         for (int i = 0; i < 3; i++)
             direction[i] = at->ahead[i] + x * at->right[i] + y * at->up[i];
