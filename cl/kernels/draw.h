@@ -60,8 +60,8 @@ static inline int cs_exchanges_pairs(const cs_launch *launch, cs_f32 shear)
 
 /* The pair of samples `index` for the first surface's light. Where cs_exchanges_pairs, the light
  * takes the lens's pair out of the tuple `point`, and the lens gets the pair of the light's slot.
- * The pixel's pair decides what a sample sees, the light's pair decides whether that is lit, and
- * the sampler stratifies these two together. The lens's pair moves along the fibre only. */
+ * The pixel's pair decides what a sample sees. The light's pair decides whether that is lit. The
+ * sampler stratifies these two together. The lens's pair moves along the fibre only. */
 static inline cs_pair cs_draw_light(const cs_launch *launch, cs_sample_table sample_table,
                                     cs_u32 key, cs_vuint index, cs_f32 shear,
                                     cs_camera_sample *point)

@@ -9,7 +9,8 @@
 void cs_parallel(int threads, size_t count, void (*body)(void *user, size_t begin, size_t end),
                  void *user);
 
-/* Number of cores that the calling thread, and those that it starts, may use, 1 to 256. */
+/* The number of cores that the calling thread may run on, 1 to 256. Threads that it starts may run
+ * on the same ones. */
 int cs_core_count(void);
 
 #endif

@@ -1,4 +1,4 @@
-/* Names of lines of metadata: those that a film has, and which ones a caller can give. */
+/* The names of texts in a film's metadata: lists them, and refuses names that files do not keep. */
 #include <string.h>
 #include <strings.h>
 

@@ -250,7 +250,8 @@ static int has_its_shards(const clshear_film *film)
     return whole;
 }
 
-/* What the channels and the metadata of a film that was read say of its render. */
+/* Sets the samples, the time and the completeness in `info` of a film that was read, from its
+ * channels and metadata. */
 static void recall_info(clshear_film *film)
 {
     const float *samples = cs_film_channel(film, "Samples");

@@ -16,16 +16,16 @@
 namespace
 {
 
-/* What an image's colours are on. */
+/* The curve by which stored numbers become linear colours. */
 enum class Curve {
-    none,  /* they are no colours: numbers as they are */
-    files, /* what the file says; else files of integers have sRGB's, of floats none */
-    srgb   /* sRGB's in files of integers, whatever they say; in files of floats none */
+    none,  /* there is none: the numbers are no colours */
+    files, /* the one that the file names; if it names none, that of sRGB for integers */
+    srgb   /* that of sRGB for integers, whatever the file names; none for floats */
 };
 
-/* Linear colours of those on the curve `space`, as OpenImageIO calls it. A PNG's gAMA chunk makes
- * it "Gamma2.2" or "GammaCorrected" with the power as an attribute of its own. That 2.2 is what
- * files on sRGB's curve say (PNG specification, gAMA and sRGB), so it stands for that. */
+/* Converts colours from a curve to linear. space: OpenImageIO's name of the curve. gamma: its
+ * power, if the name begins with "Gamma", as a PNG's gAMA chunk makes it. "Gamma2.2" stands for the
+ * curve of sRGB, since PNGs on that curve say 2.2 (PNG specification, gAMA and sRGB). */
 ImageBuf linear_of(ImageBuf &&rgba, const std::string &space, float gamma)
 {
     const float powers[4] = {gamma, gamma, gamma, 1.0f};

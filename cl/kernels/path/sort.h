@@ -50,8 +50,9 @@ static inline void cs_fill_packet(const cs_vfloat *packets, int words, const cs_
     }
 }
 
-/* Counts, or with `order` writes the places of, the lanes of packet `p` by class. next: what each
- * class has so far. */
+/* Gives each lane of packet `p` the next number of its class. Writes the lane's place, CS_PACKET
+ * times packet and lane, to `order` at that number; without `order` it only counts. next: the next
+ * number of each class. */
 static inline void cs_order_packet(const cs_int_lanes *classes, int p, int *next,
                                    cs_int_lanes *order)
 {
