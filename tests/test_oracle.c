@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "accel/front.h"
 #include "clshear/device/hash.h"
 #include "clshear/device/lens.h"
 #include "oracle/allocate.h"
@@ -21,7 +22,7 @@ static void depth_becomes_shear(void **state)
     const float z[5] = {2.0f, 4.0f, 8.0f, 1e30f, INFINITY};
     const float expected[5] = {20.0f, 0.0f, -10.0f, -20.0f, 0.0f};
     for (int i = 0; i < 5; i++) {
-        const cs_depth depth = {z[i], z[i], z[i], z[i], isfinite(z[i]) ? 0.0f : 1.0f};
+        const cs_depth depth = {z[i], z[i], z[i], z[i], isfinite(z[i]) ? 0.0f : 1.0f, INFINITY};
         for (int rule = CS_RULE_CENTRE; rule <= CS_RULE_FAR; rule++)
             assert_near(cs_oracle_shear(&camera, 0.0f, 0.0f, &depth, (cs_rule)rule), expected[i],
                         1e-4f);
@@ -29,13 +30,14 @@ static void depth_becomes_shear(void **state)
     }
 }
 
-/* Every rule takes its own depth. The centre takes the median if its ray hits nothing. */
+/* Every rule takes its own depth. The centre takes the median if its ray hits nothing, and is what
+ * the front's rule takes where nothing stands in front. */
 static void rules_take_their_depths(void **state)
 {
     (void)state;
     const cs_camera camera = {.focal_distance = 4.0f, .pixel_width = 0.01f, .aperture_width = 0.2f};
-    cs_depth depth = {2.0f, 1.0f, 4.0f, 8.0f, 0.5f};
-    const float expected[CS_RULE_COUNT] = {20.0f, 0.0f, 60.0f, -10.0f, 0.0f, 20.0f, 0.0f};
+    cs_depth depth = {2.0f, 1.0f, 4.0f, 8.0f, 0.5f, 7.0f};
+    const float expected[CS_RULE_COUNT] = {20.0f, 0.0f, 60.0f, -10.0f, 0.0f, 20.0f, 0.0f, 7.0f};
     for (int rule = 0; rule < CS_RULE_COUNT; rule++)
         assert_near(cs_oracle_shear(&camera, 0.0f, 0.0f, &depth, (cs_rule)rule), expected[rule],
                     1e-4f);
@@ -43,30 +45,47 @@ static void rules_take_their_depths(void **state)
     assert_near(cs_oracle_shear(&camera, 0.0f, 0.0f, &depth, CS_RULE_CENTRE), 0.0f, 0);
     depth.median = 1.0f;
     assert_near(cs_oracle_shear(&camera, 0.0f, 0.0f, &depth, CS_RULE_CENTRE), 60.0f, 1e-4f);
+    depth.front_px = INFINITY;
+    assert_near(cs_oracle_shear(&camera, 0.0f, 0.0f, &depth, CS_RULE_FRONT), 60.0f, 1e-4f);
 }
 
-/* An edge is where the shears of all depths differ by more than half the centre's and by more than
- * a pixel, if the near surface is not the sharper one; rays that hit nothing see infinity, and one
- * depth is no edge. */
-static void edges_take_the_nearest(void **state)
+/* What stands in front ends at the first gap, of more than 0.05 pixels and a quarter of the shear
+ * before it; rays that hit nothing see infinity, where the shear is -20 pixels or, in parallel
+ * views, has no bounds. */
+static void fronts_end_at_gaps(void **state)
 {
     (void)state;
-    const cs_camera camera = {.focal_distance = 4.0f, .pixel_width = 0.01f, .aperture_width = 0.2f};
+    cs_camera camera = {.focal_distance = 4.0f, .pixel_width = 0.01f, .aperture_width = 0.2f};
     const struct {
-        cs_depth depth;
-        cs_rule rule;
-    } cases[] = {{{2.0f, 1.0f, 2.0f, 8.0f, 0.0f}, CS_RULE_NEAR},   /* 60 to -10 */
-                 {{2.0f, 1.6f, 2.0f, 2.1f, 0.0f}, CS_RULE_NEAR},   /* 30 to 18.1 */
-                 {{2.0f, 1.9f, 2.0f, 2.1f, 0.0f}, CS_RULE_CENTRE}, /* 22.1 to 18.1 */
-                 {{2.0f, 1.9f, 2.0f, 2.1f, 0.1f}, CS_RULE_NEAR},   /* 22.1 to -20 */
-                 {{4.0f, 3.9f, 4.0f, 4.0f, 0.0f}, CS_RULE_CENTRE}, /* 0.5 to 0 */
-                 {{4.1f, 4.0f, 4.1f, 4.1f, 0.0f}, CS_RULE_NEAR},   /* 0 to -0.5 */
-                 {{INFINITY, INFINITY, INFINITY, INFINITY, 1.0f}, CS_RULE_CENTRE}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        assert_int_equal(cs_oracle_rule(CLSHEAR_ORACLE_EDGE, &camera, 0.0f, 0.0f, &cases[i].depth),
-                         cases[i].rule);
-    assert_int_equal(cs_oracle_rule(CLSHEAR_ORACLE_FAR, &camera, 0.0f, 0.0f, &cases[0].depth),
-                     CS_RULE_FAR);
+        float depths[4], front_px;
+    } cases[] = {{{1.0f, 2.0f, 2.1f, 8.0f}, 60.0f},        /* 60, then 20 */
+                 {{2.0f, 2.1f, 2.2f, 8.0f}, 18.1530f},     /* 20, 18.1, 16.4, then -10 */
+                 {{2.0f, 2.1f, 2.2f, 2.3f}, INFINITY},     /* steps of 2 beside 20 */
+                 {{2.0f, 2.1f, 2.2f, INFINITY}, 18.1530f}, /* -20 behind */
+                 {{4.0f, 4.0f, 4.2f, 4.2f}, 0.0f},         /* 0, then -0.95 */
+                 {{4.0f, 4.0f, 4.005f, 4.01f}, INFINITY},  /* 0, -0.025, -0.05 */
+                 {{INFINITY, INFINITY, INFINITY, INFINITY}, INFINITY}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const cs_f32 front = cs_front_shear(&camera, 0.0f, 0.0f, cases[i].depths, 4);
+        if (isfinite(cases[i].front_px))
+            assert_near(front, cases[i].front_px, 1e-3f);
+        else
+            assert_true(isinf(front));
+    }
+    assert_true(isinf(cs_front_shear(&camera, 0.0f, 0.0f, NULL, 0)));
+    camera.orthographic = 1;
+    assert_near(cs_front_shear(&camera, 0.0f, 0.0f, cases[3].depths, 4), 9.5f, 1e-4f);
+}
+
+static void edges_take_the_front(void **state)
+{
+    (void)state;
+    cs_depth depth = {2.0f, 1.0f, 2.0f, 8.0f, 0.0f, 60.0f};
+    assert_int_equal(cs_oracle_rule(CLSHEAR_ORACLE_EDGE, &depth), CS_RULE_FRONT);
+    assert_int_equal(cs_oracle_rule(CLSHEAR_ORACLE_FAR, &depth), CS_RULE_FAR);
+    assert_int_equal(cs_oracle_rule(CLSHEAR_ORACLE_PILOT, &depth), CS_RULE_CENTRE);
+    depth.front_px = INFINITY;
+    assert_int_equal(cs_oracle_rule(CLSHEAR_ORACLE_EDGE, &depth), CS_RULE_CENTRE);
 }
 
 enum {
@@ -340,7 +359,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(depth_becomes_shear),
                                        cmocka_unit_test(rules_take_their_depths),
-                                       cmocka_unit_test(edges_take_the_nearest),
+                                       cmocka_unit_test(fronts_end_at_gaps),
+                                       cmocka_unit_test(edges_take_the_front),
                                        cmocka_unit_test(clear_evidence_decides),
                                        cmocka_unit_test(without_evidence_the_prior_stays),
                                        cmocka_unit_test(allocation_keeps_limits),

@@ -294,10 +294,14 @@ static void counts_and_channels(void **state)
     clshear_film *film = render_once(made, small(made, 7, 2));
     for (int p = 0; p < PIXELS; p++) {
         assert_near(clshear_film_channel(film, "Samples")[p], 8.0f, 0);
-        const int is_edge = clshear_film_channel(film, "Oracle")[p] == 2.0f;
-        float depth = clshear_film_channel(film, is_edge ? "Z.near" : "Z")[p];
-        float shear = clshear_film_channel(film, "Shear")[p];
-        assert_true(isinf(depth) ? shear == 0.0f : (shear > 0.0f) == (depth < 930.0f));
+        const float rule = clshear_film_channel(film, "Oracle")[p]; /* 0 centre, 7 front */
+        const float *nearest = clshear_film_channel(film, rule == 0.0f ? "Z" : "Z.near");
+        const float *farthest = clshear_film_channel(film, rule == 0.0f ? "Z" : "Z.far");
+        const float shear = clshear_film_channel(film, "Shear")[p];
+        assert_true(rule == 0.0f || rule == 7.0f);
+        if (isinf(nearest[p])) assert_near(shear, 0.0f, 0);
+        if (farthest[p] < 930.0f) assert_true(shear > 0.0f);
+        if (nearest[p] > 930.0f) assert_true(shear <= 0.0f);
         assert_true(isfinite(clshear_film_channel(film, "B")[p]));
     }
     assert_null(clshear_film_channel(film, "nonsense"));

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "accel/embree.h"
+#include "accel/front.h"
 #include "base/parallel.h"
 #include "clshear/device/lens.h"
 #include "clshear/device/sampler/sampler.h"
@@ -114,11 +115,14 @@ static void depths_of_pixel(const prepass *work, cs_u32 x, cs_u32 y, struct RTCR
     }
     if (work->lens_rays > 0) {
         summarise(all, work->lens_rays, depth);
+        depth->front_px =
+            cs_front_shear(work->camera, (cs_f32)x + 0.5f, (cs_f32)y + 0.5f, all, work->lens_rays);
     } else {
         depth->near = depth->centre;
         depth->median = depth->centre;
         depth->far = depth->centre;
         depth->misses = isfinite(depth->centre) ? 0.0f : 1.0f;
+        depth->front_px = INFINITY;
     }
 }
 

@@ -4,14 +4,12 @@
 
 #include "clshear/device/lens.h"
 
-/* How far shears must differ to be an edge, unless the near surface is the sharper one, and which
- * part of the centre's shear; found by trial on many scenes. */
-static const cs_f32 least_apart_px = 1.0f, least_part_apart = 0.5f;
-
 cs_f32 cs_oracle_shear(const cs_camera *camera, cs_f32 x, cs_f32 y, const cs_depth *depth,
                        cs_rule rule)
 {
     cs_f32 z = INFINITY;
+    if (rule == CS_RULE_FRONT && isfinite(depth->front_px)) return depth->front_px;
+    if (rule == CS_RULE_FRONT) rule = CS_RULE_CENTRE;
     if (rule == CS_RULE_CENTRE || rule == CS_RULE_LENS)
         z = isfinite(depth->centre) ? depth->centre : depth->median;
     if (rule == CS_RULE_MEDIAN) z = depth->median;
@@ -61,21 +59,9 @@ _Static_assert((int)CLSHEAR_ORACLE_MEDIAN == CS_RULE_MEDIAN, "cs_oracle_rule cas
 _Static_assert((int)CLSHEAR_ORACLE_NEAR == CS_RULE_NEAR, "cs_oracle_rule casts");
 _Static_assert((int)CLSHEAR_ORACLE_FAR == CS_RULE_FAR, "cs_oracle_rule casts");
 
-/* Whether a pixel sees depths that lie so far apart that one shear cannot serve them. */
-static int sees_edge(const cs_camera *camera, cs_f32 x, cs_f32 y, const cs_depth *depth)
-{
-    if (!isfinite(depth->near)) return 0;
-    const cs_f32 last = depth->misses > 0.0f ? INFINITY : depth->far;
-    const cs_f32 near = cs_shear_at(*camera, x, y, depth->near);
-    const cs_f32 apart = fabsf(near - cs_shear_at(*camera, x, y, last));
-    const cs_f32 centre = fabsf(cs_oracle_shear(camera, x, y, depth, CS_RULE_CENTRE));
-    return apart > least_part_apart * centre && (apart > least_apart_px || fabsf(near) < centre);
-}
-
-cs_rule cs_oracle_rule(clshear_oracle oracle, const cs_camera *camera, cs_f32 x, cs_f32 y,
-                       const cs_depth *depth)
+cs_rule cs_oracle_rule(clshear_oracle oracle, const cs_depth *depth)
 {
     if (oracle == CLSHEAR_ORACLE_EDGE)
-        return sees_edge(camera, x, y, depth) ? CS_RULE_NEAR : CS_RULE_CENTRE;
+        return isfinite(depth->front_px) ? CS_RULE_FRONT : CS_RULE_CENTRE;
     return oracle == CLSHEAR_ORACLE_PILOT ? CS_RULE_CENTRE : (cs_rule)oracle;
 }

@@ -8,8 +8,8 @@
 #include "clshear/device/camera.h"
 #include "clshear/device/camera_sample.h"
 
-/* Rules of the oracle, in the order of the public enumeration, and then those for the pilot
- * alone. */
+/* Rules of the oracle, in the order of the public enumeration, and then those that have no name
+ * there: of the pilot, and of `edge`. The channel `Oracle` of a film holds these numbers. */
 typedef enum cs_rule {
     CS_RULE_CENTRE,
     CS_RULE_MEDIAN,
@@ -18,22 +18,21 @@ typedef enum cs_rule {
     CS_RULE_NONE,   /* no shear */
     CS_RULE_LENS,   /* of what moves: the centre's shear, as if it were at rest */
     CS_RULE_MOTION, /* of what moves: its velocity, as if it were in focus */
+    CS_RULE_FRONT,  /* the mean shear of what stands in front where depths lie apart */
     CS_RULE_COUNT
 } cs_rule;
 
 /* The shear for a rule: the signed circle of confusion of the rule's depth, in pixels, at raster
  * position (x, y), which is the middle of the pixel. If the centre ray hits nothing, the centre
- * rule takes the median depth. Returns 0 for an infinite depth. */
+ * rule takes the median depth; where nothing stands in front, FRONT takes the centre's rule.
+ * Returns 0 for an infinite depth. */
 cs_f32 cs_oracle_shear(const cs_camera *camera, cs_f32 x, cs_f32 y, const cs_depth *depth,
                        cs_rule rule);
 
-/* The rule of an oracle for a pixel with these depths, whose middle is at raster position (x, y).
- * `edge` takes the nearest depth at an edge, and the centre elsewhere. It is an edge if the shears
- * of the nearest and the farthest depth differ by more than half the centre's shear, and either by
- * more than 1 pixel or the nearest depth's shear is less than the centre's (absolute values). The
- * pilot starts from the centre. */
-cs_rule cs_oracle_rule(clshear_oracle oracle, const cs_camera *camera, cs_f32 x, cs_f32 y,
-                       const cs_depth *depth);
+/* The rule of an oracle for a pixel with these depths. `edge` takes what stands in front where the
+ * pixel sees depths that lie apart (`cs_front_shear`), and the centre elsewhere. The pilot starts
+ * from the centre. */
+cs_rule cs_oracle_rule(clshear_oracle oracle, const cs_depth *depth);
 
 /* Whether the rule shears by the velocity, too, where there is motion. */
 int cs_rule_has_velocity(cs_rule rule);

@@ -121,10 +121,10 @@ static cs_velocity velocity_of_rule(const cs_job *job, size_t index, cs_rule rul
 {
     const cs_velocity none = {0.0f, 0.0f};
     const cs_depth *depth = &job->depth[index];
-    const cs_f32 seen = rule == CS_RULE_NEAR ? depth->near : depth->far;
+    const cs_f32 seen = rule == CS_RULE_FAR ? depth->far : depth->near;
     if (!cs_rule_has_velocity(rule)) return none;
-    if ((rule != CS_RULE_NEAR && rule != CS_RULE_FAR) || !isfinite(seen) || seen <= 0.0f ||
-        fabsf(seen - depth->centre) < SAME_DEPTH * seen)
+    if ((rule != CS_RULE_NEAR && rule != CS_RULE_FAR && rule != CS_RULE_FRONT) || !isfinite(seen) ||
+        seen <= 0.0f || fabsf(seen - depth->centre) < SAME_DEPTH * seen)
         return job->velocities_px[index];
     return velocity_at_rest(job, index, seen);
 }

@@ -77,13 +77,6 @@ cs_f32 cs_job_shear(const cs_job *job, size_t index, cs_rule rule)
     return cs_oracle_shear(&job->camera, x, y, &job->depth[index], rule);
 }
 
-static cs_rule rule_of(const cs_job *job, size_t index)
-{
-    cs_f32 x, y;
-    find_middle(job, index, &x, &y);
-    return cs_oracle_rule(job->oracle, &job->camera, x, y, &job->depth[index]);
-}
-
 /* Rules and shears of all pixels; those of the picture that is extended, if there is one. */
 static clshear_status choose_shears(cs_job *job, cs_error *error)
 {
@@ -91,7 +84,8 @@ static clshear_status choose_shears(cs_job *job, cs_error *error)
     const float *rules = job->base != NULL ? cs_film_channel(job->base, "Oracle") : NULL;
     const int is_given = cs_is_set(&job->settings, SHEAR_PX);
     for (size_t i = 0; i < job->pixel_count; i++) {
-        job->rule[i] = rules != NULL ? (uint8_t)rules[i] : (uint8_t)rule_of(job, i);
+        job->rule[i] = rules != NULL ? (uint8_t)rules[i]
+                                     : (uint8_t)cs_oracle_rule(job->oracle, &job->depth[i]);
         if (extended != NULL)
             job->shear_px[i] = extended[i];
         else if (is_given)

@@ -183,7 +183,7 @@ clshear_status cs_pixel_shear(clshear_scene *scene, const clshear_settings *sett
     const cs_f32 middle[2] = {(cs_f32)x + 0.5f, (cs_f32)y + 0.5f};
     const clshear_oracle oracle =
         cs_is_set(&job.settings, ORACLE) ? job.oracle : CLSHEAR_ORACLE_CENTRE;
-    const cs_rule rule = cs_oracle_rule(oracle, &job.camera, middle[0], middle[1], &depth);
+    const cs_rule rule = cs_oracle_rule(oracle, &depth);
     *shear_px = cs_is_set(&job.settings, SHEAR_PX)
                     ? (float)cs_number(&job.settings, SHEAR_PX)
                     : cs_oracle_shear(&job.camera, middle[0], middle[1], &depth, rule);

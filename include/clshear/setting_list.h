@@ -25,7 +25,8 @@
     X(PILOT, 4, "pilot",                                                                       \
       "a small render tries centre, near, far and no shear, and takes the clearly best rule; " \
       "the default if something moves")                                                        \
-    X(EDGE, 5, "edge", "near where a pixel sees depths that lie apart, else centre")
+    X(EDGE, 5, "edge",                                                                         \
+      "the mean of what stands in front where a pixel sees depths that lie apart, else centre")
 
 #define CLSHEAR_FILTER_LIST(X)                                                       \
     X(BOX, 0, "box", "constant; usual width 1 px")                                   \
