@@ -81,8 +81,9 @@ static int find(const parser *p, const program_command *command, const char *nam
         if (has_word(names, name, length)) return 1;
         for (size_t size = next_word(&names); size > 0; size = next_word(&names)) {
             const size_t edits = word_distance(name, length, names, size);
-            if (size > 1 && edits < best) {
-                best = edits;
+            const int begins = length > 1 && length < size && strncmp(name, names, length) == 0;
+            if (size > 1 && (begins ? best > 0 : edits < best)) {
+                best = begins ? 0 : edits;
                 *nearest = options_text(p->options, "%.*s", (int)size, names);
             }
             names += size;
@@ -91,10 +92,23 @@ static int find(const parser *p, const program_command *command, const char *nam
     return 0;
 }
 
-/* `dashes`: those before the name, as they were given. */
-static int complain_unknown(const char *place, const char *dashes, const char *name,
-                            const char *nearest)
+/* What a name like "no-adaptive" means: "adaptive=0", or NULL. */
+static const char *negation_of(const parser *p, const char *name)
 {
+    named_flag flag;
+    const char *nearest;
+    if (strncmp(name, "no-", 3) != 0 || !find(p, p->command, name + 3, &flag, &nearest) ||
+        flag.row != NULL || *argument_of(&flag) != '\0')
+        return NULL;
+    return options_text(p->options, "%s=0", flag.setting.name);
+}
+
+/* `dashes`: those before the name, as they were given. */
+static int complain_unknown(const parser *p, const char *place, const char *dashes,
+                            const char *name, const char *nearest)
+{
+    const char *negation = negation_of(p, name);
+    if (negation != NULL) nearest = negation;
     if (*nearest == '\0')
         return complain(EXIT_USAGE, "%sunknown flag %s%s; see --help", place, dashes, name);
     return complain(EXIT_USAGE, "%sunknown flag %s%s; did you mean --%s?", place, dashes, name,
@@ -171,7 +185,7 @@ static int take_line(void *user, const char *file, int line, const char *name, c
         if (!is_left_out && (p->on_line & bit_of(p, flag.row)) == 0)
             p->code = apply(p, place, &flag, name, value);
     } else if (!find(p, p->renders, name, &flag, &nearest)) {
-        p->code = complain_unknown(place, "--", name, nearest);
+        p->code = complain_unknown(p, place, "--", name, nearest);
     }
     return p->code;
 }
@@ -242,7 +256,7 @@ static int read_line(parser *p, int argc, char **argv)
         const char *name = options_text(options, "%.*s", (int)length, word);
         const char *value = word[length] == '=' ? word + length + 1 : NULL;
         if (!find(p, p->command, name, &flag, &nearest))
-            return complain_unknown("", dashes, name, nearest);
+            return complain_unknown(p, "", dashes, name, nearest);
         if (value == NULL && *argument_of(&flag) != '\0' && i + 1 < argc) value = argv[++i];
         const int code = apply(p, "", &flag, name, value);
         if (code != EXIT_DONE) return code;
