@@ -61,6 +61,9 @@ cp "$cornell" copy.obj
 expect 2 "--record copy.obj: is the file of the scene, too" -- copy.obj $small --record copy.obj
 expect 2 "--record state2: is the file of --checkpoint, too" -- "$cornell" $small --record state2 --checkpoint state2 --out one.exr
 expect 0 "" -- "$cornell" $small --quiet --preview one.png --out one.png
+cp "$cornell" .hidden
+expect 0 "" -- .hidden $small --quiet
+[ -e .hidden.exr ] || wrong "no name for the picture of .hidden"
 # Each frame has its files.
 expect 0 "" -- "$root/scenes/wheel.gltf" $small --quiet --frames 1,2 --gain gain.png --out frame.png
 [ -e frame.0002.png ] && [ -e gain.0001.png ] && [ -e gain.0002.png ] || wrong "files of frames: $(ls)"
