@@ -54,6 +54,16 @@ case $(oiiotool --info -v h.exr) in *interrupted*) wrong "USR1: the picture is n
 [ ! -e state ] || wrong "the checkpoint is left"
 
 # Checkpoints that cannot be written, or are of something else.
+# Settings files: what is for all commands, what is not for files, one of them.
+printf 'quiet\nspp 2\n' >quiet.flags
+expect 0 "" -- "$cornell" --settings quiet.flags --width 8 --height 8 --out one.png
+[ -z "$output" ] || wrong "quiet in a settings file: $output"
+echo 'settings quiet.flags' >nested.flags
+refuse 2 "nested.flags:1: settings: is for the command line only" -- "$cornell" --settings nested.flags
+refuse 2 "--settings is given twice" -- "$cornell" --settings quiet.flags --settings quiet.flags
+expect 0 "the shard cannot be merged without an .exr among the outputs" -- "$cornell" $small --shard 1/2 --out one.png
+printf '\033[31mred 1\n' >red.flags
+refuse 2 "red.flags:1: unknown flag --?[31mred" -- "$cornell" --settings red.flags
 # No file is two things: a checkpoint is removed at the end, with the picture of its name.
 expect 2 "--checkpoint ./one.exr: is the file of --out, too" -- "$cornell" $small --checkpoint ./one.exr --out one.exr
 expect 2 "--gain one.png: is the file of --out, too" -- "$cornell" $small --gain one.png --out "$PWD/one.png"

@@ -139,6 +139,9 @@ static void tell_of_formats(const render_job *job)
         {has_other, "tone", other},
     };
     tell(job, list, sizeof list / sizeof *list);
+    if (!has_exr && !job->options.quiet &&
+        clshear_settings_is_set(job->options.settings, CLSHEAR_SHARD))
+        fprintf(stderr, "clshear: the shard cannot be merged without %s\n", exr);
 }
 
 /* Tells those that other flags make use of. */

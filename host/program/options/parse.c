@@ -16,6 +16,8 @@ static const program_flag common_rows[] = {
     SWITCH_FLAG("help h", "print this and stop", offsetof(program_options, help)),
 };
 enum {
+    SETTINGS_ROW = 0,
+    HELP_ROW = 2,
     COMMON_ROWS = sizeof common_rows / sizeof *common_rows,
     MOST_SETTINGS = 128
 };
@@ -161,12 +163,12 @@ static int apply(const parser *p, const char *place, const named_flag *flag, con
                     flag_expectation(p->options, row));
 }
 
-/* A row's place among those of its command, 63 for one of all commands. */
+/* A bit for each row of the command, and from the highest down of those of all commands. */
 static uint64_t bit_of(const parser *p, const program_flag *row)
 {
     for (size_t i = 0; i < p->command->flag_count; i++)
         if (row == &p->command->flags[i]) return (uint64_t)1 << i;
-    return (uint64_t)1 << 63;
+    return (uint64_t)1 << (63 - (row - common_rows));
 }
 
 /* A line of a settings file that names no setting: a callback of clshear_settings_read. */
@@ -181,6 +183,9 @@ static int take_line(void *user, const char *file, int line, const char *name, c
                                        *options->file_words != '\0' ? " " : "", name,
                                        value != NULL ? " " : "", value != NULL ? value : "");
     if (find(p, p->command, name, &flag, &nearest)) {
+        if (flag.row == &common_rows[SETTINGS_ROW] || flag.row == &common_rows[HELP_ROW])
+            return p->code =
+                       complain(EXIT_USAGE, "%s%s: is for the command line only", place, name);
         const int is_left_out = p->command != p->renders && flag.row->adds;
         if (!is_left_out && (p->on_line & bit_of(p, flag.row)) == 0)
             p->code = apply(p, place, &flag, name, value);
@@ -258,6 +263,8 @@ static int read_line(parser *p, int argc, char **argv)
         if (!find(p, p->command, name, &flag, &nearest))
             return complain_unknown(p, "", dashes, name, nearest);
         if (value == NULL && *argument_of(&flag) != '\0' && i + 1 < argc) value = argv[++i];
+        if (flag.row == &common_rows[SETTINGS_ROW] && options->settings_file.count > 0)
+            return complain(EXIT_USAGE, "--%s is given twice: put all into one file", name);
         const int code = apply(p, "", &flag, name, value);
         if (code != EXIT_DONE) return code;
         if (flag.row != NULL) p->on_line |= bit_of(p, flag.row);
