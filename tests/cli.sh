@@ -19,6 +19,9 @@ refuse 2 "did you mean --fov?" -- "$cornell" --fvo 30
 refuse 2 "did you mean --spp?" -- "$cornell" --sp 30
 refuse 2 "unknown flag --zzzzzzzzzz" -- "$cornell" --zzzzzzzzzz
 refuse 2 "unknown flag -x; see" -- "$cornell" -x
+refuse 2 "did you mean --threads?" -- "$cornell" --thr 1
+refuse 2 "unknown flag --no-adaptive; did you mean --adaptive=0?" -- "$cornell" --no-adaptive
+expect 2 "did you mean --help?" -- help
 cp "$cornell" ./-dash.obj
 expect 0 "" -- --width 8 --height 8 --spp 1 --out dash.exr -- -dash.obj
 refuse 2 "--spp 0: must be a whole number" -- "$cornell" --spp 0
@@ -34,10 +37,10 @@ refuse 2 "more than one scene" -- "$cornell" "$cornell"
 refuse 2 "--aperture heart: must be disk, square, polygon or an image file" -- "$cornell" --aperture heart
 expect 0 "--fstop is not used: --lens-radius comes after it" -- "$cornell" --fstop 2 --lens-radius 3 --width 8 --height 8 --spp 1 --out pair.exr
 expect 0 "--focus-pixel is not used: --focal-distance" -- "$cornell" --focus-pixel 3,3 --focal-distance 1000 --width 8 --height 8 --spp 1 --out pair.exr
-for idle in "--unit 0.001" --tone=agx "--exposure 1" --auto-exposure "--every 3"; do
-    flag=${idle%%[ =]*}
+for idle in "--unit 0.001" --tone=agx "--exposure 1" --auto-exposure "--every 3" "--environment-rotation 3" "--blade-rotation 9" \
+    "--shear none --oracle near" "--fps 30" "--bounces 0 --clamp 2" "--shutter-ramps 0.1,0.1" "--blades 5 --aperture disk"; do
     # shellcheck disable=SC2086
-    expect 0 "$flag is not used: it needs" -- "$cornell" $idle --width 8 --height 8 --spp 1 --out pair.exr
+    expect 0 " is not used: it needs" -- "$cornell" $idle --width 8 --height 8 --spp 1 --out pair.exr
 done
 output=$("$program" "$cornell" --unit 0.001 --fstop 2 --tone agx --exposure 1 --width 8 --height 8 --spp 1 --out pair.png --out pair.exr 2>&1)
 case $output in *"it needs"*) wrong "flags with a use: $output" ;; esac
@@ -187,6 +190,7 @@ done
     refuse 1 "shutter 1,0: closes before it opens" -- bare.obj --shutter 1,0
     refuse 1 "tilt 80,0: at focal distance" -- bare.obj --quiet --orthographic 9 --focal-distance 2 --tilt 80,0
     expect 0 "--aov is not used: it needs an .exr among the outputs" -- bare.obj $small --aov albedo --out k.png
+    expect 0 "--extendable is not used: it needs an .exr" -- bare.obj $small --extendable --out k.png
     expect 0 "" -- bare.obj $small --aov albedo --out k.png --out k.EXR
     case $output in *"--aov"*) wrong "a remark on channels that are kept: $output" ;; esac
 }

@@ -54,6 +54,30 @@ case $(oiiotool --info -v h.exr) in *interrupted*) wrong "USR1: the picture is n
 [ ! -e state ] || wrong "the checkpoint is left"
 
 # Checkpoints that cannot be written, or are of something else.
+# Settings files: what is for all commands, what is not for files, one of them.
+printf 'quiet\nspp 2\n' >quiet.flags
+expect 0 "" -- "$cornell" --settings quiet.flags --width 8 --height 8 --out one.png
+[ -z "$output" ] || wrong "quiet in a settings file: $output"
+echo 'settings quiet.flags' >nested.flags
+refuse 2 "nested.flags:1: settings: is for the command line only" -- "$cornell" --settings nested.flags
+refuse 2 "--settings is given twice" -- "$cornell" --settings quiet.flags --settings quiet.flags
+expect 0 "the shard cannot be merged without an .exr among the outputs" -- "$cornell" $small --shard 1/2 --out one.png
+printf '\033[31mred 1\n' >red.flags
+refuse 2 "red.flags:1: unknown flag --?[31mred" -- "$cornell" --settings red.flags
+# No file is two things: a checkpoint is removed at the end, with the picture of its name.
+expect 2 "--checkpoint ./one.exr: is the file of --out, too" -- "$cornell" $small --checkpoint ./one.exr --out one.exr
+expect 2 "--gain one.png: is the file of --out, too" -- "$cornell" $small --gain one.png --out "$PWD/one.png"
+cp "$cornell" copy.obj
+expect 2 "--record copy.obj: is the file of the scene, too" -- copy.obj $small --record copy.obj
+expect 2 "--record state2: is the file of --checkpoint, too" -- "$cornell" $small --record state2 --checkpoint state2 --out one.exr
+expect 0 "" -- "$cornell" $small --quiet --preview one.png --out one.png
+cp "$cornell" .hidden
+expect 0 "" -- .hidden $small --quiet
+[ -e .hidden.exr ] || wrong "no name for the picture of .hidden"
+# Each frame has its files.
+expect 0 "" -- "$root/scenes/wheel.gltf" $small --quiet --frames 1,2 --gain gain.png --out frame.png
+[ -e frame.0002.png ] && [ -e gain.0001.png ] && [ -e gain.0002.png ] || wrong "files of frames: $(ls)"
+refuse 1 "$cornell: not an image that can be read" -- "$cornell" --quiet --extend "$cornell"
 refuse 1 "resume: needs a checkpoint" -- "$cornell" --quiet --resume
 refuse 1 "--checkpoint no/such/state: folder no/such/ cannot be written" -- "$cornell" --quiet --checkpoint no/such/state
 echo "not a checkpoint" >state

@@ -8,6 +8,7 @@ replay=$(realpath "$4")
 cc -shared -fPIC -O1 "$root/tests/fault.c" -o fault.so -ldl || exit 1
 export POCL_CACHE_DIR=${POCL_CACHE_DIR:-${XDG_CACHE_HOME:-$HOME/.cache}/pocl/kcache}
 export XDG_CACHE_HOME=$scratch/cache
+export POCL_MAX_PTHREAD_COUNT=2 # compute units of "pthread", whatever the machine and its user say; "basic" has one
 quiet="$small --quiet"
 
 # with FAULT DEVICES CODE WORDS -- ARGUMENTS: as expect, under a fault and with these devices of PoCL.

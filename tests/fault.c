@@ -1,13 +1,15 @@
 /* Loaded before the OpenCL library, makes one of its functions fail: FAULT=function:code:calls,
  * with `code` after that many calls that do what they should. FAULT=clock makes the wall clock
- * jump, FAULT=bits turns a bit of all that is read; FAULT=gpu lets PoCL's device "basic" say that
- * it is a GPU, FAULT=emulator all devices that they are emulators, FAULT=small that
- * they allow buffers of 1 MB. */
+ * jump, FAULT=folders no folder be put on the disk, FAULT=bits turns a bit of all that is read;
+ * FAULT=gpu lets PoCL's device "basic" say that it is a GPU, FAULT=emulator all devices that they
+ * are emulators, FAULT=small that they allow buffers of 1 MB. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 
 #define CL_TARGET_OPENCL_VERSION 120
@@ -110,4 +112,17 @@ int clock_gettime(clockid_t clock, struct timespec *now)
     if (code == 0 && clock == CLOCK_REALTIME && fault != NULL && strcmp(fault, "clock") == 0)
         now->tv_sec += ++calls % 2 ? 86400 : -86400;
     return code;
+}
+
+int fsync(int file)
+{
+    struct stat about;
+    int (*call)(int);
+    *(void **)&call = original("fsync");
+    const char *fault = getenv("FAULT");
+    if (fault == NULL || strcmp(fault, "folders") != 0 || fstat(file, &about) != 0 ||
+        !S_ISDIR(about.st_mode))
+        return call(file);
+    errno = EIO;
+    return -1;
 }

@@ -1,6 +1,7 @@
 #!/bin/bash
 # What the program says of PoCL's cache of kernels when it is damaged or full, and that deleting it
-# helps: pocl_cache.sh PROGRAM ROOT SCRATCH. Skipped with other drivers.
+# helps; and of what else ends the process in PoCL: pocl_cache.sh PROGRAM ROOT SCRATCH. Skipped with
+# other drivers.
 set -u
 program=$1 scene=$2/scenes/cornell.obj scratch=$3 failures=0
 rm -rf "$scratch"
@@ -56,6 +57,29 @@ mkdir -p "$POCL_CACHE_DIR/AB/CDEF/other/8-1-1"
 echo junk >"$POCL_CACHE_DIR/AB/CDEF/other/8-1-1/other.so"
 render
 [ $code -eq 0 ] || wrong "another program's kernel: $output"
+
+# Without a linker: nothing works with an empty cache, all with a full one.
+rm -rf "$POCL_CACHE_DIR"
+keep=$PATH PATH=/none
+render
+PATH=$keep
+case $output in
+*"which is in no folder of \$PATH"*) refused "PoCL links the kernels with ld" ;;
+*) [ $code -eq 0 ] || wrong "without ld: $output" ;; # of another PoCL than Debian's, which needs none
+esac
+render
+PATH=/none
+render
+PATH=$keep
+[ $code -eq 0 ] || wrong "kernels are there, ld is not: $output"
+
+# The limit of the stack is that of the first thread, not of PoCL's.
+output=$(ulimit -s 256 && "$program" "$scene" --width 16 --height 16 --spp 4 --quiet --out out.exr 2>&1) ||
+    wrong "a small stack: $output"
+
+# A driver that does not fit into the memory that is allowed.
+output=$(ulimit -v 600000 && "$program" "$scene" --spp 4 --quiet --out out.exr 2>&1) && wrong "within 600 MB"
+case $output in *"memory is limited to 585 MB (ulimit -v)"* | *"shared libraries"* | *Sanitizer*) ;; *) wrong "600 MB: $output" ;; esac
 
 rm -rf "$POCL_CACHE_DIR"
 output=$(ulimit -f 0 && trap '' XFSZ && "$program" "$scene" --spp 4 --quiet --out out.exr 2>&1 | tail -n 1)

@@ -203,6 +203,38 @@ static void the_studio_looks_at_images(void **state)
     clshear_scene_free(scene);
 }
 
+/* Renders a few samples in the light of a point, too; whether their sampler was the one of the
+ * light's own pair. */
+static int takes_sobol(clshear_scene *scene, clshear_emitters choice)
+{
+    clshear_settings *settings = view_of(choice, 1, 16);
+    test_set(settings, CLSHEAR_LIGHT, "0,3,0,9,9,9");
+    clshear_film *film = test_render(scene, settings);
+    const char *sampler = clshear_film_text(film, "clshear.sampler");
+    const int is_sobol = sampler != NULL && strcmp(sampler, "sobol") == 0;
+    assert_true(is_sobol || (sampler != NULL && strcmp(sampler, "sz") == 0));
+    clshear_film_free(film);
+    clshear_settings_free(settings);
+    return is_sobol;
+}
+
+/* Surfaces that shine have a size, however they are found; a texture of no light, or of nothing
+ * that is there, does not shine. */
+static void what_shines_chooses_the_sampler(void **state)
+{
+    clshear_scene *scene = floor_and_panel(*state, "Ke 2 2 2\nd 0.25");
+    assert_true(takes_sobol(scene, CLSHEAR_EMITTERS_POWER));
+    assert_true(takes_sobol(scene, CLSHEAR_EMITTERS_TREE));
+    clshear_scene_free(scene);
+    scene = test_load(*state, material_gltf("{'emissiveTexture':{'index':0}}"));
+    assert_false(takes_sobol(scene, CLSHEAR_EMITTERS_TREE));
+    clshear_scene_free(scene);
+    scene = test_load(*state, material_gltf("{},{'emissiveFactor':[1,1,1],"
+                                            "'emissiveTexture':{'index':0}}"));
+    assert_false(takes_sobol(scene, CLSHEAR_EMITTERS_TREE));
+    clshear_scene_free(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -210,6 +242,7 @@ int main(void)
         cmocka_unit_test(a_panel_close_to_a_wall),
         cmocka_unit_test(varying_emission_is_sampled),
         cmocka_unit_test(the_studio_looks_at_images),
+        cmocka_unit_test(what_shines_chooses_the_sampler),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

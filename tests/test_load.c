@@ -320,13 +320,42 @@ static void smoothness_is_a_setting(void **state)
     clshear_settings_free(settings);
 }
 
+/* Settings of a render that the scene was not loaded with are told; the same, and none, are not. */
+static void settings_of_loading_are_compared(void **state)
+{
+    const char *path = test_file("roof.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    clshear_settings *loaded = NULL;
+    (void)state;
+    test_ok(clshear_settings_create(&loaded));
+    test_ok(clshear_settings_set_number(loaded, CLSHEAR_SMOOTH, 30.0));
+    clshear_scene *scene = load(path, loaded);
+    clshear_settings *rendered = test_settings(loaded, 2, 2, 1);
+    test_warnings();
+    clshear_film_free(test_render(scene, rendered));
+    assert_null(strstr(test_warnings(), "loaded"));
+    test_set(rendered, CLSHEAR_SMOOTH, "60");
+    clshear_film_free(test_render(scene, rendered));
+    assert_non_null(
+        strstr(test_warnings(), "smooth: the scene was loaded with 30, not with 60, and"));
+    clshear_settings_unset(rendered, CLSHEAR_SMOOTH);
+    clshear_film_free(test_render(scene, rendered));
+    assert_non_null(strstr(test_warnings(), "was loaded with 30, not with no value"));
+    clshear_settings_free(rendered);
+    clshear_settings_free(loaded);
+    clshear_scene_free(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(maps_beyond_their_edges),  cmocka_unit_test(vertices_have_colours),
-        cmocka_unit_test(far_scenes_look_alike),    cmocka_unit_test(cameras_are_chosen),
-        cmocka_unit_test(up_is_z_in_3ds),           cmocka_unit_test(smoothness_is_a_setting),
+        cmocka_unit_test(maps_beyond_their_edges),
+        cmocka_unit_test(vertices_have_colours),
+        cmocka_unit_test(far_scenes_look_alike),
+        cmocka_unit_test(cameras_are_chosen),
+        cmocka_unit_test(up_is_z_in_3ds),
+        cmocka_unit_test(smoothness_is_a_setting),
         cmocka_unit_test(what_stands_on_z_is_told),
+        cmocka_unit_test(settings_of_loading_are_compared),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
 }

@@ -125,6 +125,8 @@ static void kinds_are_enforced(void **state)
                          number ? CLSHEAR_OK : CLSHEAR_BAD_ARGUMENT);
         assert_int_equal(clshear_settings_is_set(settings, setting), integer || number);
     }
+    test_refused(clshear_settings_set_integer(settings, CLSHEAR_FOV, 40), CLSHEAR_BAD_ARGUMENT,
+                 "fov: is a number; this function is for a whole number");
     test_refused(set_all(settings, &cs_setting_table[CS_INDEX_DEVICE], 0.0), CLSHEAR_BAD_ARGUMENT,
                  "device");
 }

@@ -49,7 +49,7 @@ typedef struct cs_launch {
     cs_u32 page_first;  /* number, in the buffer's order, of the pixel that it begins with */
     cs_u32 shear_mode;  /* CS_SHEAR_ */
     cs_u32 lights;
-    cs_u32 area_lights; /* lights that are sampled by a pair of the tuple, or that rays find */
+    cs_u32 area_lights; /* lights that are sampled by a pair of the tuple, or only by rays */
     cs_u32 only_rays;   /* whether some surfaces shine that only rays are sure to find */
     cs_u32 bounces;     /* surfaces after the first one that scatter light */
     cs_u32 see_through; /* whether some surfaces let rays pass: alpha */
@@ -66,15 +66,23 @@ static inline int cs_has_light_pair(const cs_launch *launch)
     return launch->area_lights > 0u || launch->bounces > 0u;
 }
 
-/* How many pixels a work-item draws, so that their packets make CS_TOGETHER, or CS_POOL_FLUSHES
- * times as many if paths of several pixels may be followed together.
- * blocks: of a pixel's pattern in the launch. packet: lanes. pools: whether they may. */
-static inline cs_u32 cs_pixels_together(cs_u32 blocks, cs_u32 packet, int pools)
+/* Of how many pixels the samples make an update, CS_FLUSH_BLOCKS blocks, if that is whole packets
+ * of each: of every one `samples` are drawn. 0: one pixel has more. packet: lanes. */
+static inline cs_u32 cs_pixels_of_update(cs_u32 samples, cs_u32 packet)
 {
     cs_u32 together = packet > 1u ? (cs_u32)(CS_FLUSH_BLOCKS * CS_BLOCK) / packet : 1u;
-    cs_u32 packets = (blocks * (cs_u32)CS_BLOCK + packet - 1u) / packet;
-    if (packet == 1u || packets == 0u || packets > together) return 1u;
-    return together / packets * (pools ? (cs_u32)CS_POOL_FLUSHES : 1u);
+    cs_u32 packets = (samples + packet - 1u) / packet;
+    return packets > 0u ? together / packets : 0u;
+}
+
+/* How many pixels a work-item draws: those of an update, or of CS_POOL_FLUSHES if paths of several
+ * pixels may be followed together. blocks: of a pixel's pattern in the launch. packet: lanes.
+ * pools: whether they may. */
+static inline cs_u32 cs_pixels_together(cs_u32 blocks, cs_u32 packet, int pools)
+{
+    cs_u32 pixels = cs_pixels_of_update(blocks * (cs_u32)CS_BLOCK, packet);
+    if (packet == 1u || pixels == 0u) return 1u;
+    return pixels * (pools ? (cs_u32)CS_POOL_FLUSHES : 1u);
 }
 
 /* Raster index (row by row) of the pixel that is number `order` in a walk through tiles of 8 x 8

@@ -134,13 +134,6 @@ static inline void cs_gather_packets(const cs_launch *launch, const cs_place *pl
     }
 }
 
-/* Of how many of `count` pixels the samples at places `start` to `end` make an update. */
-static inline int cs_pixels_drawn(int count, cs_u32 start, cs_u32 end)
-{
-    int packets = (int)((end - start + (cs_u32)CS_PACKET - 1u) / (cs_u32)CS_PACKET);
-    return count > 1 && packets > 0 && packets <= CS_TOGETHER ? CS_TOGETHER / packets : 1;
-}
-
 /* Samples at places `start` to `end` of the order of a few pixels, gathered and merged into them:
  * of one pixel any number, of several no more than an update has. */
 static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *scene,
@@ -152,7 +145,7 @@ static inline void cs_sample(const cs_launch *launch, const cs_scene_buffers *sc
     cs_drawn drawn[CS_UPDATES];
     cs_radiance radiance[CS_UPDATES * CS_TOGETHER];
     cs_gathered gathered;
-    int first = 0, each = cs_pixels_drawn(count, start, end);
+    int first = 0, each = (int)max(cs_pixels_of_update(end - start, (cs_u32)CS_PACKET), (cs_u32)1);
     gathered.first = 1;
     while (start < end) {
         int draws = 0;

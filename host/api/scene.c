@@ -117,7 +117,8 @@ void clshear_scene_free(clshear_scene *scene)
 static clshear_status check_complete(const clshear_scene *scene)
 {
     if (scene->is_complete) return CLSHEAR_OK;
-    return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT, "the scene is not complete");
+    return cs_fail(cs_thread_error(), CLSHEAR_BAD_ARGUMENT,
+                   "the scene is not complete: call clshear_scene_complete first");
 }
 
 clshear_status clshear_camera_complete(const clshear_scene *scene, clshear_settings *settings)

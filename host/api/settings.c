@@ -40,6 +40,11 @@ CS_FREES(settings)
 static const cs_setting *entry_of(clshear_setting setting, clshear_setting_kind kind,
                                   clshear_setting_kind other, const char *what)
 {
+    static const char *const kinds[] = {[CLSHEAR_SWITCH] = "a switch",
+                                        [CLSHEAR_INTEGER] = "a whole number",
+                                        [CLSHEAR_NUMBER] = "a number",
+                                        [CLSHEAR_CHOICE] = "a choice",
+                                        [CLSHEAR_TEXT] = "a text"};
     cs_error *error = cs_thread_error();
     const size_t index = cs_setting_index(setting);
     if (index == CS_SETTING_COUNT) {
@@ -48,7 +53,8 @@ static const cs_setting *entry_of(clshear_setting setting, clshear_setting_kind 
     }
     const cs_setting *entry = &cs_setting_table[index];
     if (entry->kind == kind || entry->kind == other) return entry;
-    cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s: is not %s", entry->name, what);
+    cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s: is %s; this function is for %s", entry->name,
+            entry->most > 1 ? "a list" : kinds[entry->kind], what);
     return NULL;
 }
 

@@ -90,16 +90,18 @@ static int is_on_disk(FILE *stream)
     return fflush(stream) == 0 && fsync(fileno(stream)) == 0;
 }
 
-/* Puts the names in a file's folder on the disk. Where the file system cannot, either of the two
- * files has the name after a power cut. */
-static void sync_names(char *target)
+/* Puts the names in a file's folder on the disk. Returns 0, or errno. Where the folder cannot be
+ * read, or the file system has no such call, either of the two files has the name after a power
+ * cut. */
+static int sync_names(char *target)
 {
     char *slash = strrchr(target, '/');
     if (slash != NULL) slash[slash == target] = '\0';
     const int folder = open(slash != NULL ? target : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder < 0) return;
-    fsync(folder);
+    if (folder < 0) return 0;
+    const int reason = fsync(folder) == 0 || errno == EINVAL || errno == ENOTSUP ? 0 : errno;
     close(folder);
+    return reason;
 }
 
 int cs_output_end(cs_output_file *file, int good)
@@ -114,7 +116,7 @@ int cs_output_end(cs_output_file *file, int good)
     }
     if (good && reason == 0 && !special && rename(file->part, file->target) != 0) reason = errno;
     if ((!good || reason != 0) && !special) unlink(file->part);
-    if (good && reason == 0 && file->is_durable && !special) sync_names(file->target);
+    if (good && reason == 0 && file->is_durable && !special) reason = sync_names(file->target);
     free(file->target);
     free(file->part);
     *file = (cs_output_file){0};

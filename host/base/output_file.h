@@ -31,7 +31,8 @@ int cs_output_begin(const char *path, cs_output_file *file);
 int cs_output_open(const char *path, cs_output_file *file);
 
 /* Closes the stream if it is open. Renames the file to its target if `good` and no write failed,
- * else deletes it. Returns 0, or errno of the first failure in this call. */
+ * else deletes it. Returns 0, or errno of the first failure in this call: the file has its name all
+ * the same if only the name of a durable file is not on the disk. */
 int cs_output_end(cs_output_file *file, int good);
 
 #ifdef __cplusplus

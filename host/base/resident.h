@@ -7,4 +7,7 @@
 /* Bytes of this process that are in the machine's memory; 0 where the system does not tell. */
 size_t cs_resident_bytes(void);
 
+/* Bytes that its addresses may span (`ulimit -v`); 0: any number. */
+size_t cs_address_limit(void);
+
 #endif

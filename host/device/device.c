@@ -3,11 +3,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/resident.h"
 #include "device/objects.h"
 #include "device/pocl_cache.h"
 #include "device/program.h"
 #include "device/recorder.h"
 #include "device/slow_driver.h"
+
+/* Bytes of addresses that PoCL and LLVM do with, libraries included: measured below 1.5 GB. */
+static const size_t safe_addresses = (size_t)2 << 30;
 
 #define KERNEL_ROW(identifier, name, program, arguments) \
     {#name, CS_PROGRAM_##program, CS_ARGUMENTS_##identifier},
@@ -210,9 +214,22 @@ static clshear_status prepare_wish(void *user)
     return status;
 }
 
+/* Says, once, that memory is limited to less than drivers may take as they compile: they end the
+ * process then. */
+static void warn_of_limit(cs_device *device)
+{
+    const size_t limit = cs_address_limit();
+    if (limit == 0 || limit >= safe_addresses || device->log == NULL) return;
+    if (atomic_exchange(&device->is_warned, 1)) return;
+    cs_warn(device->log,
+            "memory is limited to %zu MB (ulimit -v); drivers that want more end the program",
+            limit >> 20);
+}
+
 clshear_status cs_device_prepare(cs_device *device, cs_program program, cs_u32 features,
                                  cs_error *error)
 {
+    warn_of_limit(device);
     wish wanted = {.device = device, .program = program, .features = features, .error = error};
     return cs_run_patiently(prepare_wish, &wanted, device->name, device->log);
 }

@@ -31,6 +31,7 @@ struct cs_device {
     char name[256];
     char driver[256];
     const cs_log *log;     /* NULL: none */
+    atomic_int is_warned;  /* of the limit of memory */
     cs_recorder *recorder; /* of its launches; NULL: none */
     atomic_size_t held;    /* bytes of its buffers */
     atomic_size_t most;    /* that were held at once */

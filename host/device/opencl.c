@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/resident.h"
 #include "device/device.h"
 
 enum {
@@ -61,6 +62,21 @@ void cs_opencl_describe(cl_device_id device, char *name, char *driver, size_t si
     if (driver != NULL) snprintf(driver, size, "%s %s", platform_name, version);
 }
 
+static clshear_status no_devices(cl_uint platforms, cs_error *error)
+{
+    if (cs_address_limit() != 0)
+        return cs_fail(error, CLSHEAR_NO_DEVICE,
+                       "no OpenCL device found; memory is limited to %zu MB (ulimit -v), which may "
+                       "be too little to load a driver",
+                       cs_address_limit() >> 20);
+    return cs_fail(
+        error, CLSHEAR_NO_DEVICE,
+        platforms == 0
+            ? "no OpenCL device found; install a driver, for CPUs pocl-opencl-icd"
+            : "the OpenCL drivers here offer no device; PoCL needs a cache folder that it "
+              "can write: $POCL_CACHE_DIR, else one in $XDG_CACHE_HOME or ~/.cache");
+}
+
 /* Finds the devices of all drivers; fails when there are none. */
 static clshear_status all_devices(cl_device_id *devices, cl_uint *found, cs_error *error)
 {
@@ -78,13 +94,7 @@ static clshear_status all_devices(cl_device_id *devices, cl_uint *found, cs_erro
         if (total == MAX_DEVICES) break;
     }
     *found = total;
-    if (total > 0) return CLSHEAR_OK;
-    return cs_fail(
-        error, CLSHEAR_NO_DEVICE,
-        platform_count == 0
-            ? "no OpenCL device found; install a driver, for CPUs pocl-opencl-icd"
-            : "the OpenCL drivers here offer no device; PoCL needs a cache folder that it "
-              "can write: $POCL_CACHE_DIR, else one in $XDG_CACHE_HOME or ~/.cache");
+    return total > 0 ? CLSHEAR_OK : no_devices(platform_count, error);
 }
 
 static int contains_ignoring_case(const char *text, const char *part)
@@ -111,6 +121,16 @@ int cs_opencl_is_cpu(cl_device_id device)
     cl_device_type type = CL_DEVICE_TYPE_CPU;
     clGetDeviceInfo(device, CL_DEVICE_TYPE, sizeof type, &type, NULL);
     return (type & CL_DEVICE_TYPE_CPU) != 0;
+}
+
+int cs_opencl_is_pocl(cl_device_id device)
+{
+    cl_platform_id platform = NULL;
+    char name[64] = "";
+    clGetDeviceInfo(device, CL_DEVICE_PLATFORM, sizeof platform, &platform, NULL);
+    clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof name, name, NULL);
+    name[sizeof name - 1] = '\0';
+    return strcmp(name, "Portable Computing Language") == 0;
 }
 
 /* How fast a device promises to be; below 0 for emulators. Any GPU with memory of its own is before

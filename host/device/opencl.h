@@ -27,6 +27,9 @@ clshear_status cs_opencl_find(const char *wanted, cl_device_id *device, cs_error
 
 int cs_opencl_is_cpu(cl_device_id device);
 
+/* Whether its driver is PoCL. */
+int cs_opencl_is_pocl(cl_device_id device);
+
 /* A device made from the caller's objects, which it retains. Fails unless the queue is in order,
  * and of this context and device. */
 clshear_status cs_device_adopt(cl_context context, cl_device_id id, cl_command_queue queue,

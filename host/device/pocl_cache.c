@@ -16,16 +16,6 @@ enum {
     FILE_LEVEL = 4
 };
 
-static int is_pocl(cl_device_id device)
-{
-    cl_platform_id platform = NULL;
-    char name[64] = "";
-    clGetDeviceInfo(device, CL_DEVICE_PLATFORM, sizeof platform, &platform, NULL);
-    clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof name, name, NULL);
-    name[sizeof name - 1] = '\0';
-    return strcmp(name, "Portable Computing Language") == 0;
-}
-
 /* Where PoCL keeps its kernels (PoCL's documentation, "Using PoCL", POCL_CACHE_DIR). */
 static void find_folder(char *folder)
 {
@@ -60,9 +50,20 @@ static int ends_with(const char *name, const char *end)
     return length >= end_length && strcmp(name + length - end_length, end) == 0;
 }
 
-/* Looks for a damaged kernel of this library in `path`, `level` folders below the cache; returns 1
- * and leaves its path there. */
-static int find_damaged(char *path, int level)
+static int is_damaged(const char *path)
+{
+    return !is_whole(path);
+}
+
+static int is_any(const char *path)
+{
+    (void)path;
+    return 1;
+}
+
+/* Looks for a kernel of this library that is `wanted` in `path`, `level` folders below the cache;
+ * returns 1 and leaves its path there. */
+static int find_kernel(int (*wanted)(const char *path), char *path, int level)
 {
     const size_t length = strlen(path);
     DIR *folder = opendir(path);
@@ -73,21 +74,28 @@ static int find_damaged(char *path, int level)
         if (*name == '.' || (level == KERNEL_LEVEL && strncmp(name, "cs_", 3) != 0)) continue;
         if (snprintf(path + length, PATH_SIZE - length, "/%s", name) >= (int)(PATH_SIZE - length))
             continue;
-        found = level < FILE_LEVEL ? find_damaged(path, level + 1)
-                                   : ends_with(name, ".so") && !is_whole(path);
+        found = level < FILE_LEVEL ? find_kernel(wanted, path, level + 1)
+                                   : ends_with(name, ".so") && wanted(path);
     }
     if (!found) path[length] = '\0';
     if (folder != NULL) closedir(folder);
     return found;
 }
 
-clshear_status cs_pocl_cache_check(cl_device_id device, cs_error *error)
+int cs_pocl_cache_is_empty(void)
 {
     char folder[FOLDER_SIZE], path[PATH_SIZE];
-    if (!is_pocl(device)) return CLSHEAR_OK;
     find_folder(folder);
     snprintf(path, sizeof path, "%s", folder);
-    if (!find_damaged(path, 0)) return CLSHEAR_OK;
+    return !find_kernel(is_any, path, 0);
+}
+
+clshear_status cs_pocl_cache_check(cs_error *error)
+{
+    char folder[FOLDER_SIZE], path[PATH_SIZE];
+    find_folder(folder);
+    snprintf(path, sizeof path, "%s", folder);
+    if (!find_kernel(is_damaged, path, 0)) return CLSHEAR_OK;
     return cs_fail(error, CLSHEAR_DEVICE_FAILED,
                    "PoCL's cache of kernels is damaged: %s is cut short; delete the folder %s",
                    path + strlen(folder) + 1, folder);
@@ -97,7 +105,7 @@ void cs_pocl_cache_advice(cl_device_id device, char *text, size_t size)
 {
     char folder[FOLDER_SIZE];
     *text = '\0';
-    if (!is_pocl(device)) return;
+    if (!cs_opencl_is_pocl(device)) return;
     find_folder(folder);
     snprintf(text, size,
              "; PoCL compiles in its cache: make room there, or delete it if it is damaged: %s",

@@ -7,8 +7,11 @@
 #include "device/opencl.h"
 
 /* Fails, naming the folder to delete, if a kernel of this library in the cache is cut short or is
- * none: PoCL would end the process. Other drivers, and a cache that cannot be read, are fine. */
-clshear_status cs_pocl_cache_check(cl_device_id device, cs_error *error);
+ * none: PoCL would end the process. A cache that cannot be read is fine. */
+clshear_status cs_pocl_cache_check(cs_error *error);
+
+/* Whether the cache has no kernel of this library. */
+int cs_pocl_cache_is_empty(void);
 
 /* Writes what to do about the cache where a kernel could not be made, as the rest of a sentence;
  * nothing for other drivers. */

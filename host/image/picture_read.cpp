@@ -73,8 +73,7 @@ clshear_status read_picture(const char *path, cs_loaded_picture *loaded, cs_erro
     forget(path);
     ImageBuf source(path);
     if (!source.read(0, 0, true, TypeDesc::FLOAT))
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path,
-                       first_line(source.geterror()).c_str());
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path, reason_of(source, path).c_str());
     describe(source.spec(), loaded);
     const size_t channels = loaded->picture.channel_count;
     const size_t pixels =

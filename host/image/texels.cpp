@@ -77,20 +77,6 @@ const char *extension_for(const void *memory, size_t size)
     return "png";
 }
 
-/* First line of what OpenImageIO says, without the file's name, which our messages begin with. */
-std::string reason_of(const ImageBuf &image, const std::string &path)
-{
-    std::string reason = first_line(image.geterror());
-    if (reason.find("could not find a format reader") != std::string::npos) reason.clear();
-    const size_t advice = reason.find(" Also, it is not the name of an image format");
-    if (advice != std::string::npos) reason.resize(advice);
-    for (const std::string &named : {"Invalid image file \"" + path + "\": ", " (" + path + ")",
-                                     " (\"" + path + "\")", "\"" + path + "\" ", path})
-        for (size_t at = reason.find(named); at != std::string::npos; at = reason.find(named))
-            reason.erase(at, named.size());
-    return reason.empty() ? "not an image that can be read" : reason;
-}
-
 /* Colours as they are before alpha multiplies them. */
 ImageBuf without_alpha(ImageBuf &&source)
 {

@@ -1,5 +1,7 @@
 /* The program: the first word may name a command, otherwise a scene is rendered. */
+#define _GNU_SOURCE /* pthread_setattr_default_np */
 #include <errno.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -14,6 +16,7 @@ static const char *nearest_command(const char *word)
 {
     const size_t length = strlen(word), most = 2;
     if (length <= most || *word == '-' || access(word, F_OK) == 0) return NULL;
+    if (strcmp(word, "help") == 0) return "--help";
     for (size_t i = 1; all_commands[i] != NULL; i++) {
         const char *name = all_commands[i]->name;
         if (word_distance(word, length, name, strlen(name)) <= most) return name;
@@ -33,9 +36,24 @@ static int run(int argc, char **argv)
     return command_run(all_commands[0], argc, argv);
 }
 
+/* Gives threads, those of drivers too, stacks of 2 MB where the system's limit allows less: that is
+ * one of the first thread's, but sets the default of the others. */
+static void enlarge_stacks(void)
+{
+    const size_t wanted = (size_t)2 << 20;
+    size_t size = wanted;
+    pthread_attr_t attributes;
+    if (pthread_getattr_default_np(&attributes) != 0) return;
+    if (pthread_attr_getstacksize(&attributes, &size) == 0 && size < wanted &&
+        pthread_attr_setstacksize(&attributes, wanted) == 0)
+        pthread_setattr_default_np(&attributes);
+    pthread_attr_destroy(&attributes);
+}
+
 int main(int argc, char **argv)
 {
     progress_note_signals();
+    enlarge_stacks();
     const int code = run(argc, argv);
     if (code != EXIT_DONE || (fflush(stdout) == 0 && !ferror(stdout))) return code;
     return complain(EXIT_FAILED, "standard output: cannot be written: %s", strerror(errno));

@@ -189,7 +189,8 @@ clshear_status cs_job_begin(cs_job *job, clshear_scene *scene, const clshear_set
     clshear_status status = CLSHEAR_OK;
     job->scene = scene;
     job->base = base;
-    CS_REQUIRE(scene->is_complete, CLSHEAR_BAD_ARGUMENT, "the scene is not complete");
+    CS_REQUIRE(scene->is_complete, CLSHEAR_BAD_ARGUMENT,
+               "the scene is not complete: call clshear_scene_complete first");
     CS_TRY(settings != NULL ? cs_settings_copy(settings, &job->settings, error)
                             : cs_settings_init(&job->settings, error));
     job->width = (int)cs_integer(&job->settings, WIDTH);

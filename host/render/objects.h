@@ -5,6 +5,7 @@
 #include "accel/accel.h"
 #include "clshear/clshear.h"
 #include "context/context.h"
+#include "render/read_settings.h"
 #include "render/wide_scene.h"
 #include "scene/scene.h"
 
@@ -24,6 +25,7 @@ struct clshear_scene {
     clshear_context *context; /* kept alive by the scene */
     cs_message message;
     cs_scene scene;
+    cs_read_settings read_settings;
     cs_accel *accel;
     cs_device_scene device_scene;
     cs_wide_scene *wide;

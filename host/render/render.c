@@ -15,6 +15,7 @@ clshear_status cs_render(clshear_scene *scene, const clshear_settings *settings,
     clshear_film *film = NULL;
     cs_recorder *recorder = NULL;
     CS_TRY(cs_job_begin(&job, scene, settings, base, error));
+    cs_read_settings_compare(&scene->read_settings, &job.settings, &scene->context->log);
     CS_TRY(cs_job_choose_samples(&job, error));
     CS_TRY(cs_resume_check(&job, error));
     CS_TRY(cs_rounds_check(&job, error));

@@ -122,7 +122,8 @@ void cs_job_free(cs_job *job);
  */
 cs_f32 cs_job_shear(const cs_job *job, size_t index, cs_rule rule);
 
-/* How many of the lights are sampled by a pair of the tuple. */
+/* How many of the lights are sampled by a pair of the tuple; those that only rays are sure to find
+ * count as one. */
 cs_u32 cs_area_lights(const cs_job *job);
 
 /* A pass over the job's window with its camera, seed and shear. */

@@ -7,18 +7,19 @@
 #include "render/resume.h"
 #include "render/rounds.h"
 
-cs_u32 cs_area_lights(const cs_job *job)
-{
-    return job->lighting.area_count + (cs_u32)job->scene->device_scene.needs.textured_emission;
-}
-
-/* Whether some surfaces shine that no light's samples find. If emitters are sampled by power, those
- * are the ones whose radiance varies or whose material lets rays pass. */
+/* Whether some surfaces shine that only rays are sure to find: those whose radiance a texture
+ * varies, and if emitters are sampled by power, those whose material lets rays pass. */
 static int shines_for_rays_only(const cs_job *job)
 {
     const cs_device_scene *world = &job->scene->device_scene;
     const int by_power = cs_integer(&job->settings, EMITTERS) == CLSHEAR_EMITTERS_POWER;
-    return world->needs.textured_emission || (by_power && world->emitters > world->even_emitters);
+    return world->emitters > 0 &&
+           (world->needs.textured_emission || (by_power && world->emitters > world->even_emitters));
+}
+
+cs_u32 cs_area_lights(const cs_job *job)
+{
+    return job->lighting.area_count + (cs_u32)shines_for_rays_only(job);
 }
 
 cs_pass cs_job_pass(const cs_job *job)

@@ -35,6 +35,7 @@ void cs_scene_destroy(clshear_scene *scene)
     cs_wide_scene_free(scene->wide);
     cs_accel_free(scene->accel);
     cs_scene_free(&scene->scene);
+    cs_read_settings_free(&scene->read_settings);
     cs_message_destroy(&scene->message);
     cs_context_release(scene->context);
     free(scene);
@@ -57,6 +58,8 @@ clshear_status cs_scene_read(clshear_scene *scene, const char *path,
     clshear_status status =
         cs_scene_import(path, &options, &scene->scene, &scene->context->log, error);
     if (status == CLSHEAR_OK) status = cs_scene_read_motion(scene, path, &options, settings, error);
+    if (status == CLSHEAR_OK)
+        status = cs_read_settings_keep(&scene->read_settings, settings, error);
 #ifdef __GLIBC__
     malloc_trim(0); /* importing takes several times what it leaves */
 #endif

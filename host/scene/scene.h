@@ -93,7 +93,7 @@ int cs_material_is_textured(const cs_material *material);
 typedef struct cs_material_needs {
     cs_u32 features;       /* CS_FEATURE_ bits */
     int see_through;       /* alpha counts somewhere */
-    int textured_emission; /* which samples by the tree of emitters find, and rays */
+    int textured_emission; /* some material has it, whether or not a triangle has the material */
 } cs_material_needs;
 
 cs_material_needs cs_scene_material_needs(const cs_scene *scene);

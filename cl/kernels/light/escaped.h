@@ -8,7 +8,7 @@
 
 #if !CS_HAS(EMITTERS)
 /* Density, per steradian, with which the light of emissive triangles draws the point that a ray
- * hit: cs_scene_emitters makes it proportional to luminance. */
+ * hit: cs_emitters_make makes it proportional to luminance. */
 static inline cs_vfloat cs_emitter_density(const cs_scene_buffers *scene, cs_u32 lights,
                                            const cs_surface *surface, const cs_ray *ray,
                                            cs_vfloat distance)

@@ -13,7 +13,7 @@ char *film_files_default_name(const char *scene)
     const char *slash = strrchr(scene, '/');
     const char *name = slash != NULL ? slash + 1 : scene;
     const char *dot = strrchr(name, '.');
-    const size_t length = dot != NULL ? (size_t)(dot - name) : strlen(name);
+    const size_t length = dot != NULL && dot != name ? (size_t)(dot - name) : strlen(name);
     const size_t size = length + sizeof ".exr";
     char *path = malloc(size);
     if (path != NULL) snprintf(path, size, "%.*s.exr", (int)length, name);

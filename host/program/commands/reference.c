@@ -40,13 +40,32 @@ static flag_text describe(const named_flag *flag)
              *argument != '\0' ? " " : "", argument);
     for (size_t size = next_word(&others); size > 0; size = next_word(&others)) {
         const size_t used = strlen(text.aliases);
-        snprintf(text.aliases + used, sizeof text.aliases - used, "%s--%.*s", used > 0 ? ", " : "",
-                 (int)size, others);
+        snprintf(text.aliases + used, sizeof text.aliases - used, "%s%s%.*s", used > 0 ? ", " : "",
+                 size > 1 ? "--" : "-", (int)size, others);
         others += size;
     }
     write_flag_help(flag, text.help, sizeof text.help);
     describe_bounds(flag, text.bounds, sizeof text.bounds);
     return text;
+}
+
+/* Prints a command's usage by lines, without the indent that puts them behind "usage: ". */
+static void print_usage(const char *usage, void (*print)(const char *line))
+{
+    static const char indent[] = "       ";
+    char line[128];
+    while (*usage != '\0') {
+        if (strncmp(usage, indent, sizeof indent - 1) == 0) usage += sizeof indent - 1;
+        const size_t length = strcspn(usage, "\n") + 1;
+        snprintf(line, sizeof line, "%.*s", (int)length, usage);
+        print(line);
+        usage += length;
+    }
+}
+
+static void print_plain(const char *text)
+{
+    printf("%s", text);
 }
 
 /* Text for Markdown, where "<" and "|" mean something. */
@@ -107,7 +126,9 @@ static void print_markdown_reference(void)
     for (size_t c = 0; all_commands[c] != NULL; c++) {
         const program_command *command = all_commands[c];
         printf("\n## clshear %s\n", *command->name != '\0' ? command->name : "SCENE");
-        printf("\n```\n%s```\n%s", command->usage, markdown_table);
+        printf("\n```\n");
+        print_usage(command->usage, print_plain);
+        printf("```\n%s", markdown_table);
         for (size_t i = 0; command_flag(command, i, &flag); i++)
             if (flag.row != NULL) print_markdown_flag(&flag);
         printf("\n%s", command->notes);
@@ -136,7 +157,7 @@ static void print_roff_flag(const named_flag *flag)
     print_roff(text.aliases);
     printf("\n");
     print_roff(text.help);
-    if (*text.bounds != '\0') printf("\n; ");
+    if (*text.bounds != '\0') printf("; ");
     print_roff(text.bounds);
     printf("\n");
     if (flag->row != NULL || flag->setting.kind != CLSHEAR_CHOICE) return;
@@ -155,7 +176,7 @@ static void print_roff_commands(void)
     for (size_t c = 0; all_commands[c] != NULL; c++) {
         const program_command *command = all_commands[c];
         printf(".SS clshear %s\n.nf\n", *command->name != '\0' ? command->name : "SCENE");
-        print_roff(command->usage);
+        print_usage(command->usage, print_roff);
         printf(".fi\n");
         for (size_t i = 0; command_flag(command, i, &flag); i++)
             if (flag.row != NULL) print_roff_flag(&flag);

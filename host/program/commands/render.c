@@ -3,29 +3,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "commands/commands.h"
-#include "commands/film_files.h"
 #include "commands/reference.h"
+#include "commands/render_job.h"
 #include "commands/scene_view.h"
 #include "report/failure.h"
-#include "report/output.h"
 #include "report/picture.h"
 #include "report/progress.h"
 #include "report/statistics.h"
-
-typedef struct render_job {
-    program_options options;
-    film_files files;
-    text_list reference;
-    number_list frames; /* first and last */
-    int stats;
-    int version;
-    int list_devices;
-    int list_samplers;
-    int has_lens; /* whether the flags gave one */
-} render_job;
 
 #define AT(member) offsetof(render_job, member)
 #define PICTURES ".exr .png .jpg .jpeg .tif .tiff"
@@ -142,73 +128,6 @@ static int render(render_job *job, const scene_view *view)
     return code == EXIT_DONE && !info.complete ? EXIT_SIGNAL + interrupting_signal() : code;
 }
 
-/* Whether the formats of the outputs hold a picture of this size. */
-static int check_formats(const render_job *job)
-{
-    const clshear_settings *settings = job->options.settings;
-    double crop[4];
-    size_t count = 0;
-    int64_t width = 0, height = 0;
-    clshear_settings_get_integer(settings, CLSHEAR_WIDTH, &width);
-    clshear_settings_get_integer(settings, CLSHEAR_HEIGHT, &height);
-    if (clshear_settings_is_set(settings, CLSHEAR_CROP) &&
-        clshear_settings_get_numbers(settings, CLSHEAR_CROP, crop, 4, &count) == CLSHEAR_OK) {
-        width = (int64_t)(crop[1] - crop[0]);
-        height = (int64_t)(crop[3] - crop[2]);
-    }
-    for (size_t i = 0; i < job->files.out.count; i++)
-        if (clshear_film_check_path(job->files.out.items[i], (int)width, (int)height) != CLSHEAR_OK)
-            return complain_of_library();
-    return EXIT_DONE;
-}
-
-/* Whether an output is an EXR, or (`is_exr` 0) whether one is not. */
-static int has_output(const render_job *job, int is_exr)
-{
-    for (size_t i = 0; i < job->files.out.count; i++) {
-        const char *dot = strrchr(job->files.out.items[i], '.');
-        if ((dot != NULL && strcasecmp(dot, ".exr") == 0) == is_exr) return 1;
-    }
-    return 0;
-}
-
-/* Whether the command line gives a flag by this name: a settings file describes its scene for any
- * use, so that its flags may do nothing. */
-static int is_on_line(const program_options *options, const char *name)
-{
-    for (int i = 1; i < options->word_count; i++) {
-        const char *word = options->words[i];
-        if (*word != '-') continue;
-        word += word[1] == '-' ? 2 : 1;
-        const size_t length = strcspn(word, "=");
-        if (length == strlen(name) && strncmp(word, name, length) == 0) return 1;
-    }
-    return 0;
-}
-
-/* Tells the flags of the command line that have no effect without another flag. */
-static void tell_idle_flags(const render_job *job)
-{
-    const clshear_settings *settings = job->options.settings;
-    const int is_seen = clshear_settings_is_set(settings, CLSHEAR_PREVIEW);
-    const struct {
-        int has_use;
-        const char *name, *needs;
-    } flags[] = {
-        {has_output(job, 1), "aov", "an .exr among the outputs; add --out FILE.exr"},
-        {has_output(job, 0) || is_seen, "exposure", "an output that is no .exr"},
-        {has_output(job, 0) || is_seen, "auto-exposure", "an output that is no .exr"},
-        {has_output(job, 0) || is_seen, "tone", "an output that is no .exr"},
-        {clshear_settings_is_set(settings, CLSHEAR_F_STOP), "unit", "--fstop"},
-        {clshear_settings_is_set(settings, CLSHEAR_CHECKPOINT) || is_seen, "every",
-         "--checkpoint or --preview"},
-    };
-    for (size_t i = 0; i < sizeof flags / sizeof *flags && !job->options.quiet; i++)
-        if (!flags[i].has_use && is_on_line(&job->options, flags[i].name))
-            fprintf(stderr, "clshear: --%s is not used: it needs %s\n", flags[i].name,
-                    flags[i].needs);
-}
-
 /* A lens that opens, and that was not chosen by the program. */
 static int given_a_lens(const clshear_settings *settings)
 {
@@ -217,17 +136,6 @@ static int given_a_lens(const clshear_settings *settings)
     return clshear_settings_is_set(settings, CLSHEAR_LENS_RADIUS) &&
            clshear_settings_get_number(settings, CLSHEAR_LENS_RADIUS, &radius) == CLSHEAR_OK &&
            radius > 0.0;
-}
-
-/* Whether the file that a setting names can be written. */
-static int check_setting_place(const clshear_settings *settings, clshear_setting setting,
-                               const char *flag)
-{
-    char path[4096];
-    const char *const list[] = {path};
-    if (!clshear_settings_is_set(settings, setting)) return EXIT_DONE;
-    clshear_settings_get_text(settings, setting, path, sizeof path);
-    return check_places(flag, list, 1);
 }
 
 /* Opens the scene, renders and writes. */
@@ -240,6 +148,24 @@ static int render_scene(render_job *job)
     return code;
 }
 
+/* The names of a list with a frame's number, owned by `numbered`. Returns 0 if memory is out. */
+static int number_names(const text_list *list, int frame, text_list *numbered)
+{
+    numbered->count = 0;
+    while (numbered->count < list->count) {
+        char *name = film_files_numbered_name(list->items[numbered->count], frame);
+        if (name == NULL) return 0;
+        numbered->items[numbered->count++] = name;
+    }
+    return 1;
+}
+
+static void free_names(text_list *list)
+{
+    for (size_t i = 0; i < list->count; i++)
+        free((char *)list->items[i]);
+}
+
 /* One frame, with settings of its own: those that the scene completes differ from frame to frame.
  * The outputs have the frame's number before their endings. */
 static int render_frame(const render_job *job, int frame)
@@ -247,19 +173,17 @@ static int render_frame(const render_job *job, int frame)
     render_job one = *job;
     int code = EXIT_DONE;
     one.options.settings = NULL;
-    one.files.out.count = 0;
-    for (size_t i = 0; i < job->files.out.count && code == EXIT_DONE; i++) {
-        char *name = film_files_numbered_name(job->files.out.items[i], frame);
-        if (name == NULL) code = complain(EXIT_FAILED, "out of memory");
-        if (name != NULL) one.files.out.items[one.files.out.count++] = name;
-    }
+    one.files.gain.count = 0;
+    if (!number_names(&job->files.out, frame, &one.files.out) ||
+        !number_names(&job->files.gain, frame, &one.files.gain))
+        code = complain(EXIT_FAILED, "out of memory");
     if (code == EXIT_DONE &&
         (clshear_settings_copy(job->options.settings, &one.options.settings) != CLSHEAR_OK ||
          clshear_settings_set_integer(one.options.settings, CLSHEAR_FRAME, frame) != CLSHEAR_OK))
         code = complain_of_library();
     if (code == EXIT_DONE) code = render_scene(&one);
-    for (size_t i = 0; i < one.files.out.count; i++)
-        free((char *)one.files.out.items[i]);
+    free_names(&one.files.out);
+    free_names(&one.files.gain);
     clshear_settings_free(one.options.settings);
     return code;
 }
@@ -298,16 +222,7 @@ static int run(void *user)
     if (job->files.out.count == 0) job->files.out.items[job->files.out.count++] = name;
     if (job->files.gain.count > 0) clshear_settings_set_integer(options->settings, CLSHEAR_GAIN, 1);
     job->has_lens = given_a_lens(options->settings);
-    int code = check_places("out", job->files.out.items, job->files.out.count);
-    if (code == EXIT_DONE) code = check_formats(job);
-    if (code == EXIT_DONE)
-        code = check_places("gain", job->files.gain.items, job->files.gain.count);
-    if (code == EXIT_DONE) tell_idle_flags(job);
-    if (code == EXIT_DONE)
-        code = check_setting_place(options->settings, CLSHEAR_CHECKPOINT, "checkpoint");
-    if (code == EXIT_DONE) code = check_setting_place(options->settings, CLSHEAR_RECORD, "record");
-    if (code == EXIT_DONE)
-        code = check_setting_place(options->settings, CLSHEAR_PREVIEW, "preview");
+    int code = render_check(job);
     if (code == EXIT_DONE) code = render_frames(job);
     free(name);
     return code;

@@ -16,6 +16,8 @@ static const program_flag common_rows[] = {
     SWITCH_FLAG("help h", "print this and stop", offsetof(program_options, help)),
 };
 enum {
+    SETTINGS_ROW = 0,
+    HELP_ROW = 2,
     COMMON_ROWS = sizeof common_rows / sizeof *common_rows,
     MOST_SETTINGS = 128
 };
@@ -81,8 +83,9 @@ static int find(const parser *p, const program_command *command, const char *nam
         if (has_word(names, name, length)) return 1;
         for (size_t size = next_word(&names); size > 0; size = next_word(&names)) {
             const size_t edits = word_distance(name, length, names, size);
-            if (size > 1 && edits < best) {
-                best = edits;
+            const int begins = length > 1 && length < size && strncmp(name, names, length) == 0;
+            if (size > 1 && (begins ? best > 0 : edits < best)) {
+                best = begins ? 0 : edits;
                 *nearest = options_text(p->options, "%.*s", (int)size, names);
             }
             names += size;
@@ -91,10 +94,23 @@ static int find(const parser *p, const program_command *command, const char *nam
     return 0;
 }
 
-/* `dashes`: those before the name, as they were given. */
-static int complain_unknown(const char *place, const char *dashes, const char *name,
-                            const char *nearest)
+/* What a name like "no-adaptive" means: "adaptive=0", or NULL. */
+static const char *negation_of(const parser *p, const char *name)
 {
+    named_flag flag;
+    const char *nearest;
+    if (strncmp(name, "no-", 3) != 0 || !find(p, p->command, name + 3, &flag, &nearest) ||
+        flag.row != NULL || *argument_of(&flag) != '\0')
+        return NULL;
+    return options_text(p->options, "%s=0", flag.setting.name);
+}
+
+/* `dashes`: those before the name, as they were given. */
+static int complain_unknown(const parser *p, const char *place, const char *dashes,
+                            const char *name, const char *nearest)
+{
+    const char *negation = negation_of(p, name);
+    if (negation != NULL) nearest = negation;
     if (*nearest == '\0')
         return complain(EXIT_USAGE, "%sunknown flag %s%s; see --help", place, dashes, name);
     return complain(EXIT_USAGE, "%sunknown flag %s%s; did you mean --%s?", place, dashes, name,
@@ -147,12 +163,12 @@ static int apply(const parser *p, const char *place, const named_flag *flag, con
                     flag_expectation(p->options, row));
 }
 
-/* A row's place among those of its command, 63 for one of all commands. */
+/* A bit for each row of the command, and from the highest down of those of all commands. */
 static uint64_t bit_of(const parser *p, const program_flag *row)
 {
     for (size_t i = 0; i < p->command->flag_count; i++)
         if (row == &p->command->flags[i]) return (uint64_t)1 << i;
-    return (uint64_t)1 << 63;
+    return (uint64_t)1 << (63 - (row - common_rows));
 }
 
 /* A line of a settings file that names no setting: a callback of clshear_settings_read. */
@@ -167,11 +183,14 @@ static int take_line(void *user, const char *file, int line, const char *name, c
                                        *options->file_words != '\0' ? " " : "", name,
                                        value != NULL ? " " : "", value != NULL ? value : "");
     if (find(p, p->command, name, &flag, &nearest)) {
+        if (flag.row == &common_rows[SETTINGS_ROW] || flag.row == &common_rows[HELP_ROW])
+            return p->code =
+                       complain(EXIT_USAGE, "%s%s: is for the command line only", place, name);
         const int is_left_out = p->command != p->renders && flag.row->adds;
         if (!is_left_out && (p->on_line & bit_of(p, flag.row)) == 0)
             p->code = apply(p, place, &flag, name, value);
     } else if (!find(p, p->renders, name, &flag, &nearest)) {
-        p->code = complain_unknown(place, "--", name, nearest);
+        p->code = complain_unknown(p, place, "--", name, nearest);
     }
     return p->code;
 }
@@ -242,8 +261,10 @@ static int read_line(parser *p, int argc, char **argv)
         const char *name = options_text(options, "%.*s", (int)length, word);
         const char *value = word[length] == '=' ? word + length + 1 : NULL;
         if (!find(p, p->command, name, &flag, &nearest))
-            return complain_unknown("", dashes, name, nearest);
+            return complain_unknown(p, "", dashes, name, nearest);
         if (value == NULL && *argument_of(&flag) != '\0' && i + 1 < argc) value = argv[++i];
+        if (flag.row == &common_rows[SETTINGS_ROW] && options->settings_file.count > 0)
+            return complain(EXIT_USAGE, "--%s is given twice: put all into one file", name);
         const int code = apply(p, "", &flag, name, value);
         if (code != EXIT_DONE) return code;
         if (flag.row != NULL) p->on_line |= bit_of(p, flag.row);

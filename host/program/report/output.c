@@ -36,6 +36,36 @@ int check_places(const char *flag, const char *const *paths, size_t count)
     return code;
 }
 
+/* Whether two paths are of one file, though it may not be there yet. */
+static int is_same(const char *a, const char *b)
+{
+    struct stat of_a, of_b;
+    char folder[2][PATH_MAX] = {".", "."};
+    const char *paths[2] = {a, b}, *names[2] = {a, b};
+    const int has_a = stat(a, &of_a) == 0, has_b = stat(b, &of_b) == 0;
+    if (has_a != has_b || (has_a && !S_ISREG(of_a.st_mode))) return 0;
+    for (int i = 0; i < 2 && !has_a; i++) {
+        const char *slash = strrchr(paths[i], '/');
+        if (slash == NULL) continue;
+        names[i] = slash + 1;
+        snprintf(folder[i], sizeof folder[i], "%.*s", (int)(slash - paths[i]) + 1, paths[i]);
+    }
+    if (!has_a && (strcmp(names[0], names[1]) != 0 || stat(folder[0], &of_a) != 0 ||
+                   stat(folder[1], &of_b) != 0))
+        return 0;
+    return of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
+}
+
+int check_apart(const char *flag, const char *path, const char *owner, const char *const *others,
+                size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (is_same(path, others[i]))
+            return complain(EXIT_USAGE, "--%s %s: is the file of %s, too; give it another", flag,
+                            path, owner);
+    return EXIT_DONE;
+}
+
 int write_file(const char *path, void (*write)(FILE *stream, const void *user), const void *user)
 {
     char *bytes = NULL;

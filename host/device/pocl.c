@@ -1,0 +1,68 @@
+#define _GNU_SOURCE /* pthread_getattr_default_np */
+#include "device/pocl.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "device/pocl_cache.h"
+
+enum {
+    PATH_SIZE = 4096,
+    /* Bytes of stack that a thread of PoCL is given: the kernels with paths take up to 900 KB. */
+    LEAST_STACK = 1 << 20
+};
+
+/* PoCL makes its threads with the default size of their stacks, which `ulimit -s` sets. */
+static clshear_status check_stack(cs_error *error)
+{
+    pthread_attr_t attributes;
+    size_t size = LEAST_STACK;
+    if (pthread_getattr_default_np(&attributes) != 0) return CLSHEAR_OK;
+    pthread_attr_getstacksize(&attributes, &size);
+    pthread_attr_destroy(&attributes);
+    if (size >= LEAST_STACK) return CLSHEAR_OK;
+    return cs_fail(error, CLSHEAR_DEVICE_FAILED,
+                   "threads have stacks of %zu KB, too small for the kernels on PoCL: allow %d KB "
+                   "or more (ulimit -s)",
+                   size >> 10, LEAST_STACK >> 10);
+}
+
+/* Whether a folder of $PATH has the program. */
+static int is_in_path(const char *program)
+{
+    const char *folder = getenv("PATH");
+    char path[PATH_SIZE];
+    while (folder != NULL) {
+        const int length = (int)strcspn(folder, ":");
+        if (snprintf(path, sizeof path, "%.*s/%s", length, folder, program) < PATH_SIZE &&
+            access(path, X_OK) == 0)
+            return 1;
+        folder = folder[length] == ':' ? folder + length + 1 : NULL;
+    }
+    return 0;
+}
+
+/* Debian's PoCL links kernels with `ld`, and ends the process where it finds none. PoCL of
+ * elsewhere may have another linker. Kernels in the cache are linked already. */
+static clshear_status check_linker(cl_device_id device, cs_error *error)
+{
+    char version[128] = "";
+    clGetDeviceInfo(device, CL_DRIVER_VERSION, sizeof version, version, NULL);
+    version[sizeof version - 1] = '\0';
+    if (strstr(version, "+debian") == NULL || is_in_path("ld") || !cs_pocl_cache_is_empty())
+        return CLSHEAR_OK;
+    return cs_fail(error, CLSHEAR_DEVICE_FAILED,
+                   "PoCL links the kernels with ld, which is in no folder of $PATH: add /usr/bin "
+                   "to it, or install binutils");
+}
+
+clshear_status cs_pocl_check(cl_device_id device, cs_error *error)
+{
+    if (!cs_opencl_is_pocl(device)) return CLSHEAR_OK;
+    clshear_status status = check_stack(error);
+    if (status == CLSHEAR_OK) status = check_linker(device, error);
+    return status == CLSHEAR_OK ? cs_pocl_cache_check(error) : status;
+}

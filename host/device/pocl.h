@@ -1,0 +1,12 @@
+/* What ends the process in PoCL, and can be found out before. */
+#ifndef CS_DEVICE_POCL_H
+#define CS_DEVICE_POCL_H
+
+#include "device/opencl.h"
+
+/* Fails, saying what to do, where PoCL would end the process as it compiles or runs the kernels:
+ * its threads' stacks are too small, its linker is not there, or its cache is damaged. Other
+ * drivers are fine. */
+clshear_status cs_pocl_check(cl_device_id device, cs_error *error);
+
+#endif
