@@ -97,7 +97,7 @@ static clshear_status next_number(off_reader *reader, double *value)
 
 static clshear_status next_count(off_reader *reader, size_t *count)
 {
-    double value;
+    double value = 0.0;
     const clshear_status status = next_number(reader, &value);
     if (status != CLSHEAR_OK) return status;
     if (!(value >= 0.0 && value <= (double)CS_MODEL_MOST))
@@ -199,7 +199,7 @@ static clshear_status colour_face(off_reader *reader)
 static clshear_status read_face(off_reader *reader)
 {
     size_t count = 0;
-    double number;
+    double number = 0.0;
     clshear_status status = next_count(reader, &count);
     reader->corners.count = 0;
     for (size_t i = 0; i < count && status == CLSHEAR_OK; i++) {
