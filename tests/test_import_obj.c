@@ -50,7 +50,10 @@ static void maps_are_found_wherever_they_are(void **state)
                                         "map_Kd FOUR.ppm",
                                         "map_Kd C:\\Users\\x\\four.ppm",
                                         "map_Kd -blendu on -texres 64 -imfchan l four.ppm",
-                                        "map_kd\t four.ppm  "};
+                                        "map_kd\t four.ppm  ",
+                                        "map_Kd ..\\of\\the\\author\\four.ppm",
+                                        "map_Kd file:///nowhere/four.ppm",
+                                        "map_Kd four.ppm -s 1 1 1 -clamp off"};
     char text[256];
     (void)state;
     mkdir(test_path("materials"), 0700);
@@ -134,7 +137,7 @@ static void material_lines(void **state)
     (void)state;
     test_file("lines.mtl", "newmtl a\nKd 0.25\nnewmtl b\nKd 2 1 1\nKe 1 2 3\n"
                            "newmtl c\nKd xyz 1 1 1\nPm 1\nPr 0.2\nmap_Bump x.png\nd 0.5\naniso 1\n"
-                           "map_Ks y.png\n");
+                           "map_Ks y.png\nnewmtl e\nKd 0 1 0;\n");
     cs_scene scene = import_text("lines.obj", "mtllib lines.mtl\n" SQUARE
                                               "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n"
                                               "usemtl c\nf 1 2 4\n");
@@ -142,6 +145,7 @@ static void material_lines(void **state)
     expect_close(import_material(&scene, 1)->diffuse, 2, 1, 1);
     expect_close(import_material(&scene, 1)->emission, 1, 2, 3);
     import_warned("\"b\" has the colour 2 1 1: above 1");
+    import_warned("lines.mtl:15: Kd \"0;\" is not a number");
     import_warned("lines.mtl:7: Kd \"xyz 1 1 1\" is not a number");
     import_warned("texture x.png is not there; it is left out");
     import_warned("\"c\": not supported, left out: anisotropy, a map of highlights\n");

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <system_error>
 
@@ -12,6 +13,30 @@ static bool is_tiny(const char *text, const char *end)
     for (; text != end; text++)
         if ((*text == 'e' || *text == 'E') && text + 1 != end) return text[1] == '-';
     return false;
+}
+
+/* The end of what Microsoft's C library wrote for numbers that are none, as 1.#IND and -1.#QNAN0;
+ * `text` where it is not that. */
+static const char *end_of_windows_nan(const char *text, const char *end, double *value)
+{
+    static const struct {
+        const char *word;
+        double value;
+    } words[] = {{"#IND", std::numeric_limits<double>::quiet_NaN()},
+                 {"#QNAN", std::numeric_limits<double>::quiet_NaN()},
+                 {"#SNAN", std::numeric_limits<double>::quiet_NaN()},
+                 {"#INF", std::numeric_limits<double>::infinity()}};
+    for (const auto &entry : words) {
+        const std::size_t length = std::strlen(entry.word);
+        if (static_cast<std::size_t>(end - text) < length) continue;
+        if (std::strncmp(text, entry.word, length) != 0) continue;
+        *value = *value < 0.0 ? -entry.value : entry.value;
+        text += length;
+        while (text != end && *text == '0')
+            text++;
+        return text;
+    }
+    return text;
 }
 
 extern "C" const char *cs_parse_number(const char *text, const char *end, double *value)
@@ -25,7 +50,7 @@ extern "C" const char *cs_parse_number(const char *text, const char *end, double
             is_tiny(begin, found.ptr) ? 0.0 : std::numeric_limits<double>::infinity();
         *value = *begin == '-' ? -size : size;
     }
-    return found.ptr;
+    return found.ptr[-1] == '.' ? end_of_windows_nan(found.ptr, end, value) : found.ptr;
 }
 
 extern "C" const char *cs_format_number(char *text, size_t size, double value, int digits)

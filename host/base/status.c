@@ -4,11 +4,14 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-/* Names out of files may hold line ends, and codes that terminals obey. */
+/* Names out of files may hold line ends, and codes that terminals obey: those of ASCII, and U+0080
+ * to U+009F, which UTF-8 writes as c2 and one byte more. */
 static void make_printable(char *line)
 {
-    for (; *line != '\0'; line++)
-        if ((unsigned char)*line < ' ' || *line == '\177') *line = '?';
+    for (unsigned char *at = (unsigned char *)line; *at != '\0'; at++) {
+        if (*at < ' ' || *at == 0x7f) *at = '?';
+        if (*at == 0xc2 && at[1] >= 0x80 && at[1] < 0xa0) at[0] = at[1] = '?';
+    }
 }
 
 /* Prints a line with decimal points, whatever the locale of the process says: users copy numbers

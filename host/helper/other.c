@@ -224,6 +224,16 @@ static clshear_status add_camera(const importing *work, const struct aiCamera *s
     return CLSHEAR_OK;
 }
 
+/* Assimp's material for files without one is a grey of its own. */
+static void make_default(const importing *work)
+{
+    cs_material_description *all = work->model->materials.items;
+    for (size_t i = 0; i < work->model->materials.count; i++)
+        if (strcmp(all[i].name, AI_DEFAULT_MATERIAL_NAME) == 0 &&
+            !cs_map_is_used(&all[i].base_map) && all[i].base_colour[0] == 0.6f)
+            cs_model_plain(work->model, all[i].name, &all[i]);
+}
+
 static clshear_status convert(const importing *work)
 {
     const struct aiScene *file = work->file;
@@ -231,6 +241,7 @@ static clshear_status convert(const importing *work)
     for (unsigned i = 0; i < file->mNumMaterials; i++)
         CS_TRY(add_material(work, file->mMaterials[i]));
     CS_TRY(cs_node_visit_meshes(file, add_instance, (void *)work));
+    make_default(work);
     for (unsigned i = 0; i < file->mNumLights; i++)
         CS_TRY(add_light(work, file->mLights[i]));
     for (unsigned i = 0; i < file->mNumCameras; i++)
@@ -263,7 +274,7 @@ clshear_status cs_read_other(cs_bytes *bytes, cs_model *model, cs_error *error)
     if (file == NULL && strstr(aiGetErrorString(), "No suitable reader") != NULL)
         return cs_fail(error, CLSHEAR_BAD_FILE,
                        "%s: no reader knows this format by its name or its first bytes; OBJ, glTF, "
-                       "PLY and STL are read",
+                       "PLY, STL and OFF are read",
                        model->path);
     if (file == NULL)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %.*s", model->path,

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "import/build_parts.h"
+#include "import/colour.h"
 #include "import/index_map.h"
 #include "import/smooth.h"
 
@@ -208,14 +209,38 @@ static void report_colours(const cs_model *model)
                 model->path);
 }
 
-/* One colour for each position, white where none was given. */
+/* Whether the colours are whole numbers up to 255, and some are above 15, as programs write that
+ * have bytes, though the format wants them from 0 to 1. */
+static int are_bytes(const cs_array *colours)
+{
+    const float *values = colours->items;
+    float most = 0.0f;
+    for (size_t i = 0; i < 3 * colours->count; i++) {
+        if (values[i] != floorf(values[i]) || values[i] > 255.0f) return 0;
+        most = fmaxf(most, values[i]);
+    }
+    return most > 15.0f;
+}
+
+/* One linear colour for each position, white where none was given. */
 static clshear_status complete_colours(cs_model *model, cs_error *error)
 {
+    const float none[3] = {CS_NO_COLOUR, CS_NO_COLOUR, CS_NO_COLOUR};
+    if (model->colours.count == 0) return CLSHEAR_OK;
+    if (model->colours.count < model->positions.count) {
+        clshear_status status = cs_model_set_colour(model, model->positions.count - 1, none, error);
+        if (status != CLSHEAR_OK) return status;
+    }
+    const int bytes = are_bytes(&model->colours);
+    float *values = model->colours.items;
+    for (size_t i = 0; i < 3 * model->colours.count; i++) {
+        if (values[i] < 0.0f)
+            values[i] = 1.0f;
+        else if (bytes)
+            values[i] = cs_colour_value((double)values[i] / 255.0, 1);
+    }
     report_colours(model);
-    if (model->colours.count == 0 || model->colours.count == model->positions.count)
-        return CLSHEAR_OK;
-    const float white[3] = {1, 1, 1};
-    return cs_model_set_colour(model, model->positions.count - 1, white, error);
+    return CLSHEAR_OK;
 }
 
 clshear_status cs_model_build(cs_model *model, double smooth_degrees, cs_scene *scene,

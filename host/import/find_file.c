@@ -71,9 +71,11 @@ static int find_in_any_case(const char *folder, const char *name, int kind, char
     return is_there(path, kind);
 }
 
-static int has_drive(const char *name)
+/* Whether a name is a place on another machine: C:/, or file:/// and the like. */
+static int is_elsewhere(const char *name)
 {
-    return isalpha((unsigned char)name[0]) && name[1] == ':' && name[2] == '/';
+    const int has_drive = isalpha((unsigned char)name[0]) && name[1] == ':' && name[2] == '/';
+    return name[0] == '/' || has_drive || strstr(name, "://") != NULL;
 }
 
 static int find_as_written(const char *name, const char *const *folders, size_t count, int kind,
@@ -90,13 +92,15 @@ static int find_as_written(const char *name, const char *const *folders, size_t 
         memcpy(found, slashed, sizeof slashed);
         return 1;
     }
-    if ((slashed[0] == '/' || has_drive(slashed)) && last_part != NULL) wanted = last_part + 1;
+    if (is_elsewhere(slashed) && last_part != NULL) wanted = last_part + 1;
     for (size_t i = 0; i < count && *wanted != '\0'; i++)
         if (join(folders[i], wanted, found) && is_there(found, kind)) return 1;
     for (size_t i = 0; i < count && *wanted != '\0'; i++) /* names with backslashes in them */
         if (join(folders[i], name, found) && is_there(found, kind)) return 1;
     for (size_t i = 0; i < count && *wanted != '\0'; i++)
         if (find_in_any_case(folders[i], wanted, kind, found)) return 1;
+    for (size_t i = 0; i < count && last_part != NULL; i++) /* without the author's folders */
+        if (kind == A_FILE && find_in_any_case(folders[i], last_part + 1, kind, found)) return 1;
     memcpy(found, first, sizeof first);
     return 0;
 }

@@ -58,7 +58,7 @@ clshear_status cs_model_set_colour(cs_model *model, size_t index, const float *c
         if (added == NULL) return cs_model_full(model, error);
         for (size_t i = before; i <= index; i++)
             for (int c = 0; c < 3; c++)
-                added[i - before][c] = 1.0f;
+                added[i - before][c] = CS_NO_COLOUR;
     }
     memcpy(((float(*)[3])model->colours.items)[index], colour, 3 * sizeof *colour);
     return CLSHEAR_OK;

@@ -15,6 +15,9 @@ enum {
 
 #define CS_NO_INDEX UINT32_MAX
 
+/* In place of the colours of a position that has been given none yet. */
+#define CS_NO_COLOUR (-1.0f)
+
 typedef struct cs_corner {
     uint32_t position;
     uint32_t normal;  /* or CS_NO_INDEX */

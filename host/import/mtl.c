@@ -6,6 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/checksum.h"
 #include "base/number.h"
 #include "import/find_file.h"
 #include "import/mtl_surface.h"
@@ -79,7 +80,8 @@ static void read_value(mtl_reader *reader, const value_line *entry,
     char *base = entry->is_raw ? (char *)&reader->values : (char *)material;
     float *member = (float *)(void *)(base + entry->offset);
     const int count = read_numbers(&at, numbers, entry->count);
-    if (count == 0) {
+    const char *behind = at + strspn(at, " \t");
+    if (count == 0 || (count < entry->count && *behind != '\0' && *behind != '#')) {
         char text[80];
         snprintf(text, sizeof text, "\"%.30s\" is not a number%s", cs_rest_of_line(at),
                  entry->count == 3 ? "; colours are red green blue" : "");
@@ -120,6 +122,7 @@ typedef struct map_line {
 static const map_line map_lines[] = {
     {"map_Kd", MAP(base_map), CS_TEXELS_COLOUR},
     {"map_Ke", MAP(emissive_map), CS_TEXELS_COLOUR},
+    {"map_emissive", MAP(emissive_map), CS_TEXELS_COLOUR},
     {"map_Ns", MAP(roughness_map), CS_TEXELS_GLOSS},
     {"map_d", MAP(alpha_map), CS_TEXELS_OPACITY},
     {"map_Pr", MAP(roughness_map), CS_TEXELS_DATA},
@@ -148,47 +151,68 @@ static const struct {
                {"-boost", 1},   {"-texres", 1}, {"-clamp", 0}, {"-blendu", 0}, {"-blendv", 0},
                {"-imfchan", 0}, {"-cc", 0},     {"-type", 0}};
 
+/* The option at the beginning of `text`: its place in `options`, or their number. */
+static size_t option_at(const char *text)
+{
+    const size_t length = strcspn(text, " \t"), count = sizeof options / sizeof *options;
+    size_t i = 0;
+    while (i < count &&
+           (strlen(options[i].name) != length || strncmp(text, options[i].name, length) != 0))
+        i++;
+    return i;
+}
+
 /* Takes one option into `map`; 0 where `*at` begins with none. */
 static int take_option(char **at, cs_map *map, double *scale, double *shift, double *bump)
 {
     char *begin = *at + strspn(*at, " \t");
-    const size_t length = strcspn(begin, " \t");
+    const size_t i = option_at(begin);
     double numbers[3];
-    for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
-        if (strlen(options[i].name) != length || strncmp(begin, options[i].name, length) != 0)
-            continue;
-        *at = begin + length;
-        const int count = read_numbers(at, numbers, options[i].numbers);
-        char *word = *at + strspn(*at, " \t");
-        const size_t word_length = strcspn(word, " \t");
-        if (options[i].numbers == 0) *at = word + word_length;
-        if (strcmp(options[i].name, "-clamp") == 0 && strncmp(word, "on", word_length) == 0)
-            map->wrap[0] = map->wrap[1] = CS_WRAP_CLAMP;
-        if (strcmp(options[i].name, "-mm") == 0) {
-            if (count > 0) map->use.base = (float)numbers[0];
-            if (count > 1) map->use.gain = (float)numbers[1];
-        }
-        if (strcmp(options[i].name, "-bm") == 0 && count > 0) *bump = numbers[0];
-        for (int k = 0; k < count && k < 2; k++) {
-            if (strcmp(options[i].name, "-s") == 0) scale[k] = numbers[k];
-            if (strcmp(options[i].name, "-o") == 0) shift[k] = numbers[k];
-        }
-        return 1;
+    if (i == sizeof options / sizeof *options) return 0;
+    *at = begin + strlen(options[i].name);
+    const int count = read_numbers(at, numbers, options[i].numbers);
+    char *word = *at + strspn(*at, " \t");
+    const size_t word_length = strcspn(word, " \t");
+    if (options[i].numbers == 0) *at = word + word_length;
+    if (strcmp(options[i].name, "-clamp") == 0 && strncmp(word, "on", word_length) == 0)
+        map->wrap[0] = map->wrap[1] = CS_WRAP_CLAMP;
+    if (strcmp(options[i].name, "-mm") == 0) {
+        if (count > 0) map->use.base = (float)numbers[0];
+        if (count > 1) map->use.gain = (float)numbers[1];
     }
-    return 0;
+    if (strcmp(options[i].name, "-bm") == 0 && count > 0) *bump = numbers[0];
+    for (int k = 0; k < count && k < 2; k++) {
+        if (strcmp(options[i].name, "-s") == 0) scale[k] = numbers[k];
+        if (strcmp(options[i].name, "-o") == 0) shift[k] = numbers[k];
+    }
+    return 1;
 }
 
-/* Finds the image of that name, or else of what is before a comment: names may hold a # as well.
- * Returns whether it is there; `found` gets the path. */
-static int find_image(const mtl_reader *reader, const char *name, char found[CS_FILE_PATH])
+/* Cuts the first option behind a name, and what follows it; returns where it was, or NULL. */
+static char *cut_options(char *name)
+{
+    for (char *mark = strchr(name, '-'); mark != NULL; mark = strchr(mark + 1, '-')) {
+        if (mark == name || (mark[-1] != ' ' && mark[-1] != '\t') ||
+            option_at(mark) == sizeof options / sizeof *options)
+            continue;
+        mark[-1] = '\0';
+        return mark;
+    }
+    return NULL;
+}
+
+/* Finds the image of that name, or else of what is before a comment, or before options, which
+ * belong in front of the name: names may hold both. Returns whether it is there; `found` gets the
+ * path, and `*options` those behind the name, or NULL. */
+static int find_image(const mtl_reader *reader, char *name, char found[CS_FILE_PATH],
+                      char **options)
 {
     const char *folders[] = {reader->folders[0], reader->folders[1]};
-    int there = cs_find_file(name, folders, 2, found);
-    char *uncommented = there ? NULL : strdup(name);
-    if (uncommented != NULL && cs_cut_comment(uncommented))
-        there = cs_find_file(uncommented, folders, 2, found);
-    free(uncommented);
-    return there;
+    *options = NULL;
+    if (cs_find_file(name, folders, 2, found)) return 1;
+    if (cs_cut_comment(name) && cs_find_file(name, folders, 2, found)) return 1;
+    *options = cut_options(name);
+    return *options != NULL && cs_find_file(cs_rest_of_line(name), folders, 2, found);
 }
 
 static clshear_status read_map(mtl_reader *reader, cs_material_description *material,
@@ -201,14 +225,16 @@ static clshear_status read_map(mtl_reader *reader, cs_material_description *mate
     map->use.kind = entry->kind;
     while (take_option(&at, map, scale, shift, &bump)) {
     }
-    if (map == &material->normal_map) material->normal_scale = (float)bump;
-    char *name = cs_rest_of_line(at);
+    char *name = cs_rest_of_line(at), *behind;
     if (*name == '\0') return CLSHEAR_OK;
+    const int there = find_image(reader, name, found, &behind);
+    while (behind != NULL && take_option(&behind, map, scale, shift, &bump)) {
+    }
+    if (map == &material->normal_map) material->normal_scale = (float)bump;
     map->across[0] = scale[0];
     map->across[2] = shift[0];
     map->up[1] = scale[1];
     map->up[2] = shift[1];
-    const int there = find_image(reader, name, found);
     return cs_model_add_image(reader->model, there ? found : "", there ? found : name, NULL, 0,
                               &map->image, reader->error);
 }
@@ -232,8 +258,19 @@ static clshear_status read_line(mtl_reader *reader, cs_material_description *mat
     return CLSHEAR_OK;
 }
 
+void cs_mtl_key(const char *name, char key[CS_MATERIAL_NAME])
+{
+    const size_t length = strlen(name);
+    memset(key, 0, CS_MATERIAL_NAME);
+    memcpy(key, name, length < CS_MATERIAL_NAME ? length : CS_MATERIAL_NAME - 1);
+    if (length >= CS_MATERIAL_NAME)
+        snprintf(key + CS_MATERIAL_NAME - 18, 18, "~%016llx",
+                 (unsigned long long)cs_checksum_add(CS_CHECKSUM_OF_NOTHING, name, length));
+}
+
 static clshear_status read_lines(mtl_reader *reader, cs_bytes *bytes)
 {
+    char name[CS_MATERIAL_NAME];
     cs_lines lines = cs_lines_of(bytes);
     cs_material_description *material = NULL;
     clshear_status status = CLSHEAR_OK;
@@ -247,7 +284,8 @@ static clshear_status read_lines(mtl_reader *reader, cs_bytes *bytes)
             mtl_values_init(&reader->values);
             material = cs_model_extend(reader->materials, 1);
             if (material == NULL) return cs_model_full(reader->model, reader->error);
-            cs_material_init(material, cs_rest_of_line(at));
+            cs_mtl_key(cs_rest_of_line(at), name);
+            cs_material_init(material, name);
         } else if (material != NULL) {
             status = read_line(reader, material, key, at);
         }

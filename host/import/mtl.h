@@ -9,4 +9,8 @@
  * is reported and left out. */
 clshear_status cs_mtl_read(const char *path, cs_model *model, cs_array *materials, cs_error *error);
 
+/* What tells a material apart: its name, or, where that is longer than CS_MATERIAL_NAME - 1
+ * letters, its beginning and a checksum of the whole. All of `key` is written. */
+void cs_mtl_key(const char *name, char key[CS_MATERIAL_NAME]);
+
 #endif

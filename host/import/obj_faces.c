@@ -52,6 +52,10 @@ static uint32_t *place_of(cs_corner *corner, int place)
 static clshear_status out_of_range(const obj_reader *reader, size_t line, int place,
                                    long long number)
 {
+    if (count_of(reader->model, place) == 0)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE,
+                       "%s:%zu: the face names %s %lld, but there are none", reader->model->path,
+                       line, place_names[place], number);
     return cs_fail(reader->error, CLSHEAR_BAD_FILE,
                    "%s:%zu: the face names %s %lld, but there are %zu; must be 1 to %zu, or "
                    "negative to count backwards",
@@ -64,6 +68,7 @@ static clshear_status resolve(const obj_reader *reader, long long number, int pl
                               cs_corner *corner)
 {
     const long long count = (long long)count_of(reader->model, place);
+    if (number == 0 && place > 0) return CLSHEAR_OK; /* programs write it where there is none */
     if (number == 0 || number < -count || number > CS_MODEL_MOST)
         return out_of_range(reader, reader->lines.number, place, number);
     *place_of(corner, place) = (uint32_t)(number > 0 ? number - 1 : count + number);

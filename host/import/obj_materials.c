@@ -8,11 +8,10 @@
 
 clshear_status cs_obj_use_material(obj_reader *reader, const char *name)
 {
-    char key[CS_MATERIAL_NAME] = {0};
-    const size_t length = strnlen(name, sizeof key - 1);
-    memcpy(key, name, length);
+    char key[CS_MATERIAL_NAME];
+    cs_mtl_key(name, key);
     reader->material = CS_NO_INDEX;
-    if (length == 0) return CLSHEAR_OK;
+    if (key[0] == '\0') return CLSHEAR_OK;
     reader->material = cs_index_map_add(&reader->used, key);
     if (reader->material == UINT32_MAX) return cs_model_full(reader->model, reader->error);
     return CLSHEAR_OK;
@@ -69,17 +68,41 @@ clshear_status cs_obj_library(obj_reader *reader, char *names)
     return status;
 }
 
-static void key_of(const char *name, char *key)
+/* Files without mtllib often have their materials beside them, under their own name. */
+static clshear_status read_namesake(obj_reader *reader)
 {
-    memset(key, 0, CS_MATERIAL_NAME);
-    memcpy(key, name, strnlen(name, CS_MATERIAL_NAME - 1));
+    char found[CS_FILE_PATH];
+    const char *path = reader->model->path, *dot = strrchr(path, '.');
+    if (reader->libraries.keys.count > 0 || reader->used.keys.count == 0 || dot == NULL)
+        return CLSHEAR_OK;
+    snprintf(found, sizeof found, "%.*s.mtl", (int)(dot - path), path);
+    const char *slash = strrchr(found, '/');
+    const char *name = slash != NULL ? slash + 1 : found;
+    char ignored[CS_FILE_PATH];
+    return find_library(reader, name, ignored) ? read_library(reader, name) : CLSHEAR_OK;
+}
+
+/* The number of the used name that means this one: the same, or the same and a comment. */
+static uint32_t user_of(const obj_reader *reader, const char *name)
+{
+    char key[CS_MATERIAL_NAME];
+    cs_mtl_key(name, key);
+    const uint32_t number = cs_index_map_find(&reader->used, key);
+    const char(*names)[CS_MATERIAL_NAME] = reader->used.keys.items;
+    for (size_t i = 0; i < reader->used.keys.count && number == UINT32_MAX; i++) {
+        memcpy(key, names[i], sizeof key);
+        if (cs_cut_comment(key) && strcmp(key, name) == 0) return (uint32_t)i;
+    }
+    return number;
 }
 
 /* For each name that was used, the material called so: the last one, where there are several. */
 clshear_status cs_obj_materials(obj_reader *reader)
 {
-    const cs_material_description *defined = reader->defined.items;
     cs_model *model = reader->model;
+    clshear_status status = read_namesake(reader);
+    if (status != CLSHEAR_OK) return status;
+    const cs_material_description *defined = reader->defined.items;
     const char(*names)[CS_MATERIAL_NAME] = reader->used.keys.items;
     const size_t count = reader->used.keys.count;
     cs_material_description *made = cs_model_extend(&model->materials, count);
@@ -87,9 +110,7 @@ clshear_status cs_obj_materials(obj_reader *reader)
     for (size_t i = 0; i < count; i++)
         cs_material_init(&made[i], "");
     for (size_t i = 0; i < reader->defined.count; i++) {
-        char key[CS_MATERIAL_NAME];
-        key_of(defined[i].name, key);
-        const uint32_t number = cs_index_map_find(&reader->used, key);
+        const uint32_t number = user_of(reader, defined[i].name);
         if (number != UINT32_MAX) made[number] = defined[i];
     }
     size_t undefined = 0;

@@ -20,6 +20,8 @@ typedef struct obj_reader {
     cs_array waiting_corners; /* cs_corner */
     size_t missing;           /* libraries that are not there */
     size_t free_form;         /* lines of curves and surfaces */
+    size_t painted;           /* positions that #MRGB has coloured */
+    size_t left_out;          /* lines that name more, and are not obeyed */
 } obj_reader;
 
 void cs_obj_begin(obj_reader *reader);

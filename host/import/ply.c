@@ -1,23 +1,10 @@
 /* PLY: vertices, faces and triangle strips. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
-#include "import/colour.h"
 #include "import/find_file.h"
-#include "import/ply_reader.h"
+#include "import/ply_items.h"
 #include "import/readers.h"
-
-typedef struct ply_reader {
-    cs_model *model;
-    cs_error *error;
-    cs_ply_head head;
-    cs_ply_cursor cursor;
-    int has_positions, has_normals, has_coordinates;
-    cs_array corners; /* cs_corner, of the current face */
-    cs_array texts;   /* double, of the current list of texture coordinates */
-} ply_reader;
 
 int cs_is_ply(const cs_bytes *bytes, const char *path)
 {
@@ -26,111 +13,9 @@ int cs_is_ply(const cs_bytes *bytes, const char *path)
     return marked || cs_has_suffix(path, ".ply");
 }
 
-/* What is wrong, and in which item of an element. */
-static clshear_status complain(const ply_reader *reader, const cs_ply_element *element, size_t item,
-                               const char *what)
-{
-    const char *path = reader->model->path;
-    size_t line = 1;
-    if (reader->head.format != CS_PLY_ASCII)
-        return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: %s %zu of %zu: %s", path,
-                       element->name, item, element->count, what);
-    for (const char *at = reader->cursor.begin; at != reader->cursor.at; at++)
-        line += *at == '\n';
-    return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s:%zu: %s %zu of %zu: %s", path, line,
-                   element->name, item, element->count, what);
-}
-
-static clshear_status ends(const ply_reader *reader, const cs_ply_element *element, size_t item)
-{
-    return complain(reader, element, item,
-                    reader->cursor.at == reader->cursor.end || reader->head.format != CS_PLY_ASCII
-                        ? "the file ends here; it was cut"
-                        : "this is not a number");
-}
-
-/* Values of one item that are single numbers. */
-typedef struct scalars {
-    double value[CS_PLY_SCALARS];
-    int is_there[CS_PLY_SCALARS];
-    cs_ply_type type[CS_PLY_SCALARS];
-} scalars;
-
-static int colour_of(const scalars *given, float *colour)
-{
-    if (!given->is_there[CS_PLY_RED] || !given->is_there[CS_PLY_GREEN] ||
-        !given->is_there[CS_PLY_BLUE])
-        return 0;
-    for (int c = 0; c < 3; c++) {
-        const cs_ply_type type = given->type[CS_PLY_RED + c];
-        const double value = given->value[CS_PLY_RED + c] / cs_ply_most(type);
-        colour[c] = cs_colour_value(value, cs_ply_is_integer(type));
-    }
-    return 1;
-}
-
-/* ----- Lists ----- */
-
-static clshear_status read_list(ply_reader *reader, const cs_ply_element *element, size_t item,
-                                const cs_ply_property *property)
-{
-    double count;
-    if (!cs_ply_next(&reader->cursor, property->count_type, &count))
-        return ends(reader, element, item);
-    const size_t least = cs_ply_least_size(reader->head.format, property->type);
-    const size_t left = (size_t)(reader->cursor.end - reader->cursor.at) / least;
-    if (!(count >= 0.0 && count == floor(count)))
-        return complain(reader, element, item, "a list has no length of 0 or more");
-    if (count > (double)left)
-        return complain(reader, element, item, "a list is longer than the rest of the file");
-    const int is_indices = property->role == CS_PLY_INDICES;
-    const int is_text = property->role == CS_PLY_COORDINATES;
-    reader->corners.count = is_indices ? 0 : reader->corners.count;
-    reader->texts.count = is_text ? 0 : reader->texts.count;
-    for (size_t i = 0; i < (size_t)count; i++) {
-        double value;
-        if (!cs_ply_next(&reader->cursor, property->type, &value))
-            return ends(reader, element, item);
-        if (is_indices) {
-            cs_corner *corner = cs_array_extend(&reader->corners, 1);
-            if (corner == NULL) return cs_model_full(reader->model, reader->error);
-            const int usable = value >= 0.0 && value < (double)CS_MODEL_MOST;
-            *corner = (cs_corner){usable ? (uint32_t)value : CS_NO_INDEX, CS_NO_INDEX, CS_NO_INDEX};
-        } else if (is_text) {
-            double *text = cs_array_extend(&reader->texts, 1);
-            if (text == NULL) return cs_model_full(reader->model, reader->error);
-            *text = value;
-        }
-    }
-    return CLSHEAR_OK;
-}
-
-/* Reads one item of an element. */
-static clshear_status read_item(ply_reader *reader, const cs_ply_element *element, size_t item,
-                                scalars *given)
-{
-    reader->corners.count = reader->texts.count = 0;
-    for (size_t p = 0; p < element->property_count; p++) {
-        const cs_ply_property *property = &element->properties[p];
-        double value;
-        if (property->count_type != CS_PLY_NO_TYPE) {
-            clshear_status status = read_list(reader, element, item, property);
-            if (status != CLSHEAR_OK) return status;
-            continue;
-        }
-        if (!cs_ply_next(&reader->cursor, property->type, &value))
-            return ends(reader, element, item);
-        if (property->role >= CS_PLY_SCALARS) continue;
-        given->value[property->role] = value;
-        given->type[property->role] = property->type;
-        given->is_there[property->role] = 1;
-    }
-    return CLSHEAR_OK;
-}
-
 /* ----- Vertices ----- */
 
-static clshear_status add_vertex(ply_reader *reader, const scalars *given)
+static clshear_status add_vertex(cs_ply_reader *reader, const cs_ply_scalars *given)
 {
     cs_model *model = reader->model;
     double *position = cs_model_extend(&model->positions, 1);
@@ -153,14 +38,14 @@ static clshear_status add_vertex(ply_reader *reader, const scalars *given)
     float colour[3];
     model->fades |= given->is_there[CS_PLY_ALPHA] &&
                     given->value[CS_PLY_ALPHA] < cs_ply_most(given->type[CS_PLY_ALPHA]);
-    if (!colour_of(given, colour)) return CLSHEAR_OK;
+    if (!cs_ply_colour(given, colour)) return CLSHEAR_OK;
     return cs_model_set_colour(model, model->positions.count - 1, colour, reader->error);
 }
 
 /* ----- Faces ----- */
 
 /* Texture coordinates of a face's own. */
-static clshear_status add_coordinates(ply_reader *reader, cs_corner *corners, size_t count)
+static clshear_status add_coordinates(cs_ply_reader *reader, cs_corner *corners, size_t count)
 {
     const double *texts = reader->texts.items;
     if (reader->texts.count < 2 * count || count == 0) return CLSHEAR_OK;
@@ -177,7 +62,7 @@ static clshear_status add_coordinates(ply_reader *reader, cs_corner *corners, si
 }
 
 /* Positions of a face's own, which have its colour. */
-static clshear_status add_coloured(ply_reader *reader, cs_corner *corners, size_t count,
+static clshear_status add_coloured(cs_ply_reader *reader, cs_corner *corners, size_t count,
                                    const float *colour)
 {
     cs_array *pool = &reader->model->positions;
@@ -193,8 +78,8 @@ static clshear_status add_coloured(ply_reader *reader, cs_corner *corners, size_
     return CLSHEAR_OK;
 }
 
-static clshear_status add_face(ply_reader *reader, const cs_ply_element *element, size_t item,
-                               size_t vertices, const scalars *given)
+static clshear_status add_face(cs_ply_reader *reader, const cs_ply_element *element, size_t item,
+                               size_t vertices, const cs_ply_scalars *given)
 {
     clshear_status status = CLSHEAR_OK;
     cs_model *model = reader->model;
@@ -204,22 +89,22 @@ static clshear_status add_face(ply_reader *reader, const cs_ply_element *element
     float colour[3];
     for (size_t i = 0; i < count; i++) {
         if (corners[i].position >= vertices)
-            return complain(reader, element, item, "it names a vertex that is not there");
+            return cs_ply_complain(reader, element, item, "it names a vertex that is not there");
         if (reader->has_normals) corners[i].normal = corners[i].position;
         if (reader->has_coordinates) corners[i].texture = corners[i].position;
     }
     CS_TRY(add_coordinates(reader, corners, count));
-    if (colour_of(given, colour)) CS_TRY(add_coloured(reader, corners, count, colour));
+    if (cs_ply_colour(given, colour)) CS_TRY(add_coloured(reader, corners, count, colour));
     uint32_t material = 0;
     const double number = given->value[CS_PLY_TEXTURE_NUMBER];
-    if (number > 0.0 && number < (double)model->materials.count) material = (uint32_t)number;
+    if (number > 0.0 && number < (double)reader->head.texture_count) material = (uint32_t)number;
     CS_TRY(cs_model_add_polygon(model, corners, count, material, 0, error));
 done:
     return status;
 }
 
 /* A strip: each index makes a triangle with the two before it; -1 begins anew. */
-static clshear_status add_strip(ply_reader *reader, const cs_ply_element *element, size_t item,
+static clshear_status add_strip(cs_ply_reader *reader, const cs_ply_element *element, size_t item,
                                 size_t vertices)
 {
     const cs_corner *corners = reader->corners.items;
@@ -230,7 +115,7 @@ static clshear_status add_strip(ply_reader *reader, const cs_ply_element *elemen
             continue;
         }
         if (corners[i].position >= vertices)
-            return complain(reader, element, item, "it names a vertex that is not there");
+            return cs_ply_complain(reader, element, item, "it names a vertex that is not there");
         if (++length < 3) continue;
         const size_t odd = (length - 3) & 1;
         cs_corner triangle[3] = {corners[i - 2 + odd], corners[i - 1 - odd], corners[i]};
@@ -255,7 +140,7 @@ static int has_role(const cs_ply_element *element, cs_ply_role role)
 }
 
 /* Whether the rest of the file can hold as many items as the head says. */
-static clshear_status check_count(const ply_reader *reader, const cs_ply_element *element)
+static clshear_status check_count(const cs_ply_reader *reader, const cs_ply_element *element)
 {
     size_t least = 0;
     for (size_t p = 0; p < element->property_count; p++) {
@@ -272,7 +157,7 @@ static clshear_status check_count(const ply_reader *reader, const cs_ply_element
                    reader->model->path, element->count, element->name);
 }
 
-static clshear_status read_element(ply_reader *reader, const cs_ply_element *element,
+static clshear_status read_element(cs_ply_reader *reader, const cs_ply_element *element,
                                    size_t *vertices)
 {
     const int is_vertex = strcmp(element->name, "vertex") == 0;
@@ -282,15 +167,14 @@ static clshear_status read_element(ply_reader *reader, const cs_ply_element *ele
     if (element->property_count == 0) return CLSHEAR_OK;
     clshear_status status = check_count(reader, element);
     if (status == CLSHEAR_OK && (is_strip || is_face) && *vertices == 0 && element->count > 0)
-        return cs_fail(reader->error, CLSHEAR_BAD_FILE,
-                       "%s: its faces come before its vertices, or there are no vertices",
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: has faces but no vertices",
                        reader->model->path);
     if (is_vertex && *vertices > 0)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: has vertices twice",
                        reader->model->path);
     for (size_t i = 0; i < element->count && status == CLSHEAR_OK; i++) {
-        scalars given = {0};
-        status = read_item(reader, element, i, &given);
+        cs_ply_scalars given = {0};
+        status = cs_ply_read_item(reader, element, i, &given);
         if (status != CLSHEAR_OK) return status;
         if (is_vertex)
             status = add_vertex(reader, &given);
@@ -303,8 +187,41 @@ static clshear_status read_element(ply_reader *reader, const cs_ply_element *ele
     return status;
 }
 
+/* Goes past an element whose faces wait for the vertices behind it. */
+static clshear_status pass_element(cs_ply_reader *reader, const cs_ply_element *element)
+{
+    clshear_status status = check_count(reader, element);
+    for (size_t i = 0; i < element->count && status == CLSHEAR_OK; i++) {
+        cs_ply_scalars given = {0};
+        status = cs_ply_read_item(reader, element, i, &given);
+    }
+    return status;
+}
+
+/* Reads what lies before the vertices after them. */
+static clshear_status read_in_turn(cs_ply_reader *reader)
+{
+    clshear_status status = CLSHEAR_OK;
+    const char *starts[CS_PLY_ELEMENTS];
+    const cs_ply_element *elements = reader->head.elements;
+    size_t vertices = 0, before = 0;
+    while (before < reader->head.element_count && strcmp(elements[before].name, "vertex") != 0)
+        before++;
+    for (size_t i = 0; i < reader->head.element_count; i++) {
+        starts[i] = reader->cursor.at;
+        status = i < before ? pass_element(reader, &elements[i])
+                            : read_element(reader, &elements[i], &vertices);
+        if (status != CLSHEAR_OK) return status;
+    }
+    for (size_t i = 0; i < before && status == CLSHEAR_OK; i++) {
+        reader->cursor.at = starts[i];
+        status = read_element(reader, &elements[i], &vertices);
+    }
+    return status;
+}
+
 /* A material for each texture; one at least. */
-static clshear_status add_materials(ply_reader *reader)
+static clshear_status add_materials(cs_ply_reader *reader)
 {
     clshear_status status = CLSHEAR_OK;
     cs_model *model = reader->model;
@@ -329,7 +246,7 @@ done:
 }
 
 /* Why there is nothing to render, if there is not. */
-static clshear_status check(const ply_reader *reader)
+static clshear_status check(const cs_ply_reader *reader)
 {
     const char *path = reader->model->path;
     if (reader->model->triangles.count > 0) return CLSHEAR_OK;
@@ -344,14 +261,15 @@ static clshear_status check(const ply_reader *reader)
     return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: there are no faces in it", path);
 }
 
-static clshear_status read_elements(ply_reader *reader, cs_bytes *bytes)
+static clshear_status read_elements(cs_ply_reader *reader, cs_bytes *bytes)
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = reader->error;
-    size_t vertices = 0;
+    size_t items = 0;
     CS_TRY(cs_ply_read_head(bytes, reader->model->path, &reader->head, error));
     for (size_t i = 0; i < reader->head.element_count; i++) {
         const cs_ply_element *element = &reader->head.elements[i];
+        items += element->property_count > 0 ? element->count : 0;
         CS_REQUIRE(strcmp(element->name, "vertex") != 0 || element->count == 0 ||
                        (has_role(element, CS_PLY_X) && has_role(element, CS_PLY_Y) &&
                         has_role(element, CS_PLY_Z)),
@@ -361,10 +279,22 @@ static clshear_status read_elements(ply_reader *reader, cs_bytes *bytes)
                    CLSHEAR_BAD_FILE, "%s: its faces have no list called vertex_indices",
                    reader->model->path);
     }
-    reader->cursor = (cs_ply_cursor){bytes->data, bytes->data + reader->head.size,
-                                     bytes->data + bytes->size, reader->head.format};
+    reader->cursor = (cs_ply_cursor){bytes->data,
+                                     bytes->data + reader->head.size,
+                                     bytes->data + bytes->size,
+                                     reader->head.format,
+                                     0,
+                                     NULL};
+    cs_ply_find_rows(&reader->cursor, items);
+    CS_TRY(read_in_turn(reader));
     for (size_t i = 0; i < reader->head.element_count; i++)
-        CS_TRY(read_element(reader, &reader->head.elements[i], &vertices));
+        if (strcmp(reader->head.elements[i].name, "material") == 0)
+            cs_warn(reader->model->log, "%s: its element \"material\" is not supported; left out",
+                    reader->model->path);
+    if (reader->is_longer)
+        cs_warn(reader->model->log,
+                "%s: has lines with more numbers than the head says; those behind are left out",
+                reader->model->path);
     CS_TRY(add_materials(reader));
     CS_TRY(check(reader));
 done:
@@ -373,7 +303,7 @@ done:
 
 clshear_status cs_read_ply(cs_bytes *bytes, cs_model *model, cs_error *error)
 {
-    ply_reader *reader = calloc(1, sizeof *reader);
+    cs_ply_reader *reader = calloc(1, sizeof *reader);
     if (reader == NULL) return cs_model_full(model, error);
     model->up_is_open = 1;
     reader->model = model;

@@ -14,8 +14,8 @@ static const struct {
                   {"uint8", CS_PLY_UINT8},   {"short", CS_PLY_INT16},   {"int16", CS_PLY_INT16},
                   {"ushort", CS_PLY_UINT16}, {"uint16", CS_PLY_UINT16}, {"int", CS_PLY_INT32},
                   {"int32", CS_PLY_INT32},   {"uint", CS_PLY_UINT32},   {"uint32", CS_PLY_UINT32},
-                  {"float", CS_PLY_FLOAT},   {"float32", CS_PLY_FLOAT}, {"double", CS_PLY_DOUBLE},
-                  {"float64", CS_PLY_DOUBLE}};
+                  {"int64", CS_PLY_INT64},   {"uint64", CS_PLY_UINT64}, {"float", CS_PLY_FLOAT},
+                  {"float32", CS_PLY_FLOAT}, {"double", CS_PLY_DOUBLE}, {"float64", CS_PLY_DOUBLE}};
 
 static const struct {
     const char *name;
@@ -33,6 +33,16 @@ static const struct {
     {"v", CS_PLY_T},
     {"texture_u", CS_PLY_S},
     {"texture_v", CS_PLY_T},
+    {"texture_s", CS_PLY_S},
+    {"texture_t", CS_PLY_T},
+    {"tx", CS_PLY_S},
+    {"ty", CS_PLY_T},
+    {"s0", CS_PLY_S},
+    {"t0", CS_PLY_T},
+    {"u0", CS_PLY_S},
+    {"v0", CS_PLY_T},
+    {"texcoord_u", CS_PLY_S},
+    {"texcoord_v", CS_PLY_T},
     {"red", CS_PLY_RED},
     {"green", CS_PLY_GREEN},
     {"blue", CS_PLY_BLUE},
@@ -60,7 +70,8 @@ static cs_ply_role role_called(const char *name, int is_list)
 {
     for (size_t i = 0; i < sizeof role_names / sizeof *role_names; i++) {
         const int for_list = role_names[i].role >= CS_PLY_SCALARS;
-        if (for_list == is_list && strcmp(name, role_names[i].name) == 0) return role_names[i].role;
+        if (for_list == is_list && strcasecmp(name, role_names[i].name) == 0)
+            return role_names[i].role;
     }
     return CS_PLY_NO_ROLE;
 }
@@ -100,7 +111,7 @@ static const char *read_property(cs_ply_head *head, char *at)
     if (head->element_count == 0) return "a property comes before any element";
     cs_ply_element *element = &head->elements[head->element_count - 1];
     if (element->property_count == CS_PLY_PROPERTIES)
-        return "an element has more than 64 properties";
+        return "an element has more than 256 properties";
     if (is_list) {
         property.count_type = type_called(cs_next_word(&at));
         type = cs_next_word(&at);
@@ -171,7 +182,7 @@ clshear_status cs_ply_read_head(const cs_bytes *bytes, const char *path, cs_ply_
     return cs_fail(error, CLSHEAR_BAD_FILE, "%s: the file ends within its head; it was cut", path);
 }
 
-static const size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+static const size_t sizes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
 
 size_t cs_ply_least_size(cs_ply_format format, cs_ply_type type)
 {
@@ -189,12 +200,47 @@ double cs_ply_most(cs_ply_type type)
     return type == CS_PLY_UINT16 ? 65535.0 : 255.0;
 }
 
+static const char *skip_blanks(const char *at, const char *end)
+{
+    while (at != end && (unsigned char)*at <= ' ')
+        at++;
+    return at;
+}
+
+void cs_ply_find_rows(cs_ply_cursor *cursor, size_t items)
+{
+    size_t rows = 0;
+    if (cursor->format != CS_PLY_ASCII) return;
+    for (const char *at = skip_blanks(cursor->at, cursor->end); at != cursor->end; rows++) {
+        line_end(at, cursor->end, &at);
+        at = skip_blanks(at, cursor->end);
+    }
+    cursor->in_rows = rows == items;
+}
+
+void cs_ply_begin_row(cs_ply_cursor *cursor)
+{
+    const char *next;
+    if (!cursor->in_rows) return;
+    cursor->at = skip_blanks(cursor->at, cursor->end);
+    cursor->row = line_end(cursor->at, cursor->end, &next);
+}
+
+int cs_ply_end_row(cs_ply_cursor *cursor)
+{
+    if (!cursor->in_rows) return 0;
+    const int is_left = skip_blanks(cursor->at, cursor->row) != cursor->row;
+    cursor->at = cursor->row;
+    cursor->row = NULL;
+    return is_left;
+}
+
 static int next_text(cs_ply_cursor *cursor, double *value)
 {
-    while (cursor->at != cursor->end && (unsigned char)*cursor->at <= ' ')
-        cursor->at++;
-    const char *after = cs_parse_number(cursor->at, cursor->end, value);
-    if (after == cursor->at || (after != cursor->end && (unsigned char)*after > ' ')) return 0;
+    const char *end = cursor->row != NULL ? cursor->row : cursor->end;
+    cursor->at = skip_blanks(cursor->at, end);
+    const char *after = cs_parse_number(cursor->at, end, value);
+    if (after == cursor->at || (after != end && (unsigned char)*after > ' ')) return 0;
     cursor->at = after;
     return 1;
 }
@@ -222,6 +268,12 @@ int cs_ply_next(cs_ply_cursor *cursor, cs_ply_type type, double *value)
         break;
     case CS_PLY_INT32:
         *value = (double)(int32_t)word;
+        break;
+    case CS_PLY_INT64:
+        *value = (double)(int64_t)bits;
+        break;
+    case CS_PLY_UINT64:
+        *value = (double)bits;
         break;
     case CS_PLY_FLOAT:
         *value = (double)single;

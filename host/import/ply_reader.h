@@ -7,7 +7,7 @@
 
 enum {
     CS_PLY_ELEMENTS = 16,
-    CS_PLY_PROPERTIES = 64, /* of an element */
+    CS_PLY_PROPERTIES = 256, /* of an element */
     CS_PLY_TEXTURES = 16
 };
 
@@ -24,6 +24,8 @@ typedef enum cs_ply_type {
     CS_PLY_UINT16,
     CS_PLY_INT32,
     CS_PLY_UINT32,
+    CS_PLY_INT64,
+    CS_PLY_UINT64,
     CS_PLY_FLOAT,
     CS_PLY_DOUBLE,
     CS_PLY_NO_TYPE
@@ -82,10 +84,21 @@ typedef struct cs_ply_cursor {
     const char *at;
     const char *end;
     cs_ply_format format;
+    int in_rows;     /* text of which each item has a line of its own */
+    const char *row; /* the end of that line; NULL: not in one */
 } cs_ply_cursor;
 
 /* Reads the next number; 0 at the end of the file, or where there is no number. */
 int cs_ply_next(cs_ply_cursor *cursor, cs_ply_type type, double *value);
+
+/* Finds out whether the numbers are text with a line for each of `items` items, so that a line with
+ * too many numbers or too few is seen. */
+void cs_ply_find_rows(cs_ply_cursor *cursor, size_t items);
+
+/* Go to the line of the next item, and behind it, where there are such lines; the second returns
+ * whether numbers were left in it. */
+void cs_ply_begin_row(cs_ply_cursor *cursor);
+int cs_ply_end_row(cs_ply_cursor *cursor);
 
 /* Bytes that a number takes in the file, at least. */
 size_t cs_ply_least_size(cs_ply_format format, cs_ply_type type);

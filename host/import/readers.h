@@ -9,12 +9,14 @@
 clshear_status cs_read_obj(cs_bytes *bytes, cs_model *model, cs_error *error);
 clshear_status cs_read_ply(cs_bytes *bytes, cs_model *model, cs_error *error);
 clshear_status cs_read_stl(cs_bytes *bytes, cs_model *model, cs_error *error);
+clshear_status cs_read_off(cs_bytes *bytes, cs_model *model, cs_error *error);
 clshear_status cs_read_gltf(cs_bytes *bytes, cs_model *model, cs_error *error);
 
 /* Whether a file is one of these, by its first bytes and its name. */
 int cs_is_obj(const cs_bytes *bytes, const char *path);
 int cs_is_ply(const cs_bytes *bytes, const char *path);
 int cs_is_stl(const cs_bytes *bytes, const char *path);
+int cs_is_off(const cs_bytes *bytes, const char *path);
 int cs_is_gltf(const cs_bytes *bytes, const char *path);
 
 /* Whether a path ends in ".obj" or the like, in any case. */

@@ -48,13 +48,16 @@ static int has_binary_size(const cs_bytes *bytes)
            bytes->size == HEAD + (size_t)FACET * word_at(bytes->data + HEAD - 4);
 }
 
-/* Whether it begins with "solid" and goes on as text. */
+/* Whether it begins with "solid", or has a facet soon, and goes on as text. */
 static int is_text(const cs_bytes *bytes)
 {
-    if (!begins_with_solid(bytes) || has_binary_size(bytes)) return 0;
-    for (size_t i = 0; i < bytes->size && i < 512; i++)
+    int has_facet = 0;
+    if (has_binary_size(bytes)) return 0;
+    for (size_t i = 0; i < bytes->size && i < 512; i++) {
         if (bytes->data[i] == '\0') return 0;
-    return 1;
+        has_facet |= bytes->size - i >= 5 && strncasecmp(bytes->data + i, "facet", 5) == 0;
+    }
+    return has_facet || begins_with_solid(bytes);
 }
 
 int cs_is_stl(const cs_bytes *bytes, const char *path)
@@ -120,6 +123,15 @@ static clshear_status read_vertex(stl_reader *reader, char **at, size_t *line, c
     return add_corner(reader, position, NO_COLOUR, corner);
 }
 
+/* Goes past the name of a solid, which may hold any word: to the end of its line, or, where the
+ * file has but one line, no further. */
+static void pass_name(char **at)
+{
+    const size_t length = strcspn(*at, "\r\n");
+    if ((*at)[length] != '\0') *at += length;
+}
+
+/* A facet is what lies between "facet" or "loop" and "endloop" or "endfacet": files lack either. */
 static clshear_status read_text(stl_reader *reader, cs_bytes *bytes)
 {
     char *at = bytes->data;
@@ -130,16 +142,17 @@ static clshear_status read_text(stl_reader *reader, cs_bytes *bytes)
     while (status == CLSHEAR_OK) {
         const char *token = next_token(&at, &line);
         if (token == at) break;
-        if (is_word(token, at, "facet")) {
+        if (is_word(token, at, "solid") || is_word(token, at, "endsolid")) {
+            pass_name(&at);
+        } else if (is_word(token, at, "facet") || is_word(token, at, "loop")) {
             inside = 1;
             count = 0;
         } else if (is_word(token, at, "vertex")) {
             if (!inside) continue; /* a word of the solid's name */
             if (count == 3) return complain(reader, line, "a facet has more than three vertices");
             status = read_vertex(reader, &at, &line, &corners[count++]);
-        } else if (is_word(token, at, "endfacet")) {
-            if (!inside || count != 3)
-                return complain(reader, line, "a facet has fewer than three vertices");
+        } else if (inside && (is_word(token, at, "endloop") || is_word(token, at, "endfacet"))) {
+            if (count != 3) return complain(reader, line, "a facet has fewer than three vertices");
             status = cs_model_add_polygon(reader->model, corners, 3, CS_NO_INDEX, 0, reader->error);
             inside = 0;
         }
@@ -192,8 +205,13 @@ static clshear_status read_binary(stl_reader *reader, const cs_bytes *bytes)
     if (bytes->size < HEAD)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE,
                        "%s: is shorter than the head of an STL file; it was cut", path);
-    const size_t facets = word_at(bytes->data + HEAD - 4);
+    size_t facets = word_at(bytes->data + HEAD - 4);
     const size_t room = (bytes->size - HEAD) / FACET;
+    if ((facets == 0 || facets == UINT32_MAX) && room > 0) { /* written before it was known */
+        cs_warn(reader->model->log, "%s: does not say how many triangles it has; %zu fit", path,
+                room);
+        facets = room;
+    }
     if (facets > room)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE,
                        "%s: says that it has %zu triangles, but ends after %zu; it was cut", path,

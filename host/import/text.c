@@ -87,9 +87,12 @@ static clshear_status from_utf16(cs_bytes *bytes, int big, const char *path, cs_
 
 clshear_status cs_bytes_to_utf8(cs_bytes *bytes, const char *path, cs_error *error)
 {
-    if (bytes->size >= 3 && memcmp(bytes->data, "\xef\xbb\xbf", 3) == 0) {
-        bytes->size -= 3;
-        memmove(bytes->data, bytes->data + 3, bytes->size + 1);
+    size_t marks = 0;
+    while (bytes->size >= marks + 3 && memcmp(bytes->data + marks, "\xef\xbb\xbf", 3) == 0)
+        marks += 3;
+    if (marks > 0) {
+        bytes->size -= marks;
+        memmove(bytes->data, bytes->data + marks, bytes->size + 1);
         return CLSHEAR_OK;
     }
     if (bytes->size >= 2 && memcmp(bytes->data, "\xff\xfe", 2) == 0)

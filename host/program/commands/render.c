@@ -43,7 +43,7 @@ const program_command render_command = {
              "       clshear predict [flags]     variance expected from spectra\n"
              "       clshear converge [flags]    variance against samples\n"
              "       clshear merge FILES [flags] shards of a render, put together\n\n"
-             "Render SCENE (OBJ, glTF, PLY, STL) with depth of field. Each command has its own\n"
+             "Render SCENE (OBJ, glTF, PLY, STL, OFF) with depth of field. Each command has its own\n"
              "--help.\n\n"
              "  clshear scenes/cornell.obj --spp 1024 --out img.exr\n",
     .notes = "Words after -- are names, even those that begin with a dash.\n"

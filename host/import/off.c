@@ -1,0 +1,238 @@
+/* OFF, the Object File Format of Geomview, as text. */
+#include <string.h>
+#include <strings.h>
+
+#include "base/number.h"
+#include "import/colour.h"
+#include "import/readers.h"
+
+enum {
+    MOST = 16 /* numbers of a vertex, or behind a face */
+};
+
+typedef struct off_reader {
+    cs_model *model;
+    cs_error *error;
+    cs_lines lines;
+    char *at;                /* in the line; NULL: the next one has to be read */
+    int has_st, has_colours; /* the vertices */
+    int has_normals, has_w;
+    int dimension; /* of the vertices, 3 at least; 0: stands before the counts */
+    size_t vertices, faces;
+    cs_array corners; /* cs_corner, of the current face */
+} off_reader;
+
+/* Goes behind OFF and the letters before it, in whatever order; NULL where there is no such mark.
+ */
+static const char *read_mark(off_reader *reader)
+{
+    const char *at = reader->at;
+    reader->dimension = 3;
+    for (;; at++) {
+        if (strncasecmp(at, "OFF", 3) == 0) return at + 3;
+        if (strncmp(at, "ST", 2) == 0) {
+            reader->has_st = 1;
+            at++;
+        } else if (*at == 'C') {
+            reader->has_colours = 1;
+        } else if (*at == 'N') {
+            reader->has_normals = 1;
+        } else if (*at == '4') {
+            reader->has_w = 1;
+        } else if (*at == 'n') {
+            reader->dimension = 0;
+        } else {
+            break;
+        }
+    }
+    reader->has_st = reader->has_colours = reader->has_normals = reader->has_w = 0;
+    reader->dimension = 3;
+    return NULL;
+}
+
+int cs_is_off(const cs_bytes *bytes, const char *path)
+{
+    (void)bytes;
+    return cs_has_suffix(path, ".off");
+}
+
+static clshear_status complain(const off_reader *reader, const char *what)
+{
+    return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s:%zu: %s", reader->model->path,
+                   reader->lines.number, what);
+}
+
+/* Moves to the next word, over lines and comments; 0 at the end of the file. */
+static int find_word(off_reader *reader)
+{
+    for (;;) {
+        if (reader->at == NULL) reader->at = cs_lines_next(&reader->lines);
+        if (reader->at == NULL) return 0;
+        while (*reader->at != '\0' && (unsigned char)*reader->at <= ' ')
+            reader->at++;
+        if (*reader->at != '\0' && *reader->at != '#' && *reader->at != 0x1a) return 1;
+        reader->at = NULL;
+    }
+}
+
+/* The next number of the line that the reader is in; 0 where there is none. */
+static int next_in_line(off_reader *reader, double *value)
+{
+    if (reader->at == NULL) return 0;
+    char *at = reader->at + strspn(reader->at, " \t\v\f");
+    const char *end = at + strcspn(at, " \t\v\f");
+    const char *after = cs_parse_number(at, end, value);
+    if (after == at || (after != end && *after != '#')) return 0;
+    reader->at = at + (after - at);
+    return 1;
+}
+
+/* The next number of the file. */
+static clshear_status next_number(off_reader *reader, double *value)
+{
+    if (!find_word(reader)) return complain(reader, "the file ends here; it was cut");
+    if (!next_in_line(reader, value)) return complain(reader, "this is not a number");
+    return CLSHEAR_OK;
+}
+
+static clshear_status next_count(off_reader *reader, size_t *count)
+{
+    double value = 0.0;
+    const clshear_status status = next_number(reader, &value);
+    if (status != CLSHEAR_OK) return status;
+    if (!(value >= 0.0 && value <= (double)CS_MODEL_MOST))
+        return complain(reader, "a count must be 0 to 134217727");
+    *count = (size_t)value;
+    return CLSHEAR_OK;
+}
+
+/* The mark, which files leave out or write together with the counts; then the counts, of which that
+ * of edges is not used and may be missing. */
+static clshear_status read_head(off_reader *reader)
+{
+    clshear_status status = CLSHEAR_OK;
+    double edges;
+    size_t dimension = 3;
+    if (!find_word(reader)) return complain(reader, "the file ends here; it was cut");
+    const char *behind = read_mark(reader);
+    if (behind != NULL) reader->at += behind - reader->at;
+    const char *word = reader->at + strspn(reader->at, " \t");
+    if (behind != NULL && strncasecmp(word, "BINARY", 6) == 0)
+        return complain(reader, "binary OFF is not supported; export it as text");
+    if (reader->dimension == 0) {
+        status = next_count(reader, &dimension);
+        reader->dimension = (int)dimension;
+    }
+    if (status == CLSHEAR_OK && (dimension < 3 || dimension > 4))
+        return complain(reader, "vertices must have 3 or 4 coordinates");
+    if (status == CLSHEAR_OK) status = next_count(reader, &reader->vertices);
+    if (status == CLSHEAR_OK) status = next_count(reader, &reader->faces);
+    if (status == CLSHEAR_OK) next_in_line(reader, &edges);
+    return status;
+}
+
+static void take_colour(const double *numbers, float *colour)
+{
+    for (int c = 0; c < 3; c++)
+        colour[c] = cs_colour_value(numbers[c], 1);
+}
+
+/* x y z, w, a normal, a colour, texture coordinates, as far as the mark says. */
+static clshear_status read_vertex(off_reader *reader)
+{
+    cs_model *model = reader->model;
+    double numbers[MOST] = {0};
+    const int places = reader->has_w ? 4 : reader->dimension;
+    const int needed = places + 3 * (reader->has_normals + reader->has_colours);
+    int count = 0;
+    clshear_status status = CLSHEAR_OK;
+    for (; count < needed && status == CLSHEAR_OK; count++)
+        status = next_number(reader, &numbers[count]);
+    if (status != CLSHEAR_OK) return status;
+    while (count < MOST && next_in_line(reader, &numbers[count]))
+        count++;
+    double *position = cs_model_extend(&model->positions, 1);
+    float *normal = cs_model_extend(&model->normals, (size_t)reader->has_normals);
+    float *st = cs_model_extend(&model->textures, (size_t)reader->has_st);
+    if (position == NULL || normal == NULL || st == NULL)
+        return cs_model_full(model, reader->error);
+    const double w = reader->has_w && numbers[3] != 0.0 ? numbers[3] : 1.0;
+    for (int i = 0; i < 3; i++) {
+        position[i] = numbers[i] / w;
+        if (reader->has_normals) normal[i] = (float)numbers[places + i];
+    }
+    for (int i = 0; i < 2 && reader->has_st; i++) /* last of all */
+        st[i] = count >= needed + 2 ? (float)numbers[count - 2 + i] : 0.0f;
+    const int unmarked = !reader->has_st && (count == needed + 3 || count == needed + 4);
+    if (!reader->has_colours && !unmarked) return CLSHEAR_OK; /* OFF with the colours of COFF */
+    float colour[3];
+    take_colour(numbers + needed - (reader->has_colours ? 3 : 0), colour);
+    return cs_model_set_colour(model, model->positions.count - 1, colour, reader->error);
+}
+
+/* The colour behind a face: three or four numbers. One is the number of a colour in a map that is
+ * not in the file. */
+static clshear_status colour_face(off_reader *reader)
+{
+    cs_model *model = reader->model;
+    cs_corner *corners = reader->corners.items;
+    double numbers[MOST];
+    float colour[3];
+    int count = 0;
+    while (count < MOST && next_in_line(reader, &numbers[count]))
+        count++;
+    if (count < 3) return CLSHEAR_OK;
+    take_colour(numbers, colour);
+    for (size_t i = 0; i < reader->corners.count; i++) { /* positions of its own */
+        const size_t place = model->positions.count;
+        double *position = cs_model_extend(&model->positions, 1);
+        if (position == NULL) return cs_model_full(model, reader->error);
+        memcpy(position, ((double(*)[3])model->positions.items)[corners[i].position],
+               3 * sizeof *position);
+        corners[i].position = (uint32_t)place;
+        const clshear_status status = cs_model_set_colour(model, place, colour, reader->error);
+        if (status != CLSHEAR_OK) return status;
+    }
+    return CLSHEAR_OK;
+}
+
+static clshear_status read_face(off_reader *reader)
+{
+    size_t count = 0;
+    double number = 0.0;
+    clshear_status status = next_count(reader, &count);
+    reader->corners.count = 0;
+    for (size_t i = 0; i < count && status == CLSHEAR_OK; i++) {
+        status = next_number(reader, &number);
+        if (status != CLSHEAR_OK) return status;
+        if (!(number >= 0.0 && number < (double)reader->vertices))
+            return complain(reader, "the face names a vertex that is not there");
+        cs_corner *corner = cs_array_extend(&reader->corners, 1);
+        if (corner == NULL) return cs_model_full(reader->model, reader->error);
+        const uint32_t place = (uint32_t)number;
+        *corner = (cs_corner){place, reader->has_normals ? place : CS_NO_INDEX,
+                              reader->has_st ? place : CS_NO_INDEX};
+    }
+    if (status == CLSHEAR_OK) status = colour_face(reader);
+    if (status != CLSHEAR_OK) return status;
+    return cs_model_add_polygon(reader->model, reader->corners.items, reader->corners.count,
+                                CS_NO_INDEX, 0, reader->error);
+}
+
+clshear_status cs_read_off(cs_bytes *bytes, cs_model *model, cs_error *error)
+{
+    off_reader reader = {.model = model, .error = error};
+    reader.corners.item_size = sizeof(cs_corner);
+    model->up_is_open = 1;
+    clshear_status status = cs_bytes_to_utf8(bytes, model->path, error);
+    reader.lines = cs_lines_of(bytes);
+    if (status == CLSHEAR_OK) status = read_head(&reader);
+    for (size_t i = 0; i < reader.vertices && status == CLSHEAR_OK; i++)
+        status = read_vertex(&reader);
+    for (size_t i = 0; i < reader.faces && status == CLSHEAR_OK; i++)
+        status = read_face(&reader);
+    if (status == CLSHEAR_OK && model->triangles.count == 0)
+        status = cs_fail(error, CLSHEAR_BAD_FILE, "%s: there are no faces in it", model->path);
+    cs_array_free(&reader.corners);
+    return status;
+}

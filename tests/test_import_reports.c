@@ -1,0 +1,229 @@
+/* Kinds of scene files on which public reports of other programs dwell: what becomes of each. */
+#include "import_support.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define SQUARE "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
+#define POINTS "-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n"
+#define XYZ "property float x\nproperty float y\nproperty float z\n"
+#define RGB(type) "property " type " red\nproperty " type " green\nproperty " type " blue\n"
+#define RED_POINTS "-1 -1 0 255 0 0\n1 -1 0 255 0 0\n1 1 0 255 0 0\n-1 1 0 255 0 0\n"
+#define PLY(vertex, face, numbers)                                             \
+    "ply\nformat ascii 1.0\nelement vertex 4\n" vertex "element face 1\n" face \
+    "end_header\n" numbers
+#define LIST "property list uchar int vertex_indices\n"
+#define LOOP(a, b, c) "outer loop\nvertex " a "\nvertex " b "\nvertex " c "\nendloop\n"
+#define FACETS                                                                           \
+    "facet normal 0 0 1\n" LOOP("-1 -1 0", "1 -1 0",                                     \
+                                "1 1 0") "endfacet\n"                                    \
+                                         "facet normal 0 0 1\n" LOOP("-1 -1 0", "1 1 0", \
+                                                                     "-1 1 0") "endfacet\n"
+
+/* Files of a square with the area 4, and the colour of its first corner. */
+static const struct {
+    const char *name;
+    const char *text;
+    float colour[3];
+    const char *warning; /* "" for none */
+} squares[] = {
+    {"faces-first.ply",
+     "ply\nformat ascii 1.0\nelement face 1\n" LIST "element vertex 4\n" XYZ
+     "end_header\n4 0 1 2 3\n" POINTS,
+     {0.5f, 0.5f, 0.5f},
+     ""},
+    {"longer-lines.ply",
+     PLY(XYZ, LIST, "-1 -1 0 7 7\n1 -1 0 7 7\n1 1 0 7 7\n-1 1 0 7 7\n4 0 1 2 3\n"),
+     {0.5f, 0.5f, 0.5f},
+     "lines with more numbers than the head says"},
+    {"capitals.ply",
+     PLY("property float X\nproperty float Y\nproperty float Z\nproperty uchar Red\n"
+         "property uchar Green\nproperty uchar Blue\n",
+         LIST, RED_POINTS "4 0 1 2 3\n"),
+     {1, 0, 0},
+     ""},
+    {"floats-to-255.ply", PLY(XYZ RGB("float"), LIST, RED_POINTS "4 0 1 2 3\n"), {1, 0, 0}, ""},
+    {"int64.ply",
+     PLY(XYZ "property int64 id\n", LIST, "-1 -1 0 1\n1 -1 0 2\n1 1 0 3\n-1 1 0 4\n4 0 1 2 3\n"),
+     {0.5f, 0.5f, 0.5f},
+     ""},
+    {"material.ply",
+     "ply\nformat ascii 1.0\nelement vertex 4\n" XYZ "element face 1\n" LIST
+     "element material 1\nproperty uchar diffuse_red\nend_header\n" POINTS "4 0 1 2 3\n255\n",
+     {0.5f, 0.5f, 0.5f},
+     "\"material\" is not supported"},
+    {"comment.stl", "# by hand\nsolid a\n" FACETS "endsolid\n", {0.5f, 0.5f, 0.5f}, ""},
+    {"words.stl", "solid facet vertex\n" FACETS "endsolid vertex\n", {0.5f, 0.5f, 0.5f}, ""},
+    {"line.stl",
+     "solid a facet normal 0 0 1 outer loop vertex -1 -1 0 vertex 3 -1 0 vertex -1 1 0 endloop "
+     "endfacet endsolid a",
+     {0.5f, 0.5f, 0.5f},
+     ""},
+    {"loops.stl",
+     "solid a\n" LOOP("-1 -1 0", "1 -1 0", "1 1 0") LOOP("-1 -1 0", "1 1 0", "-1 1 0"),
+     {0.5f, 0.5f, 0.5f},
+     ""},
+    {"plain.off", "OFF\n# c\n\n4 1 0 # counts\n" POINTS "4 0 1 2 3 # face", {0.5f, 0.5f, 0.5f}, ""},
+    {"comment.off", "# c\nOFF\n4 1\n" POINTS "4 0 1 2 3\n", {0.5f, 0.5f, 0.5f}, ""},
+    {"glued.off", "OFF4 1 0\n" POINTS "4 0 1 2 3\n", {0.5f, 0.5f, 0.5f}, ""},
+    {"unmarked.off", "4 1 0\n" POINTS "4 0 1 2 3\n", {0.5f, 0.5f, 0.5f}, ""},
+    {"faces.off", "OFF 4 1 0\n" POINTS "4 0 1 2 3 255 0 0\n", {1, 0, 0}, ""},
+    {"share.off", "OFF 4 1 0\n" POINTS "4 0 1 2 3 0 1.0 0 0.5\n", {0, 1, 0}, ""},
+    {"vertices.off", "COFF\n4 1 0\n" RED_POINTS "4 0 1 2 3\n", {1, 0, 0}, ""},
+    {"no-c.off", "OFF\n4 1 0\n" RED_POINTS "4 0 1 2 3\n", {1, 0, 0}, ""},
+    {"all.off",
+     "STCNOFF\n4 1 0\n-1 -1 0 0 0 1 0 1 0 1 0 0\n1 -1 0 0 0 1 0 1 0 1 1 0\n"
+     "1 1 0 0 0 1 0 1 0 1 1 1\n-1 1 0 0 0 1 0 1 0 1 0 1\n4 0 1 2 3\n",
+     {0, 1, 0},
+     ""},
+    {"four.off",
+     "4OFF\n4 1 0\n-2 -2 0 2\n1 -1 0 1\n1 1 0 1\n-1 1 0 1\n4 0 1 2 3\n",
+     {0.5f, 0.5f, 0.5f},
+     ""},
+    {"bytes.obj",
+     "v -1 -1 0 255 0 0\nv 1 -1 0 1 1 1\nv 1 1 0 9 9 9\nv -1 1 0 0 0 0\nf 1 2 3 4\n",
+     {1, 0, 0},
+     ""},
+    {"paint.obj",
+     SQUARE "#MRGB ffff0000ff00ff00\n#MRGB ff0000ffff000000\nf 1 2 3 4\n",
+     {1, 0, 0},
+     ""},
+    {"absent.obj", SQUARE "f 1/0/0 2/0/0 3/0/0 4/0/0\n", {0.5f, 0.5f, 0.5f}, ""},
+    {"windows.obj", SQUARE "v -1.#IND 1.#QNAN 0\nf 1 2 3 4\n", {0.5f, 0.5f, 0.5f}, ""},
+    {"capitals.obj", "V -1 -1 0\nV 1 -1 0\nV 1 1 0\nV -1 1 0\nF 1 2 3 4\n", {0.5f, 0.5f, 0.5f}, ""},
+    {"namesake.obj", SQUARE "usemtl r\nf 1 2 3 4\n", {1, 0, 0}, ""},
+    {"comment.obj", "mtllib namesake.mtl\n" SQUARE "usemtl r # red\nf 1 2 3 4\n", {1, 0, 0}, ""},
+    {"marks.obj",
+     "\xef\xbb\xbf\xef\xbb\xbfmtllib namesake.mtl\n" SQUARE "usemtl r\nf 1 2 3 4\n",
+     {1, 0, 0},
+     ""},
+    {"call.obj",
+     SQUARE "f 1 2 3 4\ncall more.obj\n",
+     {0.5f, 0.5f, 0.5f},
+     "call.obj:6: \"call\" is not supported"},
+};
+
+static void squares_of_all_kinds(void **state)
+{
+    (void)state;
+    test_file("namesake.mtl", "newmtl r\nKd 1 0 0\n");
+    for (size_t i = 0; i < sizeof squares / sizeof *squares; i++) {
+        cs_scene scene = import_text(squares[i].name, squares[i].text);
+        const float *colour = import_material(&scene, 0)->diffuse;
+        if (colour[0] == 1.0f && colour[1] == 1.0f) colour = import_colour(&scene, 0, 0);
+        expect_close(colour, squares[i].colour[0], squares[i].colour[1], squares[i].colour[2]);
+        assert_true(fabs(import_area(&scene) - 4.0) < 1e-6);
+        if (squares[i].warning[0] == '\0')
+            assert_string_equal(import_warnings, "");
+        else
+            import_warned(squares[i].warning);
+        cs_scene_free(&scene);
+    }
+}
+
+static const struct {
+    const char *name;
+    const char *text;
+    const char *words;
+} refused[] = {
+    {"short.ply", PLY(XYZ "property float q\n", LIST, POINTS "4 0 1 2 3\n"),
+     "short.ply:11: vertex 0 of 4: its line has fewer numbers than the head says"},
+    {"none.ply", "ply\nformat ascii 1.0\nelement face 1\n" LIST "end_header\n3 0 1 2\n",
+     "has faces but no vertices"},
+    {"two.stl", "solid a\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n",
+     "two.stl:6: a facet has fewer than three vertices"},
+    {"binary.off", "OFF BINARY\n\1\2", "binary OFF is not supported; export it as text"},
+    {"range.off", "OFF\n4 1 0\n" POINTS "3 0 1 4\n",
+     "range.off:7: the face names a vertex that is not there"},
+    {"back.off", "OFF\n4 1 0\n" POINTS "3 0 1 -1\n", "back.off:7:"},
+    {"cut.off", "OFF\n4 3 0\n" POINTS "4 0 1 2 3\n", "cut.off:7: the file ends here"},
+    {"word.off", "OFF\n4 1 0\n0 0 x\n", "word.off:3: this is not a number"},
+    {"points.off", "OFF\n4 0 0\n" POINTS, "there are no faces in it"},
+    {"comma.obj", "v 1,5 2 3\n",
+     "comma.obj:1: a vertex needs three numbers; \"1,5\" is not a number"},
+    {"none.obj", "f 1 2 3\n", "none.obj:1: the face names vertex 1, but there are none"},
+    {"gzip.obj", "\x1f\x8b\x08", "compressed by gzip; unpack it first"},
+    {"zip.obj", "PK\3\4", "is a ZIP archive; unpack it first"},
+    {"pointer.stl", "version https://git-lfs.github.com/spec/v1\n", "run git lfs pull"},
+    {"page.ply", "<!DOCTYPE html>\n", "is a web page"},
+};
+
+static void refusals_name_the_remedy(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
+        import_refused(test_file(refused[i].name, refused[i].text), refused[i].words);
+}
+
+/* Streams leave the count open. */
+static void stl_without_a_count(void **state)
+{
+    (void)state;
+    for (int bits = 0; bits < 2; bits++) {
+        unsigned char bytes[84 + 50] = "stream";
+        const float corners[9] = {0, 0, 0, 4, 0, 0, 0, 2, 0};
+        memset(bytes + 80, bits ? 0xff : 0, 4);
+        memcpy(bytes + 84 + 12, corners, sizeof corners);
+        cs_scene scene = import_load(test_bytes("stream.stl", bytes, sizeof bytes));
+        import_warned("does not say how many triangles it has; 1 fit");
+        assert_true(fabs(import_area(&scene) - 4.0) < 1e-6);
+        cs_scene_free(&scene);
+    }
+}
+
+/* Each face of a PLY file has the texture that its number says. */
+static void textures_of_ply_faces(void **state)
+{
+    (void)state;
+    import_picture("one.ppm");
+    import_picture("two.ppm");
+    cs_scene scene = import_text(
+        "textures.ply",
+        "ply\nformat ascii 1.0\ncomment TextureFile one.ppm\ncomment TextureFile two.ppm\n"
+        "element vertex 4\n" XYZ "property float texture_s\nproperty float texture_t\n"
+        "element face 2\n" LIST "property int texnumber\nend_header\n"
+        "-1 -1 0 0 0\n1 -1 0 1 0\n1 1 0 1 1\n-1 1 0 0 1\n3 0 1 2 1\n3 0 2 3 0\n");
+    assert_int_equal(import_material(&scene, 0)->texture, 1);
+    assert_int_equal(import_material(&scene, 1)->texture, 0);
+    assert_string_equal(import_warnings, "");
+    cs_scene_free(&scene);
+}
+
+static void long_names_of_materials(void **state)
+{
+    char mtl[512], obj[512], name[140];
+    (void)state;
+    memset(name, 'a', 130);
+    name[130] = '\0';
+    snprintf(mtl, sizeof mtl, "newmtl %s1\nKd 1 0 0\nnewmtl %s2\nKd 0 1 0\n", name, name);
+    test_file("long.mtl", mtl);
+    snprintf(obj, sizeof obj,
+             "mtllib long.mtl\n" SQUARE "usemtl %s1\nf 1 2 3\nusemtl %s2\nf 1 3 4\n", name, name);
+    cs_scene scene = import_text("long.obj", obj);
+    expect_close(import_material(&scene, 0)->diffuse, 1, 0, 0);
+    expect_close(import_material(&scene, 1)->diffuse, 0, 1, 0);
+    cs_scene_free(&scene);
+}
+
+/* C1's control characters are letters in UTF-8, and terminals obey them. */
+static void controls_do_not_reach_terminals(void **state)
+{
+    (void)state;
+    cs_scene scene = import_text("controls.obj", "mtllib a\xc2\x9b"
+                                                 "2J\xc3\xa9.mtl\n" SQUARE "f 1 2 3\n");
+    import_warned("material file a??2J\xc3\xa9.mtl not found");
+    cs_scene_free(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(squares_of_all_kinds),
+        cmocka_unit_test(refusals_name_the_remedy),
+        cmocka_unit_test(stl_without_a_count),
+        cmocka_unit_test(textures_of_ply_faces),
+        cmocka_unit_test(long_names_of_materials),
+        cmocka_unit_test(controls_do_not_reach_terminals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
