@@ -1,5 +1,7 @@
 #include "import/import.h"
 
+#include <string.h>
+
 #include "import/build.h"
 #include "import/readers.h"
 #include "import/transfer.h"
@@ -12,6 +14,27 @@ static clshear_status refuse(cs_bytes *bytes, cs_model *model, cs_error *error)
                    "%s: only OBJ, glTF, PLY and STL are read without the program clshear-import, "
                    "which is not there",
                    model->path);
+}
+
+/* What is often found in the place of a scene, by its first bytes; NULL: something else. */
+static const char *found_instead(const cs_bytes *bytes)
+{
+    static const struct {
+        const char *begin;
+        const char *meaning;
+    } table[] = {
+        {"version https://git-lfs", "is a pointer of Git LFS; \"git lfs pull\" fetches the scene"},
+        {"\x1f\x8b", "is compressed by gzip; unpack it"},
+        {"<!DOCTYPE html", "is a web page; download the scene itself"},
+        {"<!doctype html", "is a web page; download the scene itself"},
+        {"<html", "is a web page; download the scene itself"},
+    };
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        const size_t length = strlen(table[i].begin);
+        if (bytes->size >= length && memcmp(bytes->data, table[i].begin, length) == 0)
+            return table[i].meaning;
+    }
+    return NULL;
 }
 
 static cs_other_reader reader_for(const cs_bytes *bytes, const char *path, cs_other_reader other)
@@ -36,6 +59,8 @@ clshear_status cs_import_here(const char *path, const cs_import_options *options
     CS_TRY(cs_bytes_read(path, &bytes, error));
     CS_REQUIRE(bytes.size > 0, CLSHEAR_BAD_FILE, "%s: is empty", path);
     const cs_other_reader reader = reader_for(&bytes, path, other);
+    const char *instead = reader != other ? found_instead(&bytes) : NULL;
+    CS_REQUIRE(instead == NULL, CLSHEAR_BAD_FILE, "%s: %s", path, instead);
     CS_TRY(reader(&bytes, &model, error));
     scene->z_up = model.z_up;
     scene->up_is_open = model.up_is_open;
