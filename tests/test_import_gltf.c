@@ -52,6 +52,12 @@ static void extensions_of_gltf(void **state)
     expect_close(import_material(&scene, 0)->diffuse, 1, 1, 1);
     import_warned("\"m\": not supported, left out: ACME_fur\n");
     cs_scene_free(&scene);
+    import_picture("my four.ppm");
+    scene = import_load(import_gltf_square(
+        ",\"TEXCOORD_0\":1", "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}",
+        "{\"mesh\":0}", ",\"samplers\":[{\"magFilter\":9728}]"));
+    import_warned("not supported, left out: texels with edges");
+    cs_scene_free(&scene);
 }
 
 /* What a file may require, and what it may hold without harm. */
@@ -129,9 +135,10 @@ static void several_cameras_and_lights(void **state)
         "{\"KHR_lights_punctual\":{\"light\":0}}}",
         ",\"cameras\":[{\"name\":\"front\",\"type\":\"perspective\",\"perspective\":{\"yfov\":0.5,"
         "\"znear\":1}}],\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\","
-        "\"color\":[1,0.5,0],\"intensity\":4}]}}"));
+        "\"color\":[1,0.5,0],\"intensity\":4,\"range\":3.40282347e38}]}}"));
     const cs_scene_camera *cameras = scene.cameras.items;
     const cs_light *lights = scene.lights.items;
+    assert_null(strstr(import_warnings, "range"));
     assert_int_equal(scene.cameras.count, 2);
     assert_int_equal(scene.lights.count, 2);
     expect_close(cameras[0].view.eye, 0, 0, 5);

@@ -115,6 +115,10 @@ static void no_number_is_black(void **state)
                         made[0].image.count * made[0].image.item_size);
     cs_environment_free(&made[0]);
     cs_environment_free(&made[1]);
+    texels[1][0] = INFINITY; /* a sun in halves */
+    assert_int_equal(cs_environment_make(texels[1], 4, 1, &made[1], &error), CLSHEAR_OK);
+    assert_true(*(const float *)made[1].image.items == 65504.0f);
+    cs_environment_free(&made[1]);
 }
 
 int main(void)
