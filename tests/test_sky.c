@@ -103,9 +103,10 @@ static void wrong_ones_are_refused(void **state)
 static void no_number_is_black(void **state)
 {
     float texels[2][12] = {{4, 4, 4, 0, 0, 0, 1, 1, 1, 1, 1, 1}};
-    cs_environment made[2] = {{0}};
+    cs_environment made[2];
     cs_error error;
     (void)state;
+    memset(made, 0, sizeof made);
     memcpy(texels[1], texels[0], sizeof texels[0]);
     texels[1][3] = NAN;
     for (int i = 0; i < 2; i++)
