@@ -2,6 +2,8 @@
 #include "material_scenes.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "image/image_io.h"
@@ -160,6 +162,94 @@ static void texels_beyond_halves(void **state)
     cs_scene_free(&scene);
 }
 
+/* Reads a picture as environments are read, and compares what is red in its texels. */
+static void expect_red(const char *path, size_t width, size_t height, const float *red)
+{
+    cs_error error;
+    float *colours = NULL;
+    size_t across = 0, down = 0;
+    if (cs_image_read_colours(path, &colours, &across, &down, &error) != CLSHEAR_OK)
+        fail_msg("%s", error.message);
+    assert_int_equal(across, width);
+    assert_int_equal(down, height);
+    for (size_t i = 0; i < width * height; i++)
+        assert_near(colours[3 * i], red[i], 0);
+    free(colours);
+}
+
+/* Writes an EXR file of one row, `width` texels from `x` on, of a picture of `full` texels. */
+static const char *write_exr(const char *name, int x, int width, int full, size_t channels,
+                             const char *const *names, const float *const *planes)
+{
+    cs_error error;
+    const char *path = test_path(name);
+    const cs_picture picture = {.width = width,
+                                .height = 1,
+                                .x = x,
+                                .full_width = full,
+                                .full_height = 1,
+                                .channel_count = channels,
+                                .names = names,
+                                .planes = planes};
+    if (cs_image_write(path, &picture, &error) != CLSHEAR_OK) fail_msg("%s", error.message);
+    return path;
+}
+
+/* The display window is the picture, whether the data are less or more of it. */
+static void windows_of_exr(void **state)
+{
+    static const char *const names[] = {"R", "G", "B"};
+    static const float data[] = {2, 3, 4};
+    const float *const planes[] = {data, data, data};
+    (void)state;
+    expect_red(write_exr("part.exr", 1, 2, 4, 3, names, planes), 4, 1, (const float[]){0, 2, 3, 0});
+    expect_red(write_exr("more.exr", -1, 3, 1, 3, names, planes), 1, 1, (const float[]){3});
+    cs_scene scene = material_scene_mtl("Kd 1 1 1\nmap_Kd part.exr");
+    expect_texel(&scene, base_of(&scene), 0, 0, 0, 1);
+    cs_scene_free(&scene);
+}
+
+/* Colours are found by their names, those of the picture before those of other layers. */
+static void layers_of_exr(void **state)
+{
+    static const char *const only[] = {"AO.R", "AO.G", "AO.B", "Depth.Z", "R"};
+    static const char *const view[] = {"View.AO.R",       "View.AO.G",       "View.AO.B",
+                                       "View.Combined.R", "View.Combined.G", "View.Combined.B"};
+    static const char *const plain[] = {"Z", "albedo.R", "albedo.G", "albedo.B", "R", "G", "B"};
+    static const float one[] = {1}, two[] = {2};
+    const float *const first[] = {two, two, two, one, one};
+    const float *const last[] = {one, one, one, two, two, two}, *seven[7];
+    (void)state;
+    for (size_t i = 0; i < 7; i++)
+        seven[i] = i < 4 ? one : two;
+    expect_red(write_exr("only.exr", 0, 1, 1, 5, only, first), 1, 1, two);
+    expect_red(write_exr("view.exr", 0, 1, 1, 6, view, last), 1, 1, two);
+    expect_red(write_exr("plain.exr", 0, 1, 1, 7, plain, seven), 1, 1, two);
+}
+
+/* A Radiance file whose head names the axes in another order, or runs along them backwards. */
+static void order_of_radiance(void **state)
+{
+    static const struct {
+        const char *head;
+        float red[4]; /* of the texels 1, 2, 3, 4 in the file */
+    } table[] = {{"-Y 2 +X 2", {1, 2, 3, 4}}, {"-Y 2 -X 2", {2, 1, 4, 3}},
+                 {"+Y 2 -X 2", {4, 3, 2, 1}}, {"+Y 2 +X 2", {3, 4, 1, 2}},
+                 {"+X 2 -Y 2", {1, 3, 2, 4}}, {"+X 2 +Y 2", {2, 4, 1, 3}},
+                 {"-X 2 +Y 2", {4, 2, 3, 1}}, {"-X 2 -Y 2", {3, 1, 4, 2}}};
+    static const unsigned char texels[16] = {128, 128, 128, 129, 128, 128, 128, 130,
+                                             192, 192, 192, 130, 128, 128, 128, 131};
+    unsigned char bytes[80];
+    (void)state;
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        const int head = snprintf((char *)bytes, sizeof bytes,
+                                  "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n%s\n", table[i].head);
+        memcpy(bytes + head, texels, sizeof texels);
+        expect_red(test_bytes("order.hdr", bytes, (size_t)head + sizeof texels), 2, 2,
+                   table[i].red);
+    }
+}
+
 /* Heights that rise by 0.2 a texel to the right and by 0.4 upwards: the normal is -0.2, -0.4, 1. */
 static void heights_become_normals(void **state)
 {
@@ -182,7 +272,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(maps_of_gltf),           cmocka_unit_test(maps_of_mtl),
         cmocka_unit_test(gamma_of_png),           cmocka_unit_test(texels_beyond_halves),
-        cmocka_unit_test(heights_become_normals),
+        cmocka_unit_test(heights_become_normals), cmocka_unit_test(windows_of_exr),
+        cmocka_unit_test(layers_of_exr),          cmocka_unit_test(order_of_radiance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,6 +52,12 @@ static void extensions_of_gltf(void **state)
     expect_close(import_material(&scene, 0)->diffuse, 1, 1, 1);
     import_warned("\"m\": not supported, left out: ACME_fur\n");
     cs_scene_free(&scene);
+    import_picture("my four.ppm");
+    scene = import_load(import_gltf_square(
+        ",\"TEXCOORD_0\":1", "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}",
+        "{\"mesh\":0}", ",\"samplers\":[{\"magFilter\":9728}]"));
+    import_warned("not supported, left out: texels with edges");
+    cs_scene_free(&scene);
 }
 
 /* What a file may require, and what it may hold without harm. */
@@ -129,9 +135,10 @@ static void several_cameras_and_lights(void **state)
         "{\"KHR_lights_punctual\":{\"light\":0}}}",
         ",\"cameras\":[{\"name\":\"front\",\"type\":\"perspective\",\"perspective\":{\"yfov\":0.5,"
         "\"znear\":1}}],\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\","
-        "\"color\":[1,0.5,0],\"intensity\":4}]}}"));
+        "\"color\":[1,0.5,0],\"intensity\":4,\"range\":3.40282347e38}]}}"));
     const cs_scene_camera *cameras = scene.cameras.items;
     const cs_light *lights = scene.lights.items;
+    assert_null(strstr(import_warnings, "range"));
     assert_int_equal(scene.cameras.count, 2);
     assert_int_equal(scene.lights.count, 2);
     expect_close(cameras[0].view.eye, 0, 0, 5);
@@ -149,10 +156,154 @@ static void several_cameras_and_lights(void **state)
     cs_scene_free(&scene);
 }
 
+/* A triangle whose positions are base64, with `more` after its accessor, in its primitive and its
+ * file: keys that come again replace the first. */
+static const char *triangle(const char *accessor, const char *primitive, const char *more)
+{
+    static char text[2048];
+    snprintf(text, sizeof text,
+             "{\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
+             "{\"POSITION\":0}%s}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,"
+             "\"count\":3,\"type\":\"VEC3\"}%s],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},"
+             "{\"buffer\":1,\"byteLength\":3},{\"buffer\":1,\"byteOffset\":1,\"byteLength\":2}],"
+             "\"buffers\":[{\"byteLength\":36,\"uri\":"
+             "\"data:;base64,AACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/\"},"
+             "{\"byteLength\":3,\"uri\":\"data:,%%00%%01%%02\"}]%s}",
+             primitive, accessor, more);
+    return text;
+}
+
+/* Indices whose sparse part replaces the last two of three zeros. */
+static void sparse_indices(void **state)
+{
+    (void)state;
+    for (int is_based = 0; is_based < 2; is_based++) {
+        char accessor[512];
+        snprintf(accessor, sizeof accessor,
+                 ",{%s\"componentType\":5121,\"count\":3,\"type\":\"SCALAR\",\"sparse\":{"
+                 "\"count\":2,\"indices\":{\"bufferView\":2,\"componentType\":5121},"
+                 "\"values\":{\"bufferView\":2}}}",
+                 is_based ? "\"bufferView\":1," : "");
+        cs_scene scene = import_text("sparse.gltf", triangle(accessor, ",\"indices\":1",
+                                                             ",\"asset\":{\"version\":\"2.0\"}"));
+        assert_int_equal(scene.indices.count, 1);
+        expect_close(import_position(&scene, 0, 0), 1, 0, 0);
+        expect_close(import_position(&scene, 0, 2), 0, 0, 1);
+        cs_scene_free(&scene);
+    }
+}
+
+/* What exporters write that the specification does not have, but whose meaning is plain. */
+static void slips_of_exporters(void **state)
+{
+    static const char *const nulls =
+        ",\"material\":null,\"indices\":null,\"mode\":null,\"extensions\":null,\"targets\":null";
+    static const char *const files[] = {"", ",\"asset\":{\"version\":2.0}",
+                                        ",\"asset\":{\"version\":\"2.0\"},\"scene\":null"};
+    (void)state;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        cs_scene scene = import_text("slip.gltf", triangle("", nulls, files[i]));
+        assert_int_equal(scene.indices.count, 1);
+        assert_string_equal(import_warnings, "");
+        cs_scene_free(&scene);
+    }
+    import_refused(test_file("one.gltf", "{\"meshes\":{\"a\":{}}}"), "version 1.0");
+    import_refused(import_gltf_square("", "{}", "{\"mesh\":-1}", ""),
+                   "an index into meshes is no whole number of 0 or more");
+    import_refused(import_gltf_square("", "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{}}}",
+                                      "{\"mesh\":0}", ""),
+                   "an index into textures is missing");
+    cs_scene scene = import_load(import_gltf_square(
+        "", "{}", "{\"mesh\":0,\"children\":[1]},{\"mesh\":0,\"translation\":[9,0,0]}",
+        ",\"scenes\":[{\"nodes\":[1,0,0]}]"));
+    import_warned("nodes[1] is in the scene more than once");
+    import_warned("nodes[0] is in the scene more than once");
+    assert_int_equal(scene.indices.count, 4);
+    cs_scene_free(&scene);
+    scene = import_load(import_gltf_square("", "{}", "{\"mesh\":0}",
+                                           ",\"extensionsUsed\":[\"EXT_lights_image_based\"]"));
+    import_warned("the lights of EXT_lights_image_based are not supported; left out");
+    cs_scene_free(&scene);
+}
+
+/* Bytes that are taken for parts of 255 without being called so; a skin whose vertices have no
+ * weight, and joints that are not there. */
+static void colours_and_skins_of_exporters(void **state)
+{
+    static const char *const bytes =
+        ",{\"bufferView\":0,\"componentType\":5121,\"count\":3,\"type\":\"VEC4\"}"
+        ",{\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"}";
+    (void)state;
+    cs_scene scene = import_text(
+        "bytes.gltf", triangle(bytes, ",\"attributes\":{\"POSITION\":0,\"COLOR_0\":1}", ""));
+    expect_close(import_colour(&scene, 0, 0), 0, 0, 128.0f / 255.0f);
+    cs_scene_free(&scene);
+    scene = import_text("skin.gltf",
+                        triangle(bytes,
+                                 ",\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,\"WEIGHTS_0\":2}",
+                                 ",\"nodes\":[{\"mesh\":0,\"skin\":0,\"translation\":[9,9,9]},"
+                                 "{\"translation\":[0,0,3]}],\"skins\":[{\"joints\":[1]}]"));
+    expect_close(import_position(&scene, 0, 0), 1, 0, 3);
+    cs_scene_free(&scene);
+}
+
+/* Names of images with a scheme or a question, and images that are nowhere. */
+static void names_of_images(void **state)
+{
+    static const char *const map =
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}";
+    char images[512];
+    (void)state;
+    import_picture("four.ppm");
+    const char *const names[] = {"four.ppm?version=3#top", "file://four.ppm"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        snprintf(images, sizeof images, ",\"images\":[{\"uri\":\"%s\"}]", names[i]);
+        cs_scene scene =
+            import_load(import_gltf_square(",\"TEXCOORD_0\":1", map, "{\"mesh\":0}", images));
+        assert_string_equal(import_warnings, "");
+        cs_scene_free(&scene);
+    }
+    cs_scene scene = import_load(import_gltf_square(",\"TEXCOORD_0\":1", map, "{\"mesh\":0}",
+                                                    ",\"images\":[{\"uri\":\"\"}]"));
+    import_warned("texture image 0 is not there; it is mid-grey");
+    cs_scene_free(&scene);
+}
+
+/* A GLB whose JSON begins with a byte order mark, and whose data come behind a chunk that nobody
+ * knows. */
+static void chunks_of_glb(void **state)
+{
+    static const char json[] =
+        "\xef\xbb\xbf{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{"
+        "\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{\"bufferView\":0,"
+        "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0,"
+        "\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"\"}]}";
+    const float positions[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const uint32_t sizes[] = {sizeof json - 1, 4, sizeof positions};
+    const void *const data[] = {json, "data", positions};
+    static const char *const kinds[] = {"JSON", "ODD", "BIN"};
+    unsigned char bytes[512] = {'g', 'l', 'T', 'F', 2};
+    size_t used = 12;
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        memcpy(bytes + used, &sizes[i], 4);
+        snprintf((char *)bytes + used + 4, 5, "%s", kinds[i]);
+        memcpy(bytes + used + 8, data[i], sizes[i]);
+        used += 8 + sizes[i];
+    }
+    cs_scene scene = import_load(test_bytes("odd.glb", bytes, used));
+    expect_close(import_position(&scene, 0, 1), 0, 1, 0);
+    cs_scene_free(&scene);
+}
+
 static void damaged_gltf(void **state)
 {
     (void)state;
     import_refused(test_file("bad.gltf", "{\"asset\":"), "bad.gltf:1:");
+    import_refused(test_file("bad.glb", "version https://git-lfs.github.com/spec/v1\n"),
+                   "git lfs pull");
+    import_refused(test_file("bad.glb", "<html></html>"), "is a web page");
+    import_refused(test_bytes("bad.gltf", "\x1f\x8b\b", 3), "unpack it");
     import_refused(test_file("bad.gltf", "{\"asset\":{\"version\":\"1.0\"}}"), "version 1.0");
     import_refused(test_bytes("bad.glb", "glTF\2\0\0\0\377\0\0\0\0\0\0\0JSON", 20), "it was cut");
     import_refused(import_gltf_square(",\"NORMAL\":99", "{}", "{\"mesh\":0}", ""), "accessors[99]");
@@ -172,10 +323,18 @@ static void damaged_gltf(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(attributes_of_gltf), cmocka_unit_test(extensions_of_gltf),
-        cmocka_unit_test(harmless_gltf),      cmocka_unit_test(mirrored_nodes),
-        cmocka_unit_test(percents_in_data),   cmocka_unit_test(several_cameras_and_lights),
+        cmocka_unit_test(attributes_of_gltf),
+        cmocka_unit_test(extensions_of_gltf),
+        cmocka_unit_test(harmless_gltf),
+        cmocka_unit_test(mirrored_nodes),
+        cmocka_unit_test(percents_in_data),
+        cmocka_unit_test(several_cameras_and_lights),
         cmocka_unit_test(damaged_gltf),
+        cmocka_unit_test(sparse_indices),
+        cmocka_unit_test(slips_of_exporters),
+        cmocka_unit_test(chunks_of_glb),
+        cmocka_unit_test(colours_and_skins_of_exporters),
+        cmocka_unit_test(names_of_images),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

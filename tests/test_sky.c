@@ -1,7 +1,9 @@
-/* The sky between two colours. */
+/* The sky between two colours, and environments that hold no numbers. */
 #include "support.h"
 
 #include <math.h>
+
+#include "scene/environment.h"
 
 static const char *const sky = "gradient:4,1,0,1,2,3";
 
@@ -97,9 +99,33 @@ static void wrong_ones_are_refused(void **state)
     clshear_scene_free(scene);
 }
 
+/* What is no number shines as little as what is black, and changes nothing else. */
+static void no_number_is_black(void **state)
+{
+    float texels[2][12] = {{4, 4, 4, 0, 0, 0, 1, 1, 1, 1, 1, 1}};
+    cs_environment made[2];
+    cs_error error;
+    (void)state;
+    memset(made, 0, sizeof made);
+    memcpy(texels[1], texels[0], sizeof texels[0]);
+    texels[1][3] = NAN;
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(cs_environment_make(texels[i], 4, 1, &made[i], &error), CLSHEAR_OK);
+    assert_int_equal(made[0].image.count, made[1].image.count);
+    assert_memory_equal(made[0].image.items, made[1].image.items,
+                        made[0].image.count * made[0].image.item_size);
+    cs_environment_free(&made[0]);
+    cs_environment_free(&made[1]);
+    texels[1][0] = INFINITY; /* a sun in halves */
+    assert_int_equal(cs_environment_make(texels[1], 4, 1, &made[1], &error), CLSHEAR_OK);
+    assert_true(*(const float *)made[1].image.items == 65504.0f);
+    cs_environment_free(&made[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_number_is_black),
         cmocka_unit_test(camera_sees_it),
         cmocka_unit_test(lights_a_floor),
         cmocka_unit_test(wrong_ones_are_refused),

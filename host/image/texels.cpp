@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/output_file.h"
+#include "image/layers.h"
 #include "image/oiio.h"
 #include "kernels/vector.h"
 
@@ -35,18 +36,32 @@ ImageBuf linear_of(ImageBuf &&rgba, const std::string &space, float gamma)
     return OIIO::ImageBufAlgo::pow(rgba, OIIO::cspan<float>(powers, 4));
 }
 
-/* Any number of channels as RGBA: grey is repeated, alpha is 1 where there is none. Colours become
- * linear. is_integer: whether the file has integers. */
-ImageBuf linear_rgba(const ImageBuf &source, bool is_integer, Curve curve)
+/* What the numbers of a file are. */
+struct Stored {
+    bool is_integer;
+    bool is_associated; /* alpha has multiplied the colours */
+};
+
+Stored stored_in(const ImageBuf &source)
 {
-    const int channels = source.nchannels();
-    const int alpha = source.spec().alpha_channel;
-    const int grey = channels < (alpha >= 0 ? 4 : 3);
-    const int order[4] = {0, grey ? 0 : 1, grey ? 0 : 2, alpha};
+    const std::string format(source.file_format_name());
+    return {!source.nativespec().format.is_floating_point(),
+            (format == "openexr" || format == "tiff") &&
+                source.spec().get_int_attribute("oiio:UnassociatedAlpha") == 0};
+}
+
+/* Any number of channels as RGBA: grey is repeated, alpha is 1 where there is none. Colours become
+ * linear, and what they are before alpha multiplies them. */
+ImageBuf linear_rgba(const ImageBuf &source, const Stored &stored, Curve curve)
+{
+    int order[4];
+    picture_channels(source.spec(), order);
     const float fill[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     ImageBuf rgba = OIIO::ImageBufAlgo::channels(source, 4, order, fill);
+    rgba.specmod().alpha_channel = 3;
+    if (order[3] >= 0 && stored.is_associated) rgba = OIIO::ImageBufAlgo::unpremult(rgba);
     std::string space = source.spec().get_string_attribute("oiio:ColorSpace");
-    if (space.empty() || curve == Curve::srgb) space = is_integer ? "sRGB" : "linear";
+    if (space.empty() || curve == Curve::srgb) space = stored.is_integer ? "sRGB" : "linear";
     if (curve == Curve::none) return rgba;
     return linear_of(std::move(rgba), space, source.spec().get_float_attribute("oiio:Gamma", 2.2f));
 }
@@ -77,23 +92,47 @@ const char *extension_for(const void *memory, size_t size)
     return "png";
 }
 
-/* Colours as they are before alpha multiplies them. */
-ImageBuf without_alpha(ImageBuf &&source)
-{
-    const ImageSpec &spec = source.spec();
-    const std::string format(source.file_format_name());
-    const bool associated = format == "openexr" || format == "tiff";
-    if (spec.alpha_channel < 0 || !associated ||
-        spec.get_int_attribute("oiio:UnassociatedAlpha") != 0)
-        return std::move(source);
-    return OIIO::ImageBufAlgo::unpremult(source);
-}
-
 /* The largest half. Brighter texels would be infinite, and black times them no number. */
 constexpr float most_light = 65504.0f;
 
 /* Texels in one image: more are a damaged head rather than a picture. */
 constexpr uint64_t most_texels = uint64_t(1) << 28;
+
+/* Whether an image has texels, and not too many of them. */
+clshear_status check_size(const char *label, int width, int height, cs_error *error)
+{
+    if (width > 0 && height > 0 &&
+        static_cast<uint64_t>(width) <= most_texels / static_cast<uint64_t>(height))
+        return CLSHEAR_OK;
+    return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %d x %d texels: must be 1 to 2^28", label, width,
+                   height);
+}
+
+/* Puts the rows of a Radiance file, and their texels, in the usual order. Its head begins with the
+ * sign and the name of the axis that the rows follow, then those of the texels in a row, which
+ * OpenImageIO counts as orientations 1 to 8: -Y+X, -Y-X, +Y-X, +Y+X, +X-Y, +X+Y, -X+Y, -X-Y. */
+ImageBuf upright(ImageBuf &&source)
+{
+    const int order = source.orientation();
+    ImageBuf rows = order > 4 ? OIIO::ImageBufAlgo::transpose(source) : std::move(source);
+    if (order == 2 || order == 8) return OIIO::ImageBufAlgo::flop(rows);
+    if (order == 3 || order == 7) return OIIO::ImageBufAlgo::rotate180(rows);
+    if (order == 4 || order == 6) return OIIO::ImageBufAlgo::flip(rows);
+    return rows;
+}
+
+/* The picture as it is meant to be seen. That of an EXR file is its display window: the data may be
+ * a part of it, outside which all channels are 0, or go beyond it. The head of a Radiance file says
+ * in which order its rows and columns come. In other files the orientation says how a camera was
+ * held, and texture coordinates are those of the texels. */
+ImageBuf displayed(ImageBuf &&source)
+{
+    const ImageSpec &spec = source.spec();
+    const std::string format(source.file_format_name());
+    if (format == "openexr" && !(spec.roi() == spec.roi_full()))
+        return OIIO::ImageBufAlgo::cut(source, spec.roi_full());
+    return format == "hdr" ? upright(std::move(source)) : std::move(source);
+}
 
 /* An image as RGBA, its colours linear. */
 clshear_status read_rgba(const Source &from, Curve curve, ImageBuf &rgba, cs_error *error)
@@ -111,20 +150,22 @@ clshear_status read_rgba(const Source &from, Curve curve, ImageBuf &rgba, cs_err
     OIIO::Filesystem::IOMemReader reader(const_cast<void *>(from.memory), from.size);
     ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
-    ImageBuf source(path, 0, 0, nullptr, &config, from.memory != nullptr ? &reader : nullptr);
+    OIIO::Filesystem::IOProxy *memory = from.memory != nullptr ? &reader : nullptr;
+    ImageBuf source(path, 0, 0, nullptr, &config, memory);
     if (!source.init_spec(path, 0, 0))
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
                        reason_of(source, path).c_str());
-    const uint64_t width = static_cast<uint64_t>(source.spec().width);
-    const uint64_t height = static_cast<uint64_t>(source.spec().height);
-    if (width == 0 || height == 0 || width > most_texels / height)
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %d x %d texels: must be 1 to 2^28", from.label,
-                       source.spec().width, source.spec().height);
-    if (!source.read(0, 0, true, TypeDesc::FLOAT))
+    const int part = picture_part(source, path, &config, memory);
+    const ImageSpec &spec = source.spec();
+    clshear_status status = check_size(from.label, spec.width, spec.height, error);
+    if (status == CLSHEAR_OK)
+        status = check_size(from.label, spec.full_width, spec.full_height, error);
+    if (status != CLSHEAR_OK) return status;
+    if (!source.read(part, 0, true, TypeDesc::FLOAT))
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
                        reason_of(source, path).c_str());
-    const bool is_integer = !source.nativespec().format.is_floating_point();
-    rgba = linear_rgba(without_alpha(std::move(source)), is_integer, curve);
+    const Stored stored = stored_in(source);
+    rgba = linear_rgba(displayed(std::move(source)), stored, curve);
     if (rgba.has_error())
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
                        first_line(rgba.geterror()).c_str());

@@ -1,4 +1,5 @@
 /* Lights and cameras of a model. */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -36,7 +37,7 @@ static clshear_status build_light(const cs_model *model, const cs_model_light *s
 {
     clshear_light light = {.struct_size = sizeof light, .kind = CLSHEAR_LIGHT_POINT};
     if (source->kind == CS_MODEL_DIRECTIONAL) light.kind = CLSHEAR_LIGHT_DIRECTIONAL;
-    if (source->range > 0.0f)
+    if (source->range > 0.0f && source->range < FLT_MAX) /* which some write for none */
         cs_warn(model->log, "%s: the range of light \"%s\" is not used: it shines on", model->path,
                 source->name);
     for (int i = 0; i < 3; i++) {

@@ -38,8 +38,12 @@ json_t *gltf_at(const gltf_reader *reader, const char *name, long long index)
     const json_t *array = json_object_get(reader->root, name);
     json_t *item = index >= 0 ? json_array_get(array, (size_t)index) : NULL;
     if (json_is_object(item)) return item;
-    cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: %s[%lld] is asked for, but there are %zu",
-            reader->model->path, name, index, json_array_size(array));
+    if (index < 0)
+        cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: an index into %s %s", reader->model->path,
+                name, index == -1 ? "is missing" : "is no whole number of 0 or more");
+    else
+        cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: %s[%lld] is asked for, but there are %zu",
+                reader->model->path, name, index, json_array_size(array));
     return NULL;
 }
 
@@ -57,7 +61,7 @@ double gltf_number(const json_t *object, const char *key, double fallback)
 long long gltf_index(const json_t *object, const char *key)
 {
     const json_t *value = json_object_get(object, key);
-    if (value == NULL) return -1;
+    if (value == NULL || json_is_null(value)) return -1;
     const double number = json_is_number(value) ? json_number_value(value) : -2.0;
     if (!(number >= 0.0 && number < 9e15)) return -2;
     return (long long)number;
@@ -90,7 +94,8 @@ void gltf_floats(const json_t *object, const char *key, float *numbers, size_t c
 
 json_t *gltf_extension(const json_t *object, const char *name)
 {
-    return json_object_get(json_object_get(object, "extensions"), name);
+    json_t *extension = json_object_get(json_object_get(object, "extensions"), name);
+    return json_is_object(extension) ? extension : NULL;
 }
 
 /* ----- Container ----- */
@@ -100,6 +105,25 @@ static uint32_t word_at(const char *at)
     const unsigned char *byte = (const unsigned char *)at;
     return (uint32_t)byte[0] | (uint32_t)byte[1] << 8 | (uint32_t)byte[2] << 16 |
            (uint32_t)byte[3] << 24;
+}
+
+/* Finds the binary chunk behind the JSON; others are passed over. */
+static clshear_status find_chunk(gltf_reader *reader, const char *at, const char *end)
+{
+    while (end - at >= 8) {
+        const size_t size = word_at(at), left = (size_t)(end - at) - 8;
+        if (memcmp(at + 4, "BIN", 4) == 0) {
+            if (size > left)
+                return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: its binary chunk was cut",
+                               reader->model->path);
+            reader->chunk = (const unsigned char *)at + 8;
+            reader->chunk_size = size;
+            return CLSHEAR_OK;
+        }
+        if (size > left) return CLSHEAR_OK;
+        at += 8 + size;
+    }
+    return CLSHEAR_OK;
 }
 
 /* Finds the JSON in a GLB, and its binary chunk. */
@@ -123,15 +147,7 @@ static clshear_status open_binary(gltf_reader *reader, const cs_bytes *bytes, co
         return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: its first chunk is no whole JSON",
                        path);
     *text = bytes->data + 20;
-    const size_t next = 20 + *size;
-    if (bytes->size - next < 8) return CLSHEAR_OK;
-    const size_t chunk_size = word_at(bytes->data + next);
-    if (memcmp(bytes->data + next + 4, "BIN", 4) != 0) return CLSHEAR_OK;
-    if (chunk_size > bytes->size - next - 8)
-        return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: its binary chunk was cut", path);
-    reader->chunk = (const unsigned char *)bytes->data + next + 8;
-    reader->chunk_size = chunk_size;
-    return CLSHEAR_OK;
+    return find_chunk(reader, *text + *size, bytes->data + bytes->size);
 }
 
 /* Trailing bytes, whole numbers beyond 64 bits and \u0000 in names are no harm: exporters leave
@@ -140,21 +156,39 @@ enum {
     json_flags = JSON_DISABLE_EOF_CHECK | JSON_DECODE_INT_AS_REAL | JSON_ALLOW_NUL
 };
 
+/* The version, which some exporters write as a number or leave out. glTF 1.0 had no arrays. */
+static void find_version(const json_t *root, char *version, size_t size)
+{
+    const json_t *given = json_object_get(json_object_get(root, "asset"), "version");
+    const int has_arrays = json_is_array(json_object_get(root, "meshes"));
+    if (json_is_number(given))
+        snprintf(version, size, "%.1f", json_number_value(given));
+    else
+        snprintf(version, size, "%.20s",
+                 json_is_string(given) ? json_string_value(given)
+                 : has_arrays          ? "2.0"
+                                       : "1.0");
+}
+
 static clshear_status parse(gltf_reader *reader, const char *text, size_t size)
 {
     const char *path = reader->model->path;
+    char version[32];
     json_error_t wrong;
+    if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) { /* a byte order mark in a GLB */
+        text += 3;
+        size -= 3;
+    }
     reader->root = json_loadb(text, size, json_flags, &wrong);
     if (reader->root == NULL)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s:%d:%d: %s", path, wrong.line,
                        wrong.column, wrong.text);
-    const json_t *asset = json_object_get(reader->root, "asset");
-    const char *version = gltf_text(asset, "version", "1.0");
+    find_version(reader->root, version, sizeof version);
     if (!json_is_object(reader->root))
         return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: is JSON, but no glTF", path);
     if (strncmp(version, "2.", 2) != 0)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE,
-                       "%s: is glTF of version %.20s; version 2.0 is read", path, version);
+                       "%s: is glTF of version %s; version 2.0 is read", path, version);
     return CLSHEAR_OK;
 }
 
@@ -174,6 +208,19 @@ static clshear_status check_required(const gltf_reader *reader)
                            reader->model->path, name != NULL ? name : "?");
     }
     return CLSHEAR_OK;
+}
+
+/* Tells of lights that come by other extensions than the one that is read. */
+static void report_lights(const gltf_reader *reader)
+{
+    const json_t *used = json_object_get(reader->root, "extensionsUsed");
+    for (size_t i = 0; i < json_array_size(used); i++) {
+        const char *name = json_string_value(json_array_get(used, i));
+        if (name != NULL && strstr(name, "_lights_") != NULL &&
+            strcmp(name, "KHR_lights_punctual") != 0)
+            cs_warn(reader->model->log, "%s: the lights of %.80s are not supported; left out",
+                    reader->model->path, name);
+    }
 }
 
 static clshear_status check(const gltf_reader *reader)
@@ -200,6 +247,7 @@ static clshear_status read_all(gltf_reader *reader, cs_bytes *bytes)
     }
     CS_TRY(parse(reader, text, size));
     CS_TRY(check_required(reader));
+    report_lights(reader);
     reader->buffer_count = gltf_count(reader, "buffers");
     reader->buffers = calloc(reader->buffer_count + 1, sizeof *reader->buffers);
     if (reader->buffers == NULL) return cs_model_full(reader->model, error);

@@ -1,5 +1,6 @@
 /* Buffers and accessors of glTF. */
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -59,14 +60,27 @@ static clshear_status decode_data(const gltf_reader *reader, const char *place, 
     return CLSHEAR_OK;
 }
 
+int gltf_find_file(const gltf_reader *reader, const char *uri, char *found)
+{
+    static const char scheme[] = "file://";
+    const char *folders[] = {reader->folder};
+    char plain[CS_FILE_PATH], ignored[CS_FILE_PATH];
+    if (cs_find_file(uri, folders, 1, found)) return 1;
+    const size_t skipped = strncasecmp(uri, scheme, strlen(scheme)) == 0 ? strlen(scheme) : 0;
+    const int length = (int)strcspn(uri + skipped, "?#");
+    snprintf(plain, sizeof plain, "%.*s", length, uri + skipped);
+    if (strcmp(plain, uri) == 0 || !cs_find_file(plain, folders, 1, ignored)) return 0;
+    memcpy(found, ignored, sizeof ignored);
+    return 1;
+}
+
 clshear_status gltf_uri(const gltf_reader *reader, const char *place, long long index,
                         const char *uri, char **owned, size_t *size)
 {
     char found[CS_FILE_PATH];
-    const char *folders[] = {reader->folder};
     cs_bytes bytes = {0};
     if (gltf_is_data(uri)) return decode_data(reader, place, index, uri, owned, size);
-    if (!cs_find_file(uri, folders, 1, found))
+    if (!gltf_find_file(reader, uri, found))
         return gltf_complain(reader, place, index, "its file %.200s is not there", uri);
     const clshear_status status = cs_bytes_read(found, &bytes, reader->error);
     *owned = bytes.data;
@@ -81,7 +95,8 @@ static clshear_status load_buffer(gltf_reader *reader, long long index)
     const json_t *json = gltf_at(reader, "buffers", index);
     if (json == NULL) return CLSHEAR_BAD_FILE;
     gltf_buffer *buffer = &reader->buffers[index];
-    const char *uri = gltf_text(json, "uri", NULL);
+    const char *uri = gltf_text(json, "uri", "");
+    if (*uri == '\0') uri = NULL;
     const long long length = gltf_index(json, "byteLength");
     if (buffer->data != NULL) return CLSHEAR_OK;
     if (gltf_extension(json, "EXT_meshopt_compression") != NULL && uri == NULL)
@@ -188,7 +203,7 @@ static clshear_status open_accessor(gltf_reader *reader, long long index, const 
     if (type < 5120 || type > 5126 || type == 5124 || span->components == 0)
         return gltf_complain(reader, "accessors", index, "its type or componentType is not known");
     span->type = (int)type;
-    const int is_there = json_object_get(*json, "bufferView") != NULL;
+    const int is_there = gltf_index(*json, "bufferView") != -1;
     /* What has no bytes in the file must not fill the memory. */
     if (count < 0 || count > (is_there ? 3LL * CS_MODEL_MOST : 1LL << 24))
         return gltf_complain(reader, "accessors", index, "a count of %lld cannot be", count);
@@ -232,18 +247,33 @@ static double component_at(const unsigned char *at, const gltf_span *span)
 static void copy_item(const gltf_span *span, size_t item, size_t most, float *target)
 {
     for (size_t c = 0; c < span->components && c < most; c++)
-        target[c] = span->data == NULL
-                        ? 0.0f
-                        : (float)component_at(
-                              span->data + item * span->stride + c * size_of(span->type), span);
+        target[c] =
+            (float)component_at(span->data + item * span->stride + c * size_of(span->type), span);
+}
+
+/* What an accessor's numbers become: floats, `most` components each, or indices, which would not be
+ * exact as floats beyond 2^24. */
+typedef struct gltf_target {
+    float *floats;
+    uint32_t *indices; /* NULL: floats */
+    size_t most;
+} gltf_target;
+
+/* Puts item `from` of the span in the place `to`. */
+static void copy_to(const gltf_span *span, size_t from, const gltf_target *target, size_t to)
+{
+    if (target->indices != NULL)
+        target->indices[to] = (uint32_t)component_at(span->data + from * span->stride, span);
+    else
+        copy_item(span, from, target->most, target->floats + to * target->most);
 }
 
 /* Replaces the items that the sparse part names. */
 static clshear_status apply_sparse(gltf_reader *reader, long long index, const json_t *json,
-                                   const gltf_span *span, size_t most, float *values)
+                                   const gltf_span *span, const gltf_target *target)
 {
     const json_t *sparse = json_object_get(json, "sparse");
-    if (sparse == NULL) return CLSHEAR_OK;
+    if (!json_is_object(sparse)) return CLSHEAR_OK;
     const json_t *places = json_object_get(sparse, "indices");
     const long long count = gltf_index(sparse, "count"), type = gltf_index(places, "componentType");
     if (count < 0 || (size_t)count > span->count || (type != 5121 && type != 5123 && type != 5125))
@@ -259,30 +289,40 @@ static clshear_status apply_sparse(gltf_reader *reader, long long index, const j
         if (place >= (double)span->count)
             return gltf_complain(reader, "accessors", index,
                                  "its sparse part names item %.0f of %zu", place, span->count);
-        copy_item(&what, i, most, values + (size_t)place * most);
+        copy_to(&what, i, target, (size_t)place);
     }
     return status;
+}
+
+/* All numbers of an accessor, those of its sparse part in their places. */
+static clshear_status read_items(gltf_reader *reader, long long index, const json_t *json,
+                                 const gltf_span *span, const gltf_target *target)
+{
+    for (size_t i = 0; i < span->count && span->data != NULL; i++)
+        copy_to(span, i, target, i);
+    return apply_sparse(reader, index, json, span, target);
 }
 
 int gltf_has_bytes(const gltf_reader *reader, long long index)
 {
     const json_t *all = json_object_get(reader->root, "accessors");
     const json_t *json = index >= 0 ? json_array_get(all, (size_t)index) : NULL;
-    return json_object_get(json, "bufferView") != NULL || json_object_get(json, "sparse") != NULL;
+    return gltf_index(json, "bufferView") != -1 || json_is_object(json_object_get(json, "sparse"));
 }
 
-clshear_status gltf_read_floats(gltf_reader *reader, long long index, size_t most, float **values,
-                                size_t *count, size_t *given)
+/* is_share: whole numbers are parts of 1, even if the accessor does not say so. */
+static clshear_status read_floats(gltf_reader *reader, long long index, size_t most, int is_share,
+                                  float **values, size_t *count, size_t *given)
 {
     const json_t *json = NULL;
     gltf_span span;
     clshear_status status = open_accessor(reader, index, &json, &span);
     if (status != CLSHEAR_OK) return status;
+    span.normalised |= is_share;
     float *made = calloc(span.count + 1, most * sizeof *made);
     if (made == NULL) return cs_model_full(reader->model, reader->error);
-    for (size_t i = 0; i < span.count; i++)
-        copy_item(&span, i, most, made + i * most);
-    status = apply_sparse(reader, index, json, &span, most, made);
+    const gltf_target target = {.floats = made, .most = most};
+    status = read_items(reader, index, json, &span, &target);
     if (status != CLSHEAR_OK) {
         free(made);
         return status;
@@ -291,6 +331,18 @@ clshear_status gltf_read_floats(gltf_reader *reader, long long index, size_t mos
     *count = span.count;
     *given = span.components;
     return CLSHEAR_OK;
+}
+
+clshear_status gltf_read_floats(gltf_reader *reader, long long index, size_t most, float **values,
+                                size_t *count, size_t *given)
+{
+    return read_floats(reader, index, most, 0, values, count, given);
+}
+
+clshear_status gltf_read_colours(gltf_reader *reader, long long index, float **values,
+                                 size_t *count, size_t *given)
+{
+    return read_floats(reader, index, 4, 1, values, count, given);
 }
 
 clshear_status gltf_read_indices(gltf_reader *reader, long long index, uint32_t **values,
@@ -302,13 +354,15 @@ clshear_status gltf_read_indices(gltf_reader *reader, long long index, uint32_t 
     if (status != CLSHEAR_OK) return status;
     if (span.components != 1 || (span.type != 5121 && span.type != 5123 && span.type != 5125))
         return gltf_complain(reader, "accessors", index, "its type is none of indices");
-    if (json_object_get(json, "sparse") != NULL)
-        return gltf_complain(reader, "accessors", index, "sparse indices are not supported");
     span.normalised = 0;
     uint32_t *made = calloc(span.count + 1, sizeof *made);
     if (made == NULL) return cs_model_full(reader->model, reader->error);
-    for (size_t i = 0; i < span.count && span.data != NULL; i++)
-        made[i] = (uint32_t)component_at(span.data + i * span.stride, &span);
+    const gltf_target target = {.indices = made};
+    status = read_items(reader, index, json, &span, &target);
+    if (status != CLSHEAR_OK) {
+        free(made);
+        return status;
+    }
     *values = made;
     *count = span.count;
     return CLSHEAR_OK;

@@ -78,10 +78,14 @@ clshear_status gltf_skin_bind(gltf_reader *reader, const json_t *attributes, siz
     if (joints != count || weights != count)
         status = gltf_complain(reader, "skins", -1, "%zu joints and %zu weights for %zu vertices",
                                joints, weights, count);
-    for (size_t i = 0; i < 4 * count && status == CLSHEAR_OK; i++)
-        if (!(skin->which[i] >= 0.0f && skin->which[i] < (float)skin->joint_count))
+    for (size_t i = 0; i < 4 * count && status == CLSHEAR_OK; i++) {
+        if (skin->which[i] >= 0.0f && skin->which[i] < (float)skin->joint_count) continue;
+        if (skin->weights[i] == 0.0f)
+            skin->which[i] = 0.0f; /* exporters leave anything there */
+        else
             status = gltf_complain(reader, "skins", -1, "vertex %zu names joint %g of %zu", i / 4,
                                    (double)skin->which[i], skin->joint_count);
+    }
 done:
     if (status != CLSHEAR_OK) unbind(skin);
     return status;
@@ -93,7 +97,11 @@ void gltf_skin_matrix(const gltf_skin *skin, size_t vertex, const double *of_nod
     for (size_t k = 0; skin->which != NULL && k < 4; k++)
         total += (double)skin->weights[4 * vertex + k];
     memcpy(matrix, of_node, 16 * sizeof *matrix);
-    if (skin->which == NULL || !(total > 0.0)) return;
+    if (skin->which == NULL) return;
+    if (!(total > 0.0)) { /* the node is not what moves a skin */
+        memcpy(matrix, skin->joints[(size_t)skin->which[4 * vertex]], 16 * sizeof *matrix);
+        return;
+    }
     memset(matrix, 0, 16 * sizeof *matrix);
     for (size_t k = 0; k < 4; k++) {
         const double weight = (double)skin->weights[4 * vertex + k] / total;

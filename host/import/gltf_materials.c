@@ -13,10 +13,17 @@
 static clshear_status add_file(gltf_reader *reader, const char *uri, int *image)
 {
     char found[CS_FILE_PATH];
-    const char *folders[] = {reader->folder};
-    const int there = cs_find_file(uri, folders, 1, found);
+    const int there = gltf_find_file(reader, uri, found);
     return cs_model_add_image(reader->model, there ? found : "", there ? found : uri, NULL, 0,
                               image, reader->error);
+}
+
+/* An image that is nowhere. */
+static clshear_status add_nothing(gltf_reader *reader, long long index, int *image)
+{
+    char label[32];
+    snprintf(label, sizeof label, "image %lld", index);
+    return cs_model_add_image(reader->model, "", label, NULL, 0, image, reader->error);
 }
 
 /* An image of the file as one of the model. */
@@ -29,13 +36,16 @@ static clshear_status add_image(gltf_reader *reader, long long index, int *image
     const unsigned char *data = NULL;
     size_t size = 0, stride = 0;
     clshear_status status;
+    const long long view = gltf_index(json, "bufferView");
+    if (view == -1 && (uri == NULL || *uri == '\0')) return add_nothing(reader, index, image);
+    if (uri != NULL && *uri == '\0') uri = NULL;
     if (uri != NULL && !gltf_is_data(uri)) return add_file(reader, uri, image);
     snprintf(label, sizeof label, "embedded image %lld", index);
     if (uri != NULL) {
         status = gltf_uri(reader, "images", index, uri, &owned, &size);
         data = (const unsigned char *)owned;
     } else {
-        status = gltf_view(reader, gltf_index(json, "bufferView"), &data, &size, &stride);
+        status = gltf_view(reader, view, &data, &size, &stride);
     }
     if (status == CLSHEAR_OK)
         status = cs_model_add_image(reader->model, "", label, data, size, image, reader->error);
@@ -100,6 +110,7 @@ static clshear_status read_map(gltf_reader *reader, const json_t *parent, const 
         if (sampler == NULL) return CLSHEAR_BAD_FILE;
         map->wrap[0] = wrap_of(sampler, "wrapS");
         map->wrap[1] = wrap_of(sampler, "wrapT");
+        map->is_blocky = gltf_index(sampler, "magFilter") == 9728;
     }
     const long long source = source_of(texture);
     if (source >= 0) return add_image(reader, source, &map->image);

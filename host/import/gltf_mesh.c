@@ -130,7 +130,7 @@ static clshear_status add_colours(gltf_primitive *primitive, long long accessor)
     const cs_material_description *material =
         (const cs_material_description *)reader->model->materials.items + primitive->material;
     const int is_opaque = material->alpha_mode == CS_ALPHA_OPAQUE;
-    clshear_status status = gltf_read_floats(reader, accessor, 4, &values, &count, &given);
+    clshear_status status = gltf_read_colours(reader, accessor, &values, &count, &given);
     if (status != CLSHEAR_OK) return status;
     if (count != primitive->count) status = wrong_count(primitive, "colours", count);
     for (size_t i = 0; i < count && status == CLSHEAR_OK; i++) {
@@ -295,12 +295,12 @@ clshear_status gltf_mesh(gltf_reader *reader, const json_t *node, const double *
     gltf_skin skin;
     clshear_status status = gltf_skin_open(reader, node, &skin);
     for (size_t i = 0; i < json_array_size(primitives) && status == CLSHEAR_OK; i++) {
-        gltf_primitive primitive = {.reader = reader,
-                                    .matrix = matrix,
-                                    .json = json_array_get(primitives, i),
-                                    .weights = weights != NULL ? weights
-                                                               : json_object_get(json, "weights"),
-                                    .skin = &skin};
+        gltf_primitive primitive = {
+            .reader = reader,
+            .matrix = matrix,
+            .json = json_array_get(primitives, i),
+            .weights = json_is_array(weights) ? weights : json_object_get(json, "weights"),
+            .skin = &skin};
         snprintf(primitive.place, sizeof primitive.place, "meshes[%lld].primitives[%zu]", index, i);
         status = add_primitive(&primitive, primitive.json);
     }

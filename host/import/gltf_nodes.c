@@ -11,6 +11,7 @@ typedef struct gltf_visit {
     long long node;
     double matrix[16]; /* columns */
     int is_hidden;     /* its mesh and lights, and those below it */
+    int is_root;       /* the scene names it */
 } gltf_visit;
 
 static void identity(double *m)
@@ -35,7 +36,7 @@ static void local_matrix(const json_t *node, double *m)
 {
     double t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
     identity(m);
-    if (json_object_get(node, "matrix") != NULL) {
+    if (json_is_array(json_object_get(node, "matrix"))) {
         gltf_numbers(node, "matrix", m, 16);
         return;
     }
@@ -165,19 +166,35 @@ static clshear_status add_light(gltf_reader *reader, long long index, const json
 
 /* ----- The walk ----- */
 
-static clshear_status push(gltf_reader *reader, cs_array *waiting, const json_t *list,
-                           const double *matrix, int is_hidden)
+static clshear_status push(gltf_reader *reader, cs_array *waiting, const gltf_visit *visit)
 {
-    for (size_t i = json_array_size(list); i > 0; i--) { /* the first one comes off first */
-        const json_t *value = json_array_get(list, i - 1);
-        gltf_visit *visit = cs_array_extend(waiting, 1);
-        if (visit == NULL) return cs_model_full(reader->model, reader->error);
-        const double number = json_is_number(value) ? json_number_value(value) : -1.0;
-        visit->node = number >= 0.0 && number < 9e15 ? (long long)number : -1;
-        visit->is_hidden = is_hidden;
-        memcpy(visit->matrix, matrix, sizeof visit->matrix);
-    }
+    gltf_visit *added = cs_array_extend(waiting, 1);
+    if (added == NULL) return cs_model_full(reader->model, reader->error);
+    *added = *visit;
     return CLSHEAR_OK;
+}
+
+/* The node that an element of a list names, -1 if it is no index. */
+static long long node_in(const json_t *list, size_t place)
+{
+    const json_t *value = json_array_get(list, place);
+    const double number = json_is_number(value) ? json_number_value(value) : -1.0;
+    return number >= 0.0 && number < 9e15 ? (long long)number : -1;
+}
+
+/* Lets the children of a node wait. */
+static clshear_status push_children(gltf_reader *reader, cs_array *waiting, const json_t *node,
+                                    const double *matrix, int is_hidden)
+{
+    const json_t *list = json_object_get(node, "children");
+    clshear_status status = CLSHEAR_OK;
+    gltf_visit visit = {.is_hidden = is_hidden};
+    memcpy(visit.matrix, matrix, sizeof visit.matrix);
+    for (size_t i = json_array_size(list); i > 0 && status == CLSHEAR_OK; i--) {
+        visit.node = node_in(list, i - 1); /* the first one comes off first */
+        status = push(reader, waiting, &visit);
+    }
+    return status;
 }
 
 static clshear_status visit_node(gltf_reader *reader, cs_array *waiting, const gltf_visit *visit,
@@ -187,6 +204,12 @@ static clshear_status visit_node(gltf_reader *reader, cs_array *waiting, const g
     const json_t *node = gltf_at(reader, "nodes", visit->node);
     double local[16], matrix[16];
     if (node == NULL) return CLSHEAR_BAD_FILE;
+    if (seen[visit->node] && visit->is_root) {
+        cs_warn(reader->model->log,
+                "%s: nodes[%lld] is in the scene more than once, or a child there, too; shown once",
+                reader->model->path, visit->node);
+        return CLSHEAR_OK;
+    }
     if (seen[visit->node]++)
         return gltf_complain(reader, "nodes", visit->node,
                              "has two parents, or is its own; nodes must be a tree");
@@ -196,8 +219,7 @@ static clshear_status visit_node(gltf_reader *reader, cs_array *waiting, const g
     gltf_multiply(visit->matrix, local, matrix);
     const long long camera = gltf_index(node, "camera");
     const json_t *light = gltf_extension(node, "KHR_lights_punctual");
-    if (json_object_get(node, "mesh") != NULL && !is_hidden)
-        CS_TRY(gltf_mesh(reader, node, matrix));
+    if (gltf_index(node, "mesh") != -1 && !is_hidden) CS_TRY(gltf_mesh(reader, node, matrix));
     if (camera != -1) CS_TRY(add_camera(reader, camera, node, matrix));
     if (light != NULL && !is_hidden)
         CS_TRY(add_light(reader, gltf_index(light, "light"), node, matrix));
@@ -206,37 +228,45 @@ static clshear_status visit_node(gltf_reader *reader, cs_array *waiting, const g
                 "%s: nodes[%lld]: EXT_mesh_gpu_instancing is not supported; one "
                 "instance is read",
                 reader->model->path, visit->node);
-    CS_TRY(push(reader, waiting, json_object_get(node, "children"), matrix, is_hidden));
+    CS_TRY(push_children(reader, waiting, node, matrix, is_hidden));
 done:
     return status;
 }
 
-/* The nodes that no other has as a child, where the file names no scene. */
-static clshear_status push_roots(gltf_reader *reader, cs_array *waiting, const double *matrix)
+/* Marks the nodes that others have as children. The caller frees the marks; NULL: out of memory. */
+static char *find_children(const gltf_reader *reader)
 {
     const json_t *nodes = json_object_get(reader->root, "nodes");
     const size_t count = json_array_size(nodes);
     char *is_child = calloc(count + 1, 1);
-    if (is_child == NULL) return cs_model_full(reader->model, reader->error);
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count && is_child != NULL; i++) {
         const json_t *children = json_object_get(json_array_get(nodes, i), "children");
         for (size_t k = 0; k < json_array_size(children); k++) {
-            const double number = json_number_value(json_array_get(children, k));
-            if (number >= 0.0 && number < (double)count) is_child[(size_t)number] = 1;
+            const long long child = node_in(children, k);
+            if (child >= 0 && (size_t)child < count) is_child[child] = 1;
         }
     }
+    return is_child;
+}
+
+/* Lets the nodes of the scene wait; where the file names no scene (NULL), those that are no
+ * children. Children that the scene names go below, so that they come off after their parents. */
+static clshear_status push_roots(gltf_reader *reader, cs_array *waiting, const json_t *scene)
+{
+    const json_t *list = json_object_get(scene, "nodes");
+    const size_t nodes = gltf_count(reader, "nodes");
+    const size_t count = scene != NULL ? json_array_size(list) : nodes;
     clshear_status status = CLSHEAR_OK;
-    for (size_t i = count; i > 0 && status == CLSHEAR_OK; i--) {
-        if (is_child[i - 1]) continue;
-        gltf_visit *visit = cs_array_extend(waiting, 1);
-        if (visit == NULL) {
-            status = cs_model_full(reader->model, reader->error);
-            continue;
+    gltf_visit visit = {.is_root = 1};
+    char *is_child = find_children(reader);
+    if (is_child == NULL) return cs_model_full(reader->model, reader->error);
+    identity(visit.matrix);
+    for (int children = scene != NULL; children >= 0; children--)
+        for (size_t i = count; i > 0 && status == CLSHEAR_OK; i--) {
+            visit.node = scene != NULL ? node_in(list, i - 1) : (long long)i - 1;
+            const int known = visit.node >= 0 && (size_t)visit.node < nodes;
+            if ((known && is_child[visit.node]) == children) status = push(reader, waiting, &visit);
         }
-        visit->node = (long long)i - 1;
-        visit->is_hidden = 0;
-        memcpy(visit->matrix, matrix, sizeof visit->matrix);
-    }
     free(is_child);
     return status;
 }
@@ -246,19 +276,15 @@ clshear_status gltf_nodes(gltf_reader *reader)
     clshear_status status = CLSHEAR_OK;
     cs_error *error = reader->error;
     cs_array waiting = {.item_size = sizeof(gltf_visit)};
-    double start[16];
+    const json_t *scene = NULL;
     char *seen = calloc(gltf_count(reader, "nodes") + 1, 1);
     CS_REQUIRE(seen != NULL, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", reader->model->path);
-    identity(start);
     const long long chosen = gltf_index(reader->root, "scene");
     if (gltf_count(reader, "scenes") > 0) {
-        const json_t *scene = gltf_at(reader, "scenes", chosen >= 0 ? chosen : 0);
+        scene = gltf_at(reader, "scenes", chosen >= 0 ? chosen : 0);
         if (scene == NULL) status = CLSHEAR_BAD_FILE;
-        if (scene != NULL)
-            status = push(reader, &waiting, json_object_get(scene, "nodes"), start, 0);
-    } else {
-        status = push_roots(reader, &waiting, start);
     }
+    if (status == CLSHEAR_OK) status = push_roots(reader, &waiting, scene);
     while (status == CLSHEAR_OK && waiting.count > 0) {
         const gltf_visit visit = ((const gltf_visit *)waiting.items)[--waiting.count];
         status = visit_node(reader, &waiting, &visit, seen);

@@ -57,6 +57,10 @@ clshear_status gltf_uri(const gltf_reader *reader, const char *place, long long 
                         const char *uri, char **owned, size_t *size);
 int gltf_is_data(const char *uri);
 
+/* The file of a URI that is no data; `found` has CS_FILE_PATH bytes. A scheme file:// and what
+ * follows ? or # are no parts of its name. */
+int gltf_find_file(const gltf_reader *reader, const char *uri, char *found);
+
 /* The bytes of a buffer view. */
 clshear_status gltf_view(gltf_reader *reader, long long index, const unsigned char **data,
                          size_t *size, size_t *stride);
@@ -68,6 +72,11 @@ int gltf_has_bytes(const gltf_reader *reader, long long index);
  * freed by the caller. */
 clshear_status gltf_read_floats(gltf_reader *reader, long long index, size_t most, float **values,
                                 size_t *count, size_t *given);
+
+/* Colours, with four components. glTF has no whole numbers here that are not parts of 1, but
+ * exporters forget to say so. */
+clshear_status gltf_read_colours(gltf_reader *reader, long long index, float **values,
+                                 size_t *count, size_t *given);
 clshear_status gltf_read_indices(gltf_reader *reader, long long index, uint32_t **values,
                                  size_t *count);
 

@@ -36,18 +36,28 @@ void cs_environment_show(const cs_environment_view *view, cs_light *light)
     light->parameters[4] = (float)sin(angle);
 }
 
+/* The largest half: files of halves have infinity for what is brighter. */
+static const float most_half = 65504.0f;
+
+/* What a channel of a texel shines: 0 where it is no number or negative. */
+static float radiance_of(float channel)
+{
+    if (!(channel > 0.0f)) return 0.0f;
+    if (isinf(channel)) return most_half;
+    return channel > most_radiance ? most_radiance : channel;
+}
+
 static void copy_texels(const float *texels, size_t count, float *copy)
 {
-    for (size_t i = 0; i < 3 * count; i++) {
-        copy[i] = texels[i] > 0.0f ? texels[i] : 0.0f; /* NaN too */
-        if (copy[i] > most_radiance) copy[i] = most_radiance;
-    }
+    for (size_t i = 0; i < 3 * count; i++)
+        copy[i] = radiance_of(texels[i]);
 }
 
 static double luminance_at(const float *texels, size_t width, size_t x, size_t y)
 {
     const float *texel = texels + 3 * (y * width + x);
-    return cs_luminance_double((double)texel[0], (double)texel[1], (double)texel[2]);
+    return cs_luminance_double((double)radiance_of(texel[0]), (double)radiance_of(texel[1]),
+                               (double)radiance_of(texel[2]));
 }
 
 /* Mean luminance of the bilinear image over a texel. Over the half of a texel that is nearer to one

@@ -169,8 +169,9 @@ clshear_status cs_scene_finish(cs_scene *scene, const char *name, cs_error *erro
     const float(*positions)[3] = scene->positions.items;
     if (scene->indices.count == 0)
         return cs_fail(error, CLSHEAR_BAD_FILE,
-                       "%s: no triangles in it (%zu without area, or too large)", name,
-                       scene->degenerate);
+                       "%s: no triangles in it (%zu without area, or with edges that are not 1e-9 "
+                       "to 1e9 long; scale them)",
+                       name, scene->degenerate);
     for (int axis = 0; axis < 3; axis++) {
         scene->bounds[0][axis] = INFINITY;
         scene->bounds[1][axis] = -INFINITY;

@@ -1,0 +1,17 @@
+/* Which part of an image file, and which of its channels, are its picture. */
+#ifndef CS_IMAGE_LAYERS_H
+#define CS_IMAGE_LAYERS_H
+
+#include "image/oiio.h"
+
+/* Finds the channels of red, green, blue and alpha (-1: there is none). Where they are not named,
+ * the first three count, or the first one, which is grey. */
+void picture_channels(const ImageSpec &spec, int order[4]);
+
+/* The number of the first part with named colours, 0 where there is none. Only EXR files have
+ * parts; in other formats they are pages. `image` has read a head, and may have another one then.
+ */
+int picture_part(ImageBuf &image, const std::string &path, const ImageSpec *config,
+                 OIIO::Filesystem::IOProxy *memory);
+
+#endif
