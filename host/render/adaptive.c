@@ -307,10 +307,21 @@ done:
     return status;
 }
 
+/* The samples of all patterns, whose mean is only about the one asked for. */
+static double count_samples(const cs_job *job)
+{
+    double samples = 0.0;
+    for (cs_u32 r = 0; r < job->replicates; r++)
+        for (size_t i = 0; i < job->pixel_count; i++)
+            samples += (double)job->adaptive.shares[r].samples[i];
+    return samples;
+}
+
 clshear_status cs_adaptive_run(cs_job *job, cs_pass *pass, cs_error *error)
 {
     pass->total = (double)job->spp * (double)job->pixel_count;
     clshear_status status = begin(job, pass, error);
+    if (status == CLSHEAR_OK) pass->total = count_samples(job);
     for (cs_u32 r = 0; r < job->replicates && status == CLSHEAR_OK; r++)
         status = draw_replicate(job, pass, r, error);
     if (status != CLSHEAR_OK && status != CS_CANCELLED) return status;

@@ -36,17 +36,16 @@ static int run(void *job);
 
 const program_command render_command = {
     .name = "",
-    .usage =
-        "clshear SCENE [flags]\n"
-        "       clshear points [flags]      point sets\n"
-        "       clshear spectrum [flags]    their power spectra\n"
-        "       clshear slice SCENE [flags] the integrand of a pixel\n"
-        "       clshear predict [flags]     variance expected from spectra\n"
-        "       clshear converge [flags]    variance against samples\n"
-        "       clshear merge FILES [flags] shards of a render, put together\n\n"
-        "Render SCENE (OBJ, glTF, PLY, STL, OFF) with depth of field. Each command has its own\n"
-        "--help.\n\n"
-        "  clshear scenes/cornell.obj --spp 1024 --out img.exr\n",
+    .usage = "clshear SCENE [flags]\n"
+             "       clshear points [flags]      point sets\n"
+             "       clshear spectrum [flags]    their power spectra\n"
+             "       clshear slice SCENE [flags] the integrand of a pixel\n"
+             "       clshear predict [flags]     variance expected from spectra\n"
+             "       clshear converge [flags]    variance against samples\n"
+             "       clshear merge FILES [flags] shards of a render, put together\n\n"
+             "Render SCENE (OBJ, glTF, PLY, STL, OFF) with depth of field. Each command has\n"
+             "its own --help.\n\n"
+             "  clshear scenes/cornell.obj --spp 1024 --out img.exr\n",
     .notes = "Words after -- are names, even those that begin with a dash.\n"
              "Without --out, writes the scene's name with .exr in the current folder.\n"
              "Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted (what was\n"
