@@ -49,21 +49,21 @@ static void the_choice_is_visible(void **state)
         clshear_film_free(rules[r]);
 }
 
-/* By default, what is at rest takes the nearest depth in some pixels and the centre's in the
- * others, without a pilot, and what moves has one. */
+/* By default, what is at rest takes what stands in front in some pixels (7) and the centre's
+ * depth in the others (0), without a pilot, and what moves has one. */
 static void only_motion_needs_a_pilot(void **state)
 {
     test_fixture *made = *state;
     clshear_settings *settings = test_settings(made->settings, SIZE, SIZE, 64);
     clshear_film *film = test_render(made->scene, settings);
     const float *rule = clshear_film_channel(film, "Oracle");
-    int near = 0;
+    int front = 0;
     for (int i = 0; i < PIXELS; i++) {
-        assert_true(rule[i] == 0.0f || rule[i] == 2.0f);
-        near += rule[i] == 2.0f;
+        assert_true(rule[i] == 0.0f || rule[i] == 7.0f);
+        front += rule[i] == 7.0f;
     }
-    assert_above(near, 0);
-    assert_below(near, PIXELS / 2);
+    assert_above(front, 0);
+    assert_below(front, PIXELS / 2);
     assert_int_equal(test_film_info(film).pilot_samples, 0);
     clshear_film_free(film);
     test_set(settings, CLSHEAR_CAMERA_TO, "290,274,800,276,274,0");

@@ -238,7 +238,7 @@ static void damaged_bases_are_refused(void **state)
     } cases[] = {{"Oracle", NAN, "pixel 5,1 has nan in channel Oracle"},
                  {"Oracle", -1.0f, "pixel 5,1 has -1 in channel Oracle"},
                  {"Oracle", 0.5f, "pixel 5,1 has 0.5 in channel Oracle"},
-                 {"Oracle", 7.0f, "pixel 5,1 has 7 in channel Oracle"},
+                 {"Oracle", 8.0f, "pixel 5,1 has 8 in channel Oracle"},
                  {"Shear", INFINITY, "pixel 5,1 has inf in channel Shear"},
                  {"G", NAN, "in channel G"},
                  {"SampleVariance.B", NAN, "in channel SampleVariance.B"},
