@@ -45,6 +45,7 @@ static void read_scene(const char *path, size_t size)
 CS_FORMAT(obj)
 CS_FORMAT(ply)
 CS_FORMAT(stl)
+CS_FORMAT(off)
 CS_FORMAT(gltf)
 CS_FORMAT(glb)
 

@@ -12,6 +12,7 @@
     X(mtl)                     \
     X(ply)                     \
     X(stl)                     \
+    X(off)                     \
     X(gltf)                    \
     X(glb)                     \
     X(command_line)            \
