@@ -56,7 +56,7 @@ static const struct {
     {"words.stl", "solid facet vertex\n" FACETS "endsolid vertex\n", {0.5f, 0.5f, 0.5f}, ""},
     {"line.stl",
      "solid a facet normal 0 0 1 outer loop vertex -1 -1 0 vertex 3 -1 0 vertex -1 1 0 endloop "
-     "endfacet endsolid a",
+     "endfacet endsolid a\n",
      {0.5f, 0.5f, 0.5f},
      ""},
     {"loops.stl",

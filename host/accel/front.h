@@ -1,4 +1,4 @@
-/* What stands in front where a pixel sees depths that lie apart. */
+/* The shear for the nearer surfaces of a pixel that sees an edge. */
 #ifndef CS_ACCEL_FRONT_H
 #define CS_ACCEL_FRONT_H
 

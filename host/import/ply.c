@@ -190,6 +190,7 @@ static clshear_status read_element(cs_ply_reader *reader, const cs_ply_element *
 /* Goes past an element whose faces wait for the vertices behind it. */
 static clshear_status pass_element(cs_ply_reader *reader, const cs_ply_element *element)
 {
+    if (element->property_count == 0) return CLSHEAR_OK;
     clshear_status status = check_count(reader, element);
     for (size_t i = 0; i < element->count && status == CLSHEAR_OK; i++) {
         cs_ply_scalars given = {0};

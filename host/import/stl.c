@@ -128,7 +128,8 @@ static clshear_status read_vertex(stl_reader *reader, char **at, size_t *line, c
 static void pass_name(char **at)
 {
     const size_t length = strcspn(*at, "\r\n");
-    if ((*at)[length] != '\0') *at += length;
+    const size_t blanks = strspn(*at + length, " \t\r\n");
+    if ((*at)[length + blanks] != '\0') *at += length;
 }
 
 /* A facet is what lies between "facet" or "loop" and "endloop" or "endfacet": files lack either. */
