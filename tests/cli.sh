@@ -29,6 +29,11 @@ refuse 2 "--spp 1e99: must be" -- "$cornell" --spp 1e99
 refuse 2 "--spp -4: must be" -- "$cornell" --spp -4
 refuse 2 "--eye 1,2: must be three numbers" -- "$cornell" --eye 1,2
 refuse 2 "--eye 1,2,nan: must be" -- "$cornell" --eye 1,2,nan
+refuse 2 "--eye 1, 2 3: must be three numbers" -- "$cornell" --eye "1, 2 3"
+refuse 2 "--aov albedo normal: must be" -- "$cornell" --aov "albedo normal"
+expect 0 "" -- "$cornell" --quiet --eye "1 , 2,	3" --aov "albedo, normal" --environment "1 , 1, 1" --frames "0, 0" \
+    --width 8 --height 8 --spp 1 --out blanks.exr
+case $(oiiotool --info -v blanks.0000.exr) in *'clshear.eye: "1,2,3"'*) ;; *) wrong "blanks after commas" ;; esac
 refuse 2 "--fov 180: must be" -- "$cornell" --fov 180
 refuse 2 "--shear sideways: must be none, toroidal or equal-area" -- "$cornell" --shear sideways
 refuse 2 "--packet 3: must be" -- "$cornell" --packet 3
@@ -60,9 +65,9 @@ expect 2 "--out picture.bmp: must be a name that ends in" -- "$cornell" --out pi
 refuse 1 "nowhere.obj: cannot be opened: No such file" -- nowhere.obj
 refuse 1 "no OpenCL device is called \"toaster\"; there are: 0 " -- "$cornell" --quiet --device toaster
 refuse 2 "--crop 0,0,0,0: must be four whole numbers, X0,X1,Y0,Y1, with X0 < X1" -- "$cornell" --crop 0,0,0,0
-refuse 1 "crop 0,99,0,9" -- "$cornell" --quiet --width 32 --height 32 --crop 0,99,0,9
-refuse 1 "focus-pixel 40,2 is outside the 32 x 32 image: give X 0 to 31 and Y 0 to 31" -- "$cornell" --quiet --width 32 --height 32 --focus-pixel 40,2
-refuse 1 "replicates" -- "$cornell" --quiet --spp 2 --replicates 3
+refuse 2 "crop 0,99,0,9" -- "$cornell" --quiet --width 32 --height 32 --crop 0,99,0,9
+refuse 2 "focus-pixel 40,2 is outside the 32 x 32 image: give X 0 to 31 and Y 0 to 31" -- "$cornell" --quiet --width 32 --height 32 --focus-pixel 40,2
+refuse 2 "replicates" -- "$cornell" --quiet --spp 2 --replicates 3
 expect 1 "folder no/such/ cannot be written" -- "$cornell" --out no/such/folder.exr
 output=$(OCL_ICD_VENDORS=/nonexistent "$program" "$cornell" --quiet --out refused.exr 2>&1)
 case $?$output in 1*"no OpenCL device found; install"*) ;; *) wrong "no driver: $output" ;; esac
@@ -73,7 +78,7 @@ case $?$output in 1*"standard output: cannot be written"*) ;; *) wrong "/dev/ful
 expect 1 "environment 1,2: neither R,G,B nor a file" -- "$cornell" --quiet --environment 1,2 --out refused.exr
 echo text >words.hdrx
 expect 1 "words.hdrx: not an image that can be read" -- "$cornell" --quiet --environment words.hdrx --out refused.exr
-refuse 1 "sun: its direction has no length" -- "$cornell" --quiet --sun 0,0,0,1,1,1,1
+refuse 2 "sun: its direction has no length" -- "$cornell" --quiet --sun 0,0,0,1,1,1,1
 expect 1 "environment gone.hdr: neither" -- "$cornell" --quiet --environment gone.hdr --out refused.exr
 expect 1 "65500" -- "$cornell" --quiet --spp 1 --width 65536 --height 1 --out wide.jpg
 
@@ -126,7 +131,7 @@ oiiotool --create 8x8 1 --fill:color=0 8x8 -o dark.exr --create 300x200 3 --fill
 {
     refuse 1 "gone.png" -- "$cornell" --quiet --aperture gone.png
     refuse 1 "aperture image: all black" -- "$cornell" --quiet --aperture dark.exr
-    refuse 1 "the toroidal shear knows square and disk" -- "$cornell" --quiet --blades 5 --shear toroidal
+    refuse 2 "the toroidal shear knows square and disk" -- "$cornell" --quiet --blades 5 --shear toroidal
     expect 0 "" -- "$cornell" $small --quiet --aperture ./bright.exr --filter tent --out l.exr
     expect 0 "" -- "$cornell" $small --quiet --aperture disk --blades 5 --blade-rotation 10 \
         --anamorphic 2 --filter gaussian --filter-width 2.5 --out l.exr
@@ -187,8 +192,8 @@ done
     expect 0 "--orthographic 2.16" -- bare.obj $small --orthographic 0 --orbit 0,0 --out k.exr
     expect 0 "--fov is not used: --orthographic comes after it" -- bare.obj $small --fov 30 --orthographic 3 --out k.exr
     refuse 2 "--tilt 90,0: must be two numbers" -- bare.obj --tilt 90,0
-    refuse 1 "shutter 1,0: closes before it opens" -- bare.obj --shutter 1,0
-    refuse 1 "tilt 80,0: at focal distance" -- bare.obj --quiet --orthographic 9 --focal-distance 2 --tilt 80,0
+    refuse 2 "shutter 1,0: closes before it opens" -- bare.obj --shutter 1,0
+    refuse 2 "tilt 80,0: at focal distance" -- bare.obj --quiet --orthographic 9 --focal-distance 2 --tilt 80,0
     expect 0 "--aov is not used: it needs an .exr among the outputs" -- bare.obj $small --aov albedo --out k.png
     expect 0 "--extendable is not used: it needs an .exr" -- bare.obj $small --extendable --out k.png
     expect 0 "" -- bare.obj $small --aov albedo --out k.png --out k.EXR
@@ -224,6 +229,7 @@ case $info in *"float openexr"*) ;; *) wrong "not float32" ;; esac
 
 # Samplers: every name renders; a number that a sampler has not is raised, and said.
 expect 0 "sobol-pairs" -- --list-samplers
+echo "$output" | awk 'length > 80 { exit 1 }' || wrong "a line of --list-samplers is wider than 80"
 refuse 2 "--sampler dice: must be random, jittered" -- "$cornell" --sampler dice
 "$program" --list-samplers | while read -r sampler rest; do
     # shellcheck disable=SC2086
@@ -245,7 +251,7 @@ case $(oiiotool --info -v sampler.exr) in *"samplesPerPixel: 18"*) ;; *) wrong "
     case $(oiiotool --info -v gain.exr) in *"clshear.adaptive: 1"*) ;; *) wrong "adaptive untold" ;; esac
     case $output in *"Gain"*) wrong "said something" ;; esac
     refuse 2 "--gain gain.bmp: must be a name that ends in" -- "$cornell" --quiet --gain gain.bmp
-    refuse 1 "cannot be extended" -- "$cornell" $small --quiet --adaptive --extendable
+    refuse 2 "cannot be extended" -- "$cornell" $small --quiet --adaptive --extendable
 }
 
 # A render goes on where it ended, and says so when it cannot.
@@ -254,13 +260,13 @@ case $(oiiotool --info -v sampler.exr) in *"samplesPerPixel: 18"*) ;; *) wrong "
     expect 0 "" -- "$cornell" $small --quiet --extendable --out more.exr
     expect 0 "" -- "$cornell" $small --quiet --extend more.exr --spp 64 --out more.exr
     case $(oiiotool --info -v more.exr) in *"samplesPerPixel: 64"*) ;; *) wrong "not extended" ;; esac
-    refuse 1 "more.exr: was made with another seed" -- "$cornell" $small --quiet --extend more.exr --spp 128 --seed 4
-    refuse 1 "more.exr: has 64 samples per pixel already" -- "$cornell" $small --quiet --extend more.exr
-    refuse 1 "more.exr: shows other pixels" -- "$cornell" $small --quiet --extend more.exr --spp 128 --crop 0,8,0,8
-    refuse 1 "more.exr: has no channel Albedo.R" -- "$cornell" $small --quiet --extend more.exr --spp 128 --aov albedo
-    refuse 1 "more.exr: an adaptive render cannot extend it" -- "$cornell" $small --quiet --extend more.exr --spp 128 --adaptive
-    refuse 1 "more.exr: sampler mj cannot extend it" -- "$cornell" $small --quiet --extend more.exr --spp 128 --sampler mj
-    refuse 1 "more.exr: a shard cannot extend it" -- "$cornell" $small --quiet --extend more.exr --spp 128 --shard 1/2
+    refuse 2 "more.exr: was made with another seed" -- "$cornell" $small --quiet --extend more.exr --spp 128 --seed 4
+    refuse 2 "more.exr: has 64 samples per pixel already" -- "$cornell" $small --quiet --extend more.exr
+    refuse 2 "more.exr: shows other pixels" -- "$cornell" $small --quiet --extend more.exr --spp 128 --crop 0,8,0,8
+    refuse 2 "more.exr: has no channel Albedo.R" -- "$cornell" $small --quiet --extend more.exr --spp 128 --aov albedo
+    refuse 2 "more.exr: an adaptive render cannot extend it" -- "$cornell" $small --quiet --extend more.exr --spp 128 --adaptive
+    refuse 2 "more.exr: sampler mj cannot extend it" -- "$cornell" $small --quiet --extend more.exr --spp 128 --sampler mj
+    refuse 2 "more.exr: a shard cannot extend it" -- "$cornell" $small --quiet --extend more.exr --spp 128 --shard 1/2
     refuse 1 "a.exr: lacks the means of its patterns; it must be a complete EXR rendered with --extendable" -- \
         "$cornell" $small --quiet --extend a.exr --spp 128
     refuse 1 "gone.exr" -- "$cornell" $small --quiet --extend gone.exr --spp 128
@@ -272,7 +278,7 @@ case $(oiiotool --info -v sampler.exr) in *"samplesPerPixel: 18"*) ;; *) wrong "
     expect 0 "ended by --noise at" -- "$cornell" $small --spp 4096 --noise 0.05 --out rule.exr
     expect 0 "would take about" -- "$cornell" $small --spp 64 --noise 0.0001 --out rule.exr
     case $(oiiotool --info -v rule.exr) in *'clshear.stoppedBy: "spp"'*) ;; *) wrong "rule untold" ;; esac
-    refuse 1 "needs 2 replicates" -- "$cornell" $small --quiet --noise 0.1 --replicates 1
+    refuse 2 "needs 2 replicates" -- "$cornell" $small --quiet --noise 0.1 --replicates 1
 }
 
 # Shards, merged.
@@ -290,7 +296,7 @@ case $(oiiotool --info -v sampler.exr) in *"samplesPerPixel: 18"*) ;; *) wrong "
     refuse 2 "no files given" -- merge
     refuse 2 "a file's name is empty: give the file" -- merge some.exr ""
     expect 2 "no --out given" -- merge shard-1.exr
-    refuse 1 "shard 4/3: must be K/N" -- "$cornell" $small --quiet --shard 4/3
+    refuse 2 "shard 4/3: must be K/N" -- "$cornell" $small --quiet --shard 4/3
 }
 
 finish

@@ -16,6 +16,12 @@ grep -q "along 1:2" p.csv || wrong "no profile in p.csv"
 case $(oiiotool --info -v p.exr) in *"32 x   20, 1 channel"*Power*) ;; *) wrong "p.exr" ;; esac
 [ -s rings.svg ] && [ -s rings.svg.dat ] && [ -s rings.svg.gp ] || wrong "plot, data or script missing"
 expect 2 "leave out --sampler" -- spectrum --in p.txt --n 16
+for command in points spectrum merge; do
+    expect 0 "read flags from FILE" -- $command --help
+    case $output in *SCENE*) wrong "$command has no SCENE: $output" ;; esac
+done
+expect 0 "disk,mj,none,16,2," -- converge --integrand disk --sampler "random , mj" --nsamps "4, 16" --nreps 2
+expect 2 "--nsamps 4, 16 64: must be" -- converge --integrand disk --nsamps "4, 16 64"
 expect 2 "--projection xyz: must be two letters" -- spectrum --projection xyz
 expect 2 "--resolution 1: must be" -- spectrum --resolution 1
 expect 2 "unknown flag --fov" -- spectrum --fov 30
@@ -77,10 +83,10 @@ expect 0 "image,mj,none,4,8," -- converge "$cornell" --quiet --width 24 --height
 expect 0 "" -- "$cornell" --quiet --width 24 --height 20 --spp 64 --out ref.exr
 expect 0 "target,sampler,shear,n,replicates,mse,slope" -- converge "$cornell" --quiet --width 24 --height 20 \
     --sampler mj --nsamps 4,16 --reference ref.exr
-expect 1 "the reference has 24 x 20 pixels: it needs the image's size, 24 x 16" -- converge "$cornell" --quiet --width 24 \
+expect 2 "the reference has 24 x 20 pixels: it needs the image's size, 24 x 16" -- converge "$cornell" --quiet --width 24 \
     --height 16 --reference ref.exr
 oiiotool --create 24x20 1 --chnames Y -o grey.exr
-expect 1 "the reference has no channel R: it needs R, G and B" -- converge "$cornell" --quiet --width 24 --height 20 \
+expect 2 "the reference has no channel R: it needs R, G and B" -- converge "$cornell" --quiet --width 24 --height 20 \
     --reference grey.exr
 expect 0 "" -- converge "$cornell" --quiet --width 24 --height 20 --crop 3,19,5,9 --sampler mj,sz --nsamps 4,16 \
     --map map.csv --map map.exr --map map.png
@@ -97,7 +103,7 @@ oiiotool --info predicted.png | grep -q '4 x *1' || wrong "predicted.png is not 
 expect 0 "6 of 6 pixels" -- predict "$cornell" --width 3 --height 2 --sampler mj --n 4 --sets 4 --resolution 7 --block 1 \
     --measure 4 --map small.csv
 expect 2 "--out t.csv: is of a --pixel or an --integrand" -- predict "$cornell" --measure 4 --map small.csv --out t.csv
-expect 1 "an image of 6 x 6 pixels: an interval needs more than one tile" -- converge "$cornell" --quiet --width 6 \
+expect 2 "an image of 6 x 6 pixels: an interval needs more than one tile" -- converge "$cornell" --quiet --width 6 \
     --height 6 --sampler mj --nsamps 4,16
 # A gain is over the curve without a shear, in whatever order; without that curve there is none.
 expect 0 "" -- converge "$cornell" --quiet --width 24 --height 8 --sampler mj --shear equal-area,none --nsamps 4,16 --map order.csv
@@ -141,7 +147,7 @@ expect 2 "--lens-radius 1e19: must be a number, 0 to 1e+12" -- "$cornell" --quie
 expect 2 "--focal-distance 1e-18: must be a number, 1e-12 to" -- slice "$cornell" --pixel 1,1 --focal-distance 1e-18
 expect 2 "--eye 1e38,0,0: must be three numbers, X,Y,Z, each -1e+12 to 1e+12" -- "$cornell" --quiet --eye 1e38,0,0 --out far.exr
 expect 2 "--size 0: must be above 0" -- predict --integrand plane-wave --size 0
-expect 1 "too few frequencies" -- spectrum --resolution 2 --n 4 --sets 1 --plot p.png
+expect 2 "too few frequencies" -- spectrum --resolution 2 --n 4 --sets 1 --plot p.png
 
 # A full disk costs one line, and not the file that was there.
 echo precious >kept.csv
@@ -181,13 +187,13 @@ expect 2 "--dims xz: must be letters out of xyuvpqt" -- points --dims xz
 "$program" points --n 4 --dims tx --velocity-px 8,3 | awk 'NF != 2 { exit 1 }' || wrong "time"
 "$program" points --n 4 --velocity-px 8,3 --shear toroidal 2>&1 | grep -q "the shear equal-area or none" ||
     wrong "toroidal shear of time"
-expect 1 'coordinates "pt": must be different ones of "xyuvt"' -- points --dims pt
+expect 2 'coordinates "pt": must be different ones of "xyuvt"' -- points --dims pt
 expect 2 "scene.obj: not a flag" -- points scene.obj
 expect 2 "an empty word: not a flag" -- points ""
 expect 2 "--in is empty: give FILE" -- spectrum --in ""
 expect 2 "--reference is empty: give VALUE" -- converge "$cornell" --reference ""
 expect 2 "the scene's name is empty" -- slice "" --pixel 1,1
-expect 1 "must be 1 to 65536" -- points --sampler ccvt --n 70000
+expect 2 "must be 1 to 65536" -- points --sampler ccvt --n 70000
 "$program" points --out /dev/full 2>full.txt && wrong "full device: exit code"
 grep -q "/dev/full: cannot be written" full.txt || wrong "full device: $(cat full.txt)"
 "$program" points --n 100000 2>pipe.txt | head -1 >/dev/null # a closed pipe is no crash

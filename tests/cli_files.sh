@@ -78,10 +78,10 @@ expect 0 "" -- .hidden $small --quiet
 expect 0 "" -- "$root/scenes/wheel.gltf" $small --quiet --frames 1,2 --gain gain.png --out frame.png
 [ -e frame.0002.png ] && [ -e gain.0001.png ] && [ -e gain.0002.png ] || wrong "files of frames: $(ls)"
 refuse 1 "$cornell: not an image that can be read" -- "$cornell" --quiet --extend "$cornell"
-refuse 1 "resume: needs a checkpoint" -- "$cornell" --quiet --resume
+refuse 2 "resume: needs a checkpoint" -- "$cornell" --quiet --resume
 refuse 1 "--checkpoint no/such/state: folder no/such/ cannot be written" -- "$cornell" --quiet --checkpoint no/such/state
 echo "not a checkpoint" >state
-refuse 1 "state: is there already" -- "$cornell" --quiet --checkpoint state
+refuse 2 "state: is there already" -- "$cornell" --quiet --checkpoint state
 refuse 1 "state: is no whole checkpoint" -- "$cornell" --quiet --checkpoint state --resume
 rm -f state
 

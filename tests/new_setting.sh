@@ -46,7 +46,7 @@ small="--width 16 --height 16 --spp 4 --quiet"
     expect 2 "--made-up 11: must be a number, 0 to 10" $program "$cornell" $small --made-up 11
     expect 0 "" $program "$cornell" $small --invented 3 --extendable --out flag.exr
     expect 0 'clshear.madeUp: 3' oiiotool --info -v flag.exr
-    expect 1 "another made-up" $program "$cornell" $small --spp 8 --extend flag.exr --out more.exr
+    expect 2 "another made-up" $program "$cornell" $small --spp 8 --extend flag.exr --out more.exr
     echo "made-up 4" >mine.flags
     expect 0 "" $program "$cornell" $small --settings mine.flags --out file.exr
     expect 0 'clshear.madeUp: 4' oiiotool --info -v file.exr

@@ -288,7 +288,7 @@ clshear_status cs_checkpoint_load(cs_job *job, cs_pass *pass, cs_error *error)
                "%s: cannot be read: %s", path, strerror(errno));
     move(&tape, &read, sizeof read);
     if (!tape.is_good || !fits(job, &read)) CS_TRY(damaged(path, error));
-    CS_REQUIRE(read.plan == fingerprint_of_plan(job), CLSHEAR_BAD_ARGUMENT,
+    CS_REQUIRE(read.plan == fingerprint_of_plan(job), CLSHEAR_BAD_FILE,
                "%s: this machine finds other depths, or its pilot other shears; go on with the "
                "machine that began",
                path);

@@ -48,6 +48,12 @@ static int holds_state(const clshear_film *base, uint32_t replicates, int *sampl
     return good;
 }
 
+/* Status of a film that no render can go on from. */
+static clshear_status status_of_unfit(const clshear_film *base)
+{
+    return base->path != NULL ? CLSHEAR_BAD_FILE : CLSHEAR_BAD_ARGUMENT;
+}
+
 /* Fails unless all pixels of a plane have numbers that a render writes. */
 static clshear_status check_plane(const clshear_film *base, const char *name, cs_error *error)
 {
@@ -58,7 +64,7 @@ static clshear_status check_plane(const clshear_film *base, const char *name, cs
         const float value = plane[i];
         const int is_known = value >= 0.0f && value < CS_RULE_COUNT && value == floorf(value);
         if (is_rule ? !is_known : !isfinite(value))
-            return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+            return cs_fail(error, status_of_unfit(base),
                            "is damaged: pixel %d,%d has %g in channel %s",
                            base->info.window[0] + (int)(i % width),
                            base->info.window[2] + (int)(i / width), (double)value, name);
@@ -107,7 +113,7 @@ static clshear_status check_base(cs_job *job, cs_error *error)
     const char *theirs = cs_film_text(base, "clshear.recipe");
     if (theirs == NULL ||
         (strcmp(mine, theirs) == 0 && !holds_state(base, job->replicates, &samples)))
-        return cs_fail(error, CLSHEAR_BAD_ARGUMENT,
+        return cs_fail(error, status_of_unfit(base),
                        "lacks the means of its patterns; it must be a complete EXR rendered with "
                        "--extendable");
     if (strcmp(mine, theirs) != 0) {

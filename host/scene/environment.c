@@ -170,12 +170,14 @@ done:
     return status;
 }
 
-/* Whether the text is so many numbers with commas between them, and nothing else. */
+/* Whether the text is so many numbers with commas between them, around which blanks may stand, and
+ * nothing else. */
 static int read_numbers(const char *text, int count, float *numbers)
 {
     const char *end = text + strlen(text);
     for (int i = 0; i < count; i++) {
         double number = 0.0;
+        if (i > 0) text += strspn(text, " \t");
         if (i > 0 && *text++ != ',') return 0;
         text += strspn(text, " \t");
         const char *behind = cs_parse_number(text, end, &number);

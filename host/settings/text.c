@@ -90,17 +90,23 @@ static const char *read_one(const cs_setting *setting, const char *text, const c
     return *number >= 0.0 ? end : text;
 }
 
-/* Reads up to `capacity` values separated by commas. Returns their count, or 0 if there are more
- * or the text has anything else. */
+static const char *behind_blanks(const char *text)
+{
+    return text + strspn(text, " \t");
+}
+
+/* Reads up to `capacity` values separated by commas, around which blanks may stand. Returns their
+ * count, or 0 if there are more or the text has anything else. */
 static size_t read_numbers(const cs_setting *setting, const char *text, size_t capacity,
                            double *numbers)
 {
     for (size_t i = 0; i < capacity; i++) {
-        const char *end = read_one(setting, text, text + strcspn(text, ","), &numbers[i]);
+        const char *end = read_one(setting, text, text + strcspn(text, ", \t"), &numbers[i]);
         if (end == text || !isfinite(numbers[i])) return 0;
         if (*end == '\0') return i + 1;
+        end = behind_blanks(end);
         if (*end != ',') return 0;
-        text = end + 1;
+        text = behind_blanks(end + 1);
     }
     return 0;
 }

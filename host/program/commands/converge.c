@@ -124,10 +124,10 @@ static int study_integrand(const converge_job *job, error_study *study)
         snprintf(series->target, sizeof series->target, "%s", job->integrand.items[0]);
         series->sampler = job->samplers.items[s];
         series->shear = "none";
-        if (clshear_converge_integrand(&job->measured, series->sampler, seed_of(&job->options),
-                                       plan.counts, plan.sizes, plan.replicates, plan.reference,
-                                       &series->result) != CLSHEAR_OK)
-            return complain_of_library();
+        const clshear_status status = clshear_converge_integrand(
+            &job->measured, series->sampler, seed_of(&job->options), plan.counts, plan.sizes,
+            plan.replicates, plan.reference, &series->result);
+        if (status != CLSHEAR_OK) return exit_status_of(status);
         study->count++;
         tell_counts(job, &plan, series);
     }
@@ -165,8 +165,8 @@ static int study_targets(const converge_job *job, clshear_scene *scene,
             snprintf(series->target, sizeof series->target, "pixel %g:%g", pixel[0], pixel[1]);
         series->sampler = job->samplers.items[i % pairs / job->shears.count];
         series->shear = job->shears.items[i % job->shears.count];
-        if (measure(job, scene, pixel, reference, series) != CLSHEAR_OK)
-            return complain_of_library();
+        const clshear_status status = measure(job, scene, pixel, reference, series);
+        if (status != CLSHEAR_OK) return exit_status_of(status);
         study->count++;
     }
     return EXIT_DONE;
@@ -237,7 +237,8 @@ static int check_integrand(converge_job *job)
     if (clshear_settings_is_set(job->options.settings, CLSHEAR_FRESH_SETS))
         return complain(EXIT_USAGE, "--fresh-sets is of a SCENE, not of an --integrand");
     job->measured.struct_size = sizeof job->measured;
-    if (clshear_integrand_find(name, &job->measured) != CLSHEAR_OK) return complain_of_library();
+    const clshear_status status = clshear_integrand_find(name, &job->measured);
+    if (status != CLSHEAR_OK) return exit_status_of(status);
     job->measured.angle_deg = job->angle.items[0];
     job->measured.extent = number_or(&job->size, job->measured.extent);
     if (job->measured.kind == CLSHEAR_INTEGRAND_STEP || job->measured.extent > 0.0)

@@ -117,18 +117,19 @@ int film_files_write(const film_files *files, const program_options *options, cl
     clshear_film_info info = {.struct_size = sizeof info};
     clshear_film_describe(film, &info);
     const film_content content = info.complete ? ALL_SAMPLES : content_of(film, &info);
-    if (annotate(options, film) != CLSHEAR_OK) return complain_of_library();
-    int code = EXIT_DONE; /* one output that fails must not cost the others */
+    int code = exit_status_of(annotate(options, film));
+    if (code != EXIT_DONE) return code;
     for (size_t i = 0; i < files->out.count; i++) {
         const char *path = files->out.items[i];
         const int spared = !info.complete && is_spared(files, path, content);
-        if (!spared && clshear_film_write(film, path) != CLSHEAR_OK)
-            code = complain_of_library();
+        const clshear_status status = spared ? CLSHEAR_OK : clshear_film_write(film, path);
+        if (status != CLSHEAR_OK)
+            code = exit_status_of(status); /* which must not cost the other outputs */
         else if (!info.complete)
             tell(event, path, spared, content, options->quiet);
     }
-    if (files->gain.count > 0 && clshear_film_channel(film, "Gain") != NULL &&
-        clshear_film_write_ratio(film, "Gain", files->gain.items[0]) != CLSHEAR_OK)
-        code = complain_of_library();
-    return code;
+    if (files->gain.count == 0 || clshear_film_channel(film, "Gain") == NULL) return code;
+    const int of_gain =
+        exit_status_of(clshear_film_write_ratio(film, "Gain", files->gain.items[0]));
+    return of_gain != EXIT_DONE ? of_gain : code;
 }

@@ -37,12 +37,14 @@ const program_command merge_command = {
 static int merge(const merge_job *job, clshear_film **films, clshear_film **merged)
 {
     char missing[256];
-    for (size_t i = 0; i < job->options.file_count; i++)
-        if (clshear_film_read(job->options.files[i], &films[i]) != CLSHEAR_OK)
-            return complain_of_library();
-    if (clshear_film_merge((const clshear_film *const *)films, job->options.file_count, merged) !=
-        CLSHEAR_OK)
-        return complain_of_library();
+    const size_t count = job->options.file_count;
+    clshear_status status = CLSHEAR_OK;
+    for (size_t i = 0; i < count && status == CLSHEAR_OK; i++)
+        status = clshear_film_read(job->options.files[i], &films[i]);
+    if (status == CLSHEAR_OK)
+        status = clshear_film_merge((const clshear_film *const *)films, count, merged);
+    if (status == CLSHEAR_BAD_ARGUMENT) status = CLSHEAR_BAD_FILE; /* the films are of files */
+    if (status != CLSHEAR_OK) return exit_status_of(status);
     clshear_film_missing(*merged, missing, sizeof missing);
     if (*missing != '\0' && !job->options.quiet)
         fprintf(stderr, "clshear: shards %s are missing; the others are merged\n", missing);

@@ -148,8 +148,8 @@ static int check(const predict_job *job, clshear_integrand *integrand)
     if (job->resolution.items[0] > 1023.0)
         return complain(EXIT_USAGE, "--resolution %g: must be a whole number, 3 to 1023",
                         job->resolution.items[0]);
-    if (clshear_integrand_find(job->integrand.items[0], integrand) != CLSHEAR_OK)
-        return complain_of_library();
+    const clshear_status status = clshear_integrand_find(job->integrand.items[0], integrand);
+    if (status != CLSHEAR_OK) return exit_status_of(status);
     integrand->angle_deg = job->angle.items[0];
     integrand->extent = number_or(&job->size, integrand->extent);
     if (integrand->kind != CLSHEAR_INTEGRAND_STEP && !(integrand->extent > 0.0))

@@ -86,7 +86,7 @@ static int predict(const predict_job *job, pixel_view *v, size_t reach_points, p
     const size_t sets = (size_t)number_or(&job->source.sets, 500.0);
     clshear_points *points = NULL;
     clshear_status status = draw(job, v, sets, seed_of(&job->source.options), &points);
-    if (status != CLSHEAR_OK) return complain_of_library();
+    if (status != CLSHEAR_OK) return exit_status_of(status);
     r->count = clshear_points_count(points);
     const uint32_t wanted = r->count < 16384 ? 4 * (uint32_t)r->count : 65536;
     const clshear_reach reach = {.struct_size = sizeof reach,

@@ -115,7 +115,8 @@ static int render(render_job *job, const scene_view *view)
 {
     clshear_film *film = NULL;
     clshear_film_info info = {.struct_size = sizeof info};
-    if (make_film(job, view->scene, &film) != CLSHEAR_OK) return complain_of_library();
+    const clshear_status status = make_film(job, view->scene, &film);
+    if (status != CLSHEAR_OK) return exit_status_of(status);
     clshear_film_describe(film, &info);
     int code = film_files_write(&job->files, &job->options, film, "interrupted");
     if (code == EXIT_DONE && info.complete && !job->options.quiet)
@@ -177,10 +178,11 @@ static int render_frame(const render_job *job, int frame)
     if (!number_names(&job->files.out, frame, &one.files.out) ||
         !number_names(&job->files.gain, frame, &one.files.gain))
         code = complain(EXIT_FAILED, "out of memory");
-    if (code == EXIT_DONE &&
-        (clshear_settings_copy(job->options.settings, &one.options.settings) != CLSHEAR_OK ||
-         clshear_settings_set_integer(one.options.settings, CLSHEAR_FRAME, frame) != CLSHEAR_OK))
-        code = complain_of_library();
+    if (code == EXIT_DONE)
+        code = exit_status_of(clshear_settings_copy(job->options.settings, &one.options.settings));
+    if (code == EXIT_DONE)
+        code = exit_status_of(
+            clshear_settings_set_integer(one.options.settings, CLSHEAR_FRAME, frame));
     if (code == EXIT_DONE) code = render_scene(&one);
     free_names(&one.files.out);
     free_names(&one.files.gain);

@@ -25,10 +25,10 @@ static int check_formats(const render_job *job)
         width = (int64_t)(crop[1] - crop[0]);
         height = (int64_t)(crop[3] - crop[2]);
     }
-    for (size_t i = 0; i < job->files.out.count; i++)
-        if (clshear_film_check_path(job->files.out.items[i], (int)width, (int)height) != CLSHEAR_OK)
-            return complain_of_library();
-    return EXIT_DONE;
+    clshear_status status = CLSHEAR_OK;
+    for (size_t i = 0; i < job->files.out.count && status == CLSHEAR_OK; i++)
+        status = clshear_film_check_path(job->files.out.items[i], (int)width, (int)height);
+    return exit_status_of(status);
 }
 
 /* The file that a setting names; "" if it is not set. */

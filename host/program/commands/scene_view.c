@@ -115,14 +115,13 @@ static void tell_choices(const program_options *options, const clshear_scene *sc
 int scene_view_open(program_options *options, scene_view *view)
 {
     const given_settings given = given_by(options->settings);
-    if (clshear_context_create(options->settings, &view->context) != CLSHEAR_OK)
-        return complain_of_library();
+    clshear_status status = clshear_context_create(options->settings, &view->context);
+    if (status != CLSHEAR_OK) return exit_status_of(status);
     clshear_context_set_warning(view->context, warn, options);
     clshear_context_set_alarm(view->context, alarm_user, NULL);
-    if (clshear_scene_load(view->context, options->scene, options->settings, &view->scene) !=
-            CLSHEAR_OK ||
-        clshear_light_complete(view->scene, options->settings) != CLSHEAR_OK)
-        return complain_of_library();
+    status = clshear_scene_load(view->context, options->scene, options->settings, &view->scene);
+    if (status == CLSHEAR_OK) status = clshear_light_complete(view->scene, options->settings);
+    if (status != CLSHEAR_OK) return exit_status_of(status);
     if (!options->quiet) tell_choices(options, view->scene, &given);
     return EXIT_DONE;
 }

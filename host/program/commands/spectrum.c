@@ -157,7 +157,7 @@ static int measure(const spectrum_job *job)
         status = clshear_context_create(job->source.options.settings, &context);
     if (status == CLSHEAR_OK)
         status = clshear_spectrum_measure(context, points, width, height, &spectrum);
-    const int code = status == CLSHEAR_OK ? write_outputs(job, spectrum) : complain_of_library();
+    const int code = status == CLSHEAR_OK ? write_outputs(job, spectrum) : exit_status_of(status);
     clshear_points_free(points);
     clshear_spectrum_free(spectrum);
     clshear_context_free(context);

@@ -15,6 +15,9 @@ static const program_flag common_rows[] = {
                 offsetof(program_options, quiet)),
     SWITCH_FLAG("help h", "print this and stop", offsetof(program_options, help)),
 };
+/* The first of them for commands without a scene, beside which settings may lie. */
+static const program_flag settings_without_scene = TEXT_FLAG(
+    "settings", "FILE", "read flags from FILE", "", offsetof(program_options, settings_file), "");
 enum {
     SETTINGS_ROW = 0,
     HELP_ROW = 2,
@@ -49,6 +52,13 @@ static int takes_setting(const program_command *command, const clshear_setting_i
     return 0;
 }
 
+/* Row `index` of those that all commands have. */
+static const program_flag *common_row(const program_command *command, size_t index)
+{
+    return index == SETTINGS_ROW && !command->takes_scene ? &settings_without_scene
+                                                          : &common_rows[index];
+}
+
 static const char *argument_of(const named_flag *flag)
 {
     const char *argument = flag->row != NULL ? flag->row->argument : flag->setting.argument;
@@ -61,7 +71,7 @@ int command_flag(const program_command *command, size_t index, named_flag *flag)
     *flag = (named_flag){.setting = {.struct_size = sizeof flag->setting}};
     if (index < rows)
         flag->row = index < command->flag_count ? &command->flags[index]
-                                                : &common_rows[index - command->flag_count];
+                                                : common_row(command, index - command->flag_count);
     size_t left = index < rows ? 0 : index - rows;
     for (size_t i = 0; index >= rows && clshear_setting_describe(i, &flag->setting); i++)
         if (takes_setting(command, &flag->setting) && left-- == 0) return 1;
@@ -168,7 +178,10 @@ static uint64_t bit_of(const parser *p, const program_flag *row)
 {
     for (size_t i = 0; i < p->command->flag_count; i++)
         if (row == &p->command->flags[i]) return (uint64_t)1 << i;
-    return (uint64_t)1 << (63 - (row - common_rows));
+    size_t index = 0;
+    while (row != common_row(p->command, index))
+        index++;
+    return (uint64_t)1 << (63 - index);
 }
 
 /* A line of a settings file that names no setting: a callback of clshear_settings_read. */
@@ -183,7 +196,8 @@ static int take_line(void *user, const char *file, int line, const char *name, c
                                        *options->file_words != '\0' ? " " : "", name,
                                        value != NULL ? " " : "", value != NULL ? value : "");
     if (find(p, p->command, name, &flag, &nearest)) {
-        if (flag.row == &common_rows[SETTINGS_ROW] || flag.row == &common_rows[HELP_ROW])
+        if (flag.row != NULL && (flag.row == common_row(p->command, SETTINGS_ROW) ||
+                                 flag.row == &common_rows[HELP_ROW]))
             return p->code =
                        complain(EXIT_USAGE, "%s%s: is for the command line only", place, name);
         const int is_left_out = p->command != p->renders && flag.row->adds;
@@ -263,7 +277,7 @@ static int read_line(parser *p, int argc, char **argv)
         if (!find(p, p->command, name, &flag, &nearest))
             return complain_unknown(p, "", dashes, name, nearest);
         if (value == NULL && *argument_of(&flag) != '\0' && i + 1 < argc) value = argv[++i];
-        if (flag.row == &common_rows[SETTINGS_ROW] && options->settings_file.count > 0)
+        if (flag.row == common_row(p->command, SETTINGS_ROW) && options->settings_file.count > 0)
             return complain(EXIT_USAGE, "--%s is given twice: put all into one file", name);
         const int code = apply(p, "", &flag, name, value);
         if (code != EXIT_DONE) return code;

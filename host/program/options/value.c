@@ -41,6 +41,8 @@ void options_free(program_options *options)
     }
 }
 
+static const char blanks[] = " \t"; /* may stand around commas and semicolons */
+
 static int store_numbers(const program_flag *row, number_list *list, const char *text)
 {
     if (!row->adds) list->count = 0;
@@ -53,8 +55,9 @@ static int store_numbers(const program_flag *row, number_list *list, const char 
         list->items[list->count++] = number;
         const int item_ends = list->count % row->values == 0;
         if (*end == '\0') return item_ends;
+        end += strspn(end, blanks);
         if (*end != (item_ends && row->values > 1 ? ';' : ',')) return 0;
-        text = end + 1;
+        text = end + 1 + strspn(end + 1, blanks);
     }
     return 0;
 }
@@ -66,15 +69,18 @@ static int store_texts(program_options *options, const program_flag *row, text_l
     const int is_split = !row->adds && row->most > 1;
     if (!row->adds) list->count = 0;
     while (list->count < row->most) {
-        const size_t length = is_split ? strcspn(text, ",") : strlen(text);
+        const size_t length = is_split ? strcspn(text, ", \t") : strlen(text);
         const char *item = options_text(options, "%.*s", (int)length, text);
         list->items[list->count++] = item;
         if (length == 0) return 0;
         if (*row->form != '\0' && !has_word(row->form, item, length) &&
             !has_ending(row->form, item))
             return 0;
-        if (text[length] == '\0') return 1;
-        text += length + 1;
+        text += length;
+        if (*text == '\0') return 1;
+        text += strspn(text, blanks);
+        if (*text != ',') return 0;
+        text += 1 + strspn(text + 1, blanks);
     }
     return 0;
 }

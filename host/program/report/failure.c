@@ -17,12 +17,9 @@ int complain(int code, const char *format, ...)
     return code;
 }
 
-int complain_of_library(void)
-{
-    return complain(EXIT_FAILED, "%s", clshear_message());
-}
-
 int exit_status_of(clshear_status status)
 {
-    return status == CLSHEAR_OK ? EXIT_DONE : complain_of_library();
+    if (status == CLSHEAR_OK) return EXIT_DONE;
+    return complain(status == CLSHEAR_BAD_ARGUMENT ? EXIT_USAGE : EXIT_FAILED, "%s",
+                    clshear_message());
 }

@@ -14,11 +14,8 @@ enum {
 /* Prints one line, "clshear: ...", on standard error and returns `code`. */
 int complain(int code, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The same with the library's message; returns EXIT_FAILED. */
-int complain_of_library(void);
-
-/* Prints the library's message unless the status is CLSHEAR_OK. Returns EXIT_DONE or EXIT_FAILED.
- */
+/* Prints the library's message unless the status is CLSHEAR_OK. Returns EXIT_DONE, EXIT_USAGE for a
+ * value that the library refuses, or EXIT_FAILED. */
 int exit_status_of(clshear_status status);
 
 #endif

@@ -29,7 +29,7 @@
     X(HALTON, "halton", halton, net_pair, net_pair, digits, halton, 1, "bases 2, 3, 5, 7, permuted digits") \
     X(SOBOL, "sobol", net, net_words, net_pair, any, sobol, 1, "6D, nested uniform scrambling (Burley 2020)") \
     X(SOBOL_PAIRS, "sobol-pairs", net_pairs, net_pair, net_pair, any, index, 1, "(0,2)-sequences, shuffled pairs") \
-    X(SZ, "sz", net, net_pair, net_pair, any, sz, 1, "(0,4)-sequence of (0,2)-pairs (after Ahmed et al. 2025)") \
+    X(SZ, "sz", net, net_pair, net_pair, any, sz, 1, "(0,4)-sequence of (0,2)-pairs (Ahmed 2025)") \
     X(RANK1, "rank1", lattice, partner, partner, any, rank1, 0, "Korobov lattice, shifted at random") \
     X(POISSON, "poisson", point_set, point_set, point_set, modest, poisson, 0, "Poisson disk pairs, paired at random") \
     X(CCVT, "ccvt", point_set, point_set, point_set, few, ccvt, 0, "equal-capacity Voronoi pairs, paired at random")
