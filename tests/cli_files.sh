@@ -108,6 +108,16 @@ kill -HUP $child
 wait $child
 [ $? -eq 0 ] || wrong "nohup: exit code, $(cat h.txt)"
 
+# What is printed does not go into the files of a program whose standard streams are closed.
+# shellcheck disable=SC2086
+{
+    expect 0 "" -- "$cornell" $small --threads 1 --record open.capsule --out open.exr
+    "$program" "$cornell" $small --threads 1 --record closed.capsule --out closed.exr 2>&- <&-
+    cmp -s open.capsule closed.capsule || wrong "progress is written into a file"
+    "$program" "$cornell" $small --quiet --stats --out closed.exr 2>closed.txt >&-
+    case $?$(cat closed.txt) in 1*"standard output: cannot be written"*) ;; *) wrong "closed output: $(cat closed.txt)" ;; esac
+}
+
 # A full disk: one line, exit 1, the old picture untouched and nothing left behind.
 echo old >kept.exr
 (

@@ -1,6 +1,7 @@
 /* The program: the first word may name a command, otherwise a scene is rendered. */
 #define _GNU_SOURCE /* pthread_setattr_default_np */
 #include <errno.h>
+#include <fcntl.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
@@ -36,6 +37,17 @@ static int run(int argc, char **argv)
     return command_run(all_commands[0], argc, argv);
 }
 
+/* Puts something that fails where standard streams are closed: else the first files that are opened
+ * would be these streams, and what is printed would go into them. */
+static void occupy_streams(void)
+{
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; stream++) {
+        if (fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
+        const int mode = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+        if (open("/dev/null", mode) != stream) return; /* the lowest that is free */
+    }
+}
+
 /* Gives threads, those of drivers too, stacks of 2 MB where the system's limit allows less: that is
  * one of the first thread's, but sets the default of the others. */
 static void enlarge_stacks(void)
@@ -52,6 +64,7 @@ static void enlarge_stacks(void)
 
 int main(int argc, char **argv)
 {
+    occupy_streams();
     progress_note_signals();
     enlarge_stacks();
     const int code = run(argc, argv);
