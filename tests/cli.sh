@@ -205,6 +205,7 @@ remarks="black|brighter|everything is in focus"
 {
     expect 0 "black: the camera does not see" -- bare.obj $small --eye 0,0,1e5 --target 0,0,2e5 \
         --light 0,0,9,1,1,1 --out k.exr
+    expect 0 "does not see the scene, only what is around it" -- bare.obj $small --eye 0,0,9 --target 0,0,20 --out k.exr
     expect 0 "black: no light reaches" -- bare.obj $small --light 1e6,1e6,1e6,0,0,0 --out k.exr
     expect 0 "--exposure -9 or --auto-exposure" -- bare.obj $small --environment 99,99,99 \
         --out k.exr
@@ -221,7 +222,7 @@ expect 1 "folder.exr: is a folder" -- bare.obj --out folder.exr
 info=$(oiiotool --info -v a.exr)
 for word in 'Software: "clshear' 'clshear.cmdline: "' 'clshear.settings: "--eye 276.4,274.4,800 --target' 'clshear.seed: "0"' 'clshear.sampler: "sz"' \
     'clshear.shear: "equal-area"' 'clshear.replicates: 2' 'samplesPerPixel: 16' \
-    'renderTimeSeconds: ' 'worldToCamera: ' 'clshear.focalDistance: 930' 'clshear.device: "' \
+    'renderTimeSeconds: ' 'worldToCamera: ' 'worldToNDC: ' 'screenWindowWidth: 0.6498' 'clshear.focalDistance: 930' 'clshear.device: "' \
     'clshear.driver: "' 'Variance.R' 'SampleVariance.B' 'Samples' 'Shear'; do
     case $info in *"$word"*) ;; *) wrong "no $word in the metadata" ;; esac
 done

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "film/film.h"
+
 enum {
     SIDE = 24
 };
@@ -45,6 +47,44 @@ static void expect_sums(const clshear_film *film)
             const float whole = clshear_film_channel(film, colour)[i];
             assert_near(sum, whole, 1e-5 * (1e-3 + (double)whole));
         }
+    }
+}
+
+/* A matrix of the film's metadata. */
+static const float *matrix_of(const clshear_film *film, const char *name)
+{
+    const cs_attribute *attributes = film->attributes.items;
+    for (size_t i = 0; i < film->attributes.count; i++)
+        if (strcmp(attributes[i].name, name) == 0) return attributes[i].numbers;
+    fail_msg("no %s", name);
+    return NULL;
+}
+
+/* The matrix of the metadata finds each pixel from what it sees: mean positions lie in the pixel's
+ * pyramid of sight, which is convex. Tolerance for floats. */
+static void the_matrix_finds_the_pixels(void **state)
+{
+    test_fixture *made = *state;
+    for (int k = 0; k < 2; k++) {
+        clshear_settings *settings = test_settings(made->settings, 24, 16, 16);
+        test_set(settings, CLSHEAR_AOV, "position");
+        test_set(settings, CLSHEAR_LENS_RADIUS, "0");
+        test_set(settings, CLSHEAR_CROP, "5,20,2,13");
+        if (k == 1) test_set(settings, CLSHEAR_ORTHOGRAPHIC, "700");
+        clshear_film *film = test_render(made->scene, settings);
+        const float *m = matrix_of(film, "worldToNDC");
+        const float *p[3] = {clshear_film_channel(film, "P.X"), clshear_film_channel(film, "P.Y"),
+                             clshear_film_channel(film, "P.Z")};
+        for (int i = 0; i < 15 * 11; i++) {
+            float at[4];
+            if (clshear_film_channel(film, "Coverage.A")[i] <= 0.0f) continue;
+            for (int c = 0; c < 4; c++)
+                at[c] = p[0][i] * m[c] + p[1][i] * m[4 + c] + p[2][i] * m[8 + c] + m[12 + c];
+            assert_near(24.0f * at[0] / at[3], (float)(5 + i % 15) + 0.5f, 0.501f);
+            assert_near(16.0f * at[1] / at[3], (float)(2 + i / 15) + 0.5f, 0.501f);
+        }
+        clshear_film_free(film);
+        clshear_settings_free(settings);
     }
 }
 
@@ -218,6 +258,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_picture_stays_and_parts_add_up),
+        cmocka_unit_test(the_matrix_finds_the_pixels),
         cmocka_unit_test(extended_equals_whole),
         cmocka_unit_test(means_through_the_lens_obey_closed_forms),
         cmocka_unit_test(a_crop_has_the_same_channels),

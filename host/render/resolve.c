@@ -10,6 +10,7 @@
 #include "render/recipe.h"
 #include "render/resume.h"
 #include "render/rounds.h"
+#include "render/view_metadata.h"
 
 typedef struct planes {
     float *mean[3];
@@ -134,29 +135,11 @@ done:
     return status;
 }
 
-/* World to camera space for row vectors: x right, y up, z forward, as OpenEXR has it. The world has
- * the coordinates of the file, whose `origin` is that of the scene. */
-static void world_to_camera(const cs_camera *camera, const double *origin, float *matrix)
-{
-    memset(matrix, 0, 16 * sizeof *matrix);
-    matrix[15] = 1.0f;
-    for (int axis = 0; axis < 3; axis++) {
-        const float columns[3] = {camera->right[axis], -camera->down[axis], camera->forward[axis]};
-        for (int column = 0; column < 3; column++) {
-            matrix[4 * axis + column] = columns[column];
-            matrix[12 + column] -=
-                (float)((double)camera->eye[axis] + origin[axis]) * columns[column];
-        }
-    }
-}
-
 /* Metadata: the settings, and what else is needed to make the image again. */
 static clshear_status describe(const cs_job *job, clshear_film *film)
 {
     clshear_status status = CLSHEAR_OK;
     const cs_device *device = job->scene->context->device;
-    float matrix[16];
-    world_to_camera(&job->camera, job->scene->scene.origin, matrix);
     CS_TRY(cs_film_annotate(film, "Software", "clshear " CLSHEAR_VERSION_STRING));
     CS_TRY(cs_film_annotate(film, "clshear.version", CLSHEAR_VERSION_STRING));
     CS_TRY(cs_record_settings(&job->settings, film));
@@ -165,7 +148,7 @@ static clshear_status describe(const cs_job *job, clshear_film *film)
     CS_TRY(cs_film_set_int(film, "clshear.packet", cs_device_packet(device)));
     CS_TRY(cs_film_set_int(film, "samplesPerPixel",
                            (int32_t)((double)film->info.samples / (double)job->pixel_count + 0.5)));
-    CS_TRY(cs_film_set_matrix(film, "worldtocamera", matrix));
+    CS_TRY(cs_view_describe(job, film));
 done:
     return status;
 }

@@ -58,6 +58,10 @@ void remark_on_picture(const clshear_film *film, const clshear_settings *setting
     if (found.lit == 0 && found.met == 0)
         fprintf(stderr, "clshear: the picture is black: the camera does not see the scene; "
                         "--eye and --target aim it, without them the scene is framed\n");
+    else if (found.met == 0 && (size_t)info.width * (size_t)info.height ==
+                                   (size_t)info.full_width * (size_t)info.full_height)
+        fprintf(stderr, "clshear: the camera does not see the scene, only what is around it; "
+                        "--eye and --target aim it, without them the scene is framed\n");
     else if (found.lit == 0)
         fprintf(stderr, "clshear: the picture is black: no light reaches what it shows; "
                         "--environment 1,1,1 adds light from all around\n");
