@@ -243,6 +243,12 @@ static void smoothing_groups_and_angles(void **state)
     scene = import_text("roof.obj", ROOF "s 1\nf 1 2 5 4\ns 2\nf 2 3 6 5\n");
     expect_close(import_vertex(&scene, 0, 1)->normal, -0.70711f, 0, 0.70711f);
     cs_scene_free(&scene);
+    /* A leaf of two sides that lie on each other, of own vertices: each has its own normal. */
+    scene = import_text("leaf.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                    "s 1\nf 1 2 3\nf 6 5 4\n");
+    expect_close(import_vertex(&scene, 0, 1)->normal, 0, 0, 1);
+    expect_close(import_vertex(&scene, 1, 1)->normal, 0, 0, -1);
+    cs_scene_free(&scene);
     const char *flat = test_file("flat.obj", ROOF "s off\nf 1 2 5 4\nf 2 3 6 5\n");
     scene = import_load(flat);
     assert_int_equal(*(const uint8_t *)scene.triangle_flags.items, 0);
