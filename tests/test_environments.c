@@ -58,12 +58,12 @@ static void fill_image(float brightest, float *texels)
                                                     (i == 45 ? brightest : 1.0f);
 }
 
-static cs_environment made_environment(float brightest, double rotation_deg)
+static cs_environment made_environment(float brightest, double rotation_deg, int z_up)
 {
     float texels[3 * WIDTH * HEIGHT];
     cs_error error;
     cs_environment made = {0};
-    const cs_environment_view view = {.rotation_deg = rotation_deg, .strength = 1.0};
+    const cs_environment_view view = {.rotation_deg = rotation_deg, .strength = 1.0, .z_up = z_up};
     fill_image(brightest, texels);
     assert_int_equal(cs_environment_make(texels, WIDTH, HEIGHT, &made, &error), CLSHEAR_OK);
     cs_environment_show(&view, &made.light);
@@ -71,13 +71,13 @@ static cs_environment made_environment(float brightest, double rotation_deg)
 }
 
 /* The middle of texel (x, y) seen from the origin. */
-static void texel_direction(double x, double y, double rotation_deg, float *direction)
+static void texel_direction(double x, double y, double rotation_deg, int z_up, float *direction)
 {
     const double longitude = ((x + 0.5) / WIDTH - 0.5) * 2.0 * pi - rotation_deg * pi / 180.0;
     const double polar = (y + 0.5) / HEIGHT * pi;
     direction[0] = (float)(sin(polar) * sin(longitude));
-    direction[1] = (float)cos(polar);
-    direction[2] = (float)(-sin(polar) * cos(longitude));
+    direction[z_up ? 2 : 1] = (float)cos(polar);
+    direction[z_up ? 1 : 2] = (float)((z_up ? 1.0 : -1.0) * sin(polar) * cos(longitude));
 }
 
 static void look(const cs_lat_long *image, const float *direction, float *radiance)
@@ -98,12 +98,13 @@ static void texels_are_where_they_should_be(void **state)
 {
     static const double turns[] = {0.0, 90.0, -133.0};
     (void)state;
-    for (size_t k = 0; k < 3; k++) {
-        cs_environment made = made_environment(40.0f, turns[k]);
+    for (size_t k = 0; k < 6; k++) {
+        const int z_up = k >= 3;
+        cs_environment made = made_environment(40.0f, turns[k % 3], z_up);
         const cs_lat_long image = cs_lat_long_of(&made.light, made.image.items);
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             float direction[3], radiance[3];
-            texel_direction(i % WIDTH, i / WIDTH, turns[k], direction);
+            texel_direction(i % WIDTH, i / WIDTH, turns[k % 3], z_up, direction);
             look(&image, direction, radiance);
             for (int c = 0; c < 3; c++)
                 assert_near(radiance[c], image.texels[3 * i + c], 1e-4);
@@ -129,7 +130,7 @@ static double expect_in_boxes(const cs_lat_long *image, double *expected)
         const int x = i % (ACROSS * STEPS), y = i / (ACROSS * STEPS);
         float direction[3];
         texel_direction((x + 0.5) * WIDTH / (ACROSS * STEPS) - 0.5,
-                        (y + 0.5) * HEIGHT / (DOWN * STEPS) - 0.5, 37.0, direction);
+                        (y + 0.5) * HEIGHT / (DOWN * STEPS) - 0.5, 37.0, image->z_up, direction);
         const double top = cos(pi * y / (DOWN * STEPS)),
                      bottom = cos(pi * (y + 1) / (DOWN * STEPS));
         const double part =
@@ -161,14 +162,13 @@ static void count_in_boxes(const cs_lat_long *image, double *seen)
  * 200 000 draws at independent points in 32 x 16 boxes, those that expect fewer than 10 left out.
  * The limit is mean plus 5 standard deviations of chi-square, k + 5 sqrt(2 k), a false alarm of
  * some 1e-6; the seed is fixed. */
-static void directions_follow_their_density(void **state)
+static void expect_density(int z_up)
 {
-    static double expected[BOXES], seen[BOXES];
-    cs_environment made = made_environment(40.0f, 37.0);
+    double expected[BOXES] = {0.0}, seen[BOXES] = {0.0};
+    cs_environment made = made_environment(40.0f, 37.0, z_up);
     const cs_lat_long image = cs_lat_long_of(&made.light, made.image.items);
     double square = 0.0;
     int boxes = 0;
-    (void)state;
     assert_near(expect_in_boxes(&image, expected), 1.0, 1e-4);
     count_in_boxes(&image, seen);
     for (int i = 0; i < BOXES; i++) {
@@ -180,6 +180,30 @@ static void directions_follow_their_density(void **state)
     assert_above(boxes, 100);
     assert_below(square, boxes + 5.0 * sqrt(2.0 * boxes));
     cs_environment_free(&made);
+}
+
+static void directions_follow_their_density(void **state)
+{
+    (void)state;
+    expect_density(0);
+    expect_density(1);
+}
+
+/* Where +Z is up, so is the zenith; +Y is the horizon then. */
+static void sky_stands_on_what_is_up(void **state)
+{
+    static const char *const ways[] = {"0,2,0", "0,1,1"};
+    clshear_scene *scene = test_floor(*state, 1.0f, 0.5f);
+    for (int i = 0; i < 4; i++) {
+        const int z_up = i / 2, looks_at_z = i % 2;
+        clshear_settings *settings = test_looking_down(0.0, 16);
+        test_set(settings, CLSHEAR_TARGET, "%s", ways[looks_at_z]);
+        test_set(settings, CLSHEAR_UP, "1,0,0");
+        test_set(settings, CLSHEAR_ENVIRONMENT, "gradient:1,1,1,0.25,0.25,0.25");
+        test_set_number(settings, CLSHEAR_Z_UP, z_up);
+        assert_near(mean_of_render(scene, settings).mean, z_up == looks_at_z ? 1.0 : 0.25, 0.01);
+    }
+    clshear_scene_free(scene);
 }
 
 /* Writes an image around everything, of texels row by row, in three channels. */
@@ -287,7 +311,7 @@ static void second_moments(const cs_lat_long *image, double *by_cosine, double *
     for (int i = 0; i < ACROSS * DOWN; i++) {
         float radiance[3];
         const double x = i % ACROSS + 0.5, y = i / ACROSS + 0.5;
-        texel_direction(x * WIDTH / ACROSS - 0.5, y * HEIGHT / DOWN - 0.5, 0.0, direction[i]);
+        texel_direction(x * WIDTH / ACROSS - 0.5, y * HEIGHT / DOWN - 0.5, 0.0, 0, direction[i]);
         look(image, direction[i], radiance);
         luminance[i] = 0.2126 * (double)radiance[0] + 0.7152 * (double)radiance[1] +
                        0.0722 * (double)radiance[2];
@@ -318,7 +342,7 @@ static void cells_are_for_uneven_images(void **state)
     int with = 0;
     (void)state;
     for (size_t i = 0; i < sizeof brightest / sizeof *brightest; i++) {
-        cs_environment made = made_environment(brightest[i], 0.0);
+        cs_environment made = made_environment(brightest[i], 0.0, 0);
         const cs_lat_long image = cs_lat_long_of(&made.light, made.image.items);
         double by_cosine, by_luminance;
         second_moments(&image, &by_cosine, &by_luminance);
@@ -341,7 +365,7 @@ static void image_lights_a_floor(clshear_context *context, float brightest)
     };
     float texels[3 * WIDTH * HEIGHT];
     const char *path = test_path("around.exr");
-    cs_environment made = made_environment(brightest, 0.0);
+    cs_environment made = made_environment(brightest, 0.0, 0);
     const cs_lat_long image = cs_lat_long_of(&made.light, made.image.items);
     double irradiance = 0.0;
     fill_image(brightest, texels);
@@ -384,6 +408,7 @@ int main(void)
         cmocka_unit_test(even_environment),
         cmocka_unit_test(texels_are_where_they_should_be),
         cmocka_unit_test(directions_follow_their_density),
+        cmocka_unit_test(sky_stands_on_what_is_up),
         cmocka_unit_test(environment_files_are_kept),
         cmocka_unit_test(environments_know_no_locale),
         cmocka_unit_test(cells_are_for_uneven_images),

@@ -229,6 +229,19 @@ static void damaged_obj(void **state)
 
 /* ----- Smoothness ----- */
 
+/* Normals count by their direction alone, and one without a direction not at all. */
+static void normals_have_length_one(void **state)
+{
+    cs_scene scene;
+    (void)state;
+    scene = import_text("long.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1000\nvn 0 3e-20 0\n"
+                                    "vn 0 0 0\nf 1//1 2//2 3//3\n");
+    expect_close(import_vertex(&scene, 0, 0)->normal, 0, 0, 1);
+    expect_close(import_vertex(&scene, 0, 1)->normal, 0, 1, 0);
+    expect_close(import_vertex(&scene, 0, 2)->normal, 0, 0, 0);
+    cs_scene_free(&scene);
+}
+
 #define ROOF "v -1 0 0\nv 0 0 1\nv 1 0 0\nv -1 1 0\nv 0 1 1\nv 1 1 0\n"
 
 static void smoothing_groups_and_angles(void **state)
@@ -242,6 +255,12 @@ static void smoothing_groups_and_angles(void **state)
     cs_scene_free(&scene);
     scene = import_text("roof.obj", ROOF "s 1\nf 1 2 5 4\ns 2\nf 2 3 6 5\n");
     expect_close(import_vertex(&scene, 0, 1)->normal, -0.70711f, 0, 0.70711f);
+    cs_scene_free(&scene);
+    /* A leaf of two sides that lie on each other, of own vertices: each has its own normal. */
+    scene = import_text("leaf.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                    "s 1\nf 1 2 3\nf 6 5 4\n");
+    expect_close(import_vertex(&scene, 0, 1)->normal, 0, 0, 1);
+    expect_close(import_vertex(&scene, 1, 1)->normal, 0, 0, -1);
     cs_scene_free(&scene);
     const char *flat = test_file("flat.obj", ROOF "s off\nf 1 2 5 4\nf 2 3 6 5\n");
     scene = import_load(flat);
@@ -268,6 +287,7 @@ int main(void)
         cmocka_unit_test(texture_without_coordinates),
         cmocka_unit_test(polygons_keep_their_area),
         cmocka_unit_test(damaged_obj),
+        cmocka_unit_test(normals_have_length_one),
         cmocka_unit_test(smoothing_groups_and_angles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

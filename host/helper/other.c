@@ -10,6 +10,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "helper/collada.h"
 #include "helper/node.h"
 #include "import/find_file.h"
 
@@ -262,11 +263,26 @@ static void turn_back(const struct aiScene *file, cs_model *model)
     file->mRootNode->mTransformation = back;
 }
 
-/* None of Assimp's own steps, which trust the indices: triangles are made from what was checked. */
+/* By Assimp; `file` is NULL for what it cannot read. None of its own steps, which trust the
+ * indices: triangles are made from what was checked. */
+static clshear_status open_file(cs_bytes *bytes, const char *path, const struct aiScene **file,
+                                cs_error *error)
+{
+    if (!cs_is_collada(path)) {
+        *file = aiImportFile(path, 0);
+        return CLSHEAR_OK;
+    }
+    const clshear_status status = cs_collada_tidy(bytes, path, error);
+    if (status == CLSHEAR_OK)
+        *file = aiImportFileFromMemory(bytes->data, (unsigned)bytes->size, 0, "dae");
+    return status;
+}
+
 clshear_status cs_read_other(cs_bytes *bytes, cs_model *model, cs_error *error)
 {
-    const struct aiScene *file = aiImportFile(model->path, 0);
-    (void)bytes;
+    const struct aiScene *file = NULL;
+    clshear_status status = open_file(bytes, model->path, &file, error);
+    if (status != CLSHEAR_OK) return status;
     if (file == NULL && strstr(aiGetErrorString(), "bad_alloc") != NULL)
         return cs_fail(error, CLSHEAR_BAD_FILE,
                        "%s: asks for more memory than a file of its size may; it is damaged",
@@ -281,7 +297,7 @@ clshear_status cs_read_other(cs_bytes *bytes, cs_model *model, cs_error *error)
                        (int)strcspn(aiGetErrorString(), "\n"), aiGetErrorString());
     const importing work = {model, file, error};
     turn_back(file, model);
-    clshear_status status = convert(&work);
+    status = convert(&work);
     if (status == CLSHEAR_OK && model->triangles.count == 0)
         status = cs_fail(error, CLSHEAR_BAD_FILE, "%s: there are no triangles in it", model->path);
     aiReleaseImport(file);

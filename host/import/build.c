@@ -95,6 +95,21 @@ static void copy_finite(const float *from, float *to)
         memcpy(to, from, 3 * sizeof *to);
 }
 
+/* A normal of a file, of length 1; zeros if it has no direction. What differs from 1 by rounding
+ * alone stays as it is. A longer one would count for more between its corners, and one that the
+ * scale of a node has made very short would count for none. */
+static void copy_normal(const float *from, float *to)
+{
+    float finite[3] = {0.0f};
+    double square = 0.0;
+    copy_finite(from, finite);
+    for (int axis = 0; axis < 3; axis++)
+        square += (double)finite[axis] * (double)finite[axis];
+    const double scale = square > 0.0 && fabs(square - 1.0) > 1e-5 ? 1.0 / sqrt(square) : 1.0;
+    for (int axis = 0; axis < 3; axis++)
+        to[axis] = (float)(scale * (double)finite[axis]);
+}
+
 static int fill_vertex(const emission *work, const vertex_key *key)
 {
     const cs_model *model = work->model;
@@ -108,7 +123,7 @@ static int fill_vertex(const emission *work, const vertex_key *key)
     for (int axis = 0; axis < 3; axis++)
         position[axis] = (float)(from[axis] - scene->origin[axis]);
     if (key->normal != CS_NO_INDEX)
-        copy_finite(((const float(*)[3])model->normals.items)[key->normal], vertex->normal);
+        copy_normal(((const float(*)[3])model->normals.items)[key->normal], vertex->normal);
     if (key->texture != CS_NO_INDEX) {
         const cs_material_description *material =
             (const cs_material_description *)model->materials.items + key->material;

@@ -16,7 +16,8 @@ static const double degrees_in_radians = CS_PI_DOUBLE / 180.0;
 
 /* A corner of a triangle without normals: which place it is at, what it adds to the mean. */
 typedef struct part {
-    uint32_t place; /* number of the position among the different ones */
+    uint32_t place; /* number of its vertex in the file; by angle, of the position among different
+                       ones */
     float normal[3];
     float weight; /* the angle */
 } part;
@@ -66,20 +67,30 @@ static void describe(const cs_model *model, const cs_model_triangle *triangle, p
     }
 }
 
-static int find_places(smoothing *work)
+/* Number of a vertex's position among the different ones; UINT32_MAX without memory. */
+static uint32_t number_of_position(smoothing *work, uint32_t vertex)
+{
+    const double *position = ((const double(*)[3])work->model->positions.items)[vertex];
+    double key[3];
+    for (int axis = 0; axis < 3; axis++) /* + 0: -0 is 0 */
+        key[axis] = position[axis] + 0.0;
+    return cs_index_map_add(&work->places, key);
+}
+
+/* In a group, only triangles that share a vertex of the file are smooth across it, as in Blender:
+ * the two sides of a leaf that lie on each other would leave each other without a direction. */
+static int find_places(smoothing *work, int by_angle)
 {
     const cs_model *model = work->model;
-    const double(*positions)[3] = model->positions.items;
     const cs_model_triangle *triangles = model->triangles.items;
     for (size_t i = 0; i < model->triangles.count; i++) {
+        part *parts = work->parts + 3 * i;
         for (int k = 0; k < 3; k++) {
-            double key[3];
-            for (int axis = 0; axis < 3; axis++) /* + 0: -0 is 0 */
-                key[axis] = positions[triangles[i].corner[k].position][axis] + 0.0;
-            work->parts[3 * i + (size_t)k].place = cs_index_map_add(&work->places, key);
-            if (work->parts[3 * i + (size_t)k].place == UINT32_MAX) return 0;
+            const uint32_t vertex = triangles[i].corner[k].position;
+            parts[k].place = by_angle ? number_of_position(work, vertex) : vertex;
+            if (parts[k].place == UINT32_MAX) return 0;
         }
-        describe(model, &triangles[i], work->parts + 3 * i);
+        describe(model, &triangles[i], parts);
     }
     return 1;
 }
@@ -215,7 +226,7 @@ clshear_status cs_model_smooth(cs_model *model, double degrees, cs_error *error)
     cs_index_map_init(&work.places, 3 * sizeof(double));
     cs_index_map_init(&work.kinds, by_angle ? 3 * sizeof(float) : 2 * sizeof(uint32_t));
     work.parts = malloc(3 * model->triangles.count * sizeof *work.parts);
-    const int good = work.parts != NULL && find_places(&work) &&
+    const int good = work.parts != NULL && find_places(&work, by_angle) &&
                      (by_angle ? smooth_by_angle(&work, degrees) : smooth_groups(&work));
     free(work.parts);
     free(work.first);

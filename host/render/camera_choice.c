@@ -36,7 +36,7 @@ static clshear_status choose_camera(const clshear_scene *scene, const clshear_se
                    cameras->count, names);
 }
 
-static int z_is_up(const cs_scene *scene, const clshear_settings *settings)
+int cs_z_is_up(const cs_scene *scene, const clshear_settings *settings)
 {
     return cs_is_set(settings, Z_UP) ? cs_integer(settings, Z_UP) != 0 : scene->z_up;
 }
@@ -44,7 +44,7 @@ static int z_is_up(const cs_scene *scene, const clshear_settings *settings)
 /* The camera that frames the scene. The settings may turn it, and say what is up. */
 static cs_view frame_scene(const cs_scene *scene, const clshear_settings *settings)
 {
-    cs_framing framing = cs_framing_default(scene, z_is_up(scene, settings));
+    cs_framing framing = cs_framing_default(scene, cs_z_is_up(scene, settings));
     if (cs_is_set(settings, FOV)) framing.fov_deg = (float)cs_number(settings, FOV);
     framing.orthographic = cs_is_set(settings, ORTHOGRAPHIC);
     if (cs_is_set(settings, ORBIT)) {
@@ -65,7 +65,8 @@ static clshear_status default_view(const clshear_scene *scene, const clshear_set
                           cs_is_set(settings, ORTHOGRAPHIC);
     clshear_status status = CLSHEAR_OK;
     if (!is_placed)
-        status = cs_interior_view(scene, z_is_up(&scene->scene, settings), &is_room, view, error);
+        status =
+            cs_interior_view(scene, cs_z_is_up(&scene->scene, settings), &is_room, view, error);
     if (status != CLSHEAR_OK) return status;
     if (is_room)
         cs_warn(
@@ -123,7 +124,7 @@ static void set_upright(const clshear_scene *scene, const clshear_settings *sett
     float line[3];
     for (int axis = 0; axis < 3; axis++)
         line[axis] = (float)(cs_numbers(settings, TARGET)[axis] - cs_numbers(settings, EYE)[axis]);
-    cs_framing_upright(z_is_up(&scene->scene, settings), line, up);
+    cs_framing_upright(cs_z_is_up(&scene->scene, settings), line, up);
 }
 
 clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *settings,

@@ -5,6 +5,9 @@
 #include "render/objects.h"
 #include "settings/settings.h"
 
+/* Whether +Z is up, and not +Y: by the settings, or else by the convention of the file's format. */
+int cs_z_is_up(const cs_scene *scene, const clshear_settings *settings);
+
 /* As clshear_camera_complete. */
 clshear_status cs_camera_complete(const clshear_scene *scene, clshear_settings *settings,
                                   cs_error *error);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "kernels/features.h"
+#include "render/camera_choice.h"
 #include "scene/environment.h"
 
 static clshear_status add(cs_array *lights, const cs_light *light, cs_error *error)
@@ -106,7 +107,8 @@ static clshear_status add_environment(const clshear_scene *scene, const clshear_
 {
     clshear_status status = CLSHEAR_OK;
     const cs_environment_view view = {.rotation_deg = cs_number(settings, ENVIRONMENT_ROTATION),
-                                      .strength = cs_number(settings, ENVIRONMENT_STRENGTH)};
+                                      .strength = cs_number(settings, ENVIRONMENT_STRENGTH),
+                                      .z_up = cs_z_is_up(&scene->scene, settings)};
     const char *text = cs_text(settings, ENVIRONMENT);
     cs_light light;
     if (text == NULL || strcmp(text, "none") == 0) return CLSHEAR_OK;

@@ -34,6 +34,8 @@ void cs_environment_show(const cs_environment_view *view, cs_light *light)
         light->colour[c] = (float)((double)light->colour[c] * view->strength);
     light->parameters[3] = (float)cos(angle);
     light->parameters[4] = (float)sin(angle);
+    light->axis[1] = view->z_up ? 0.0f : 1.0f;
+    light->axis[2] = view->z_up ? 1.0f : 0.0f;
 }
 
 /* The largest half: files of halves have infinity for what is brighter. */

@@ -14,8 +14,9 @@ typedef struct cs_environment {
 
 /* How an environment is shown. */
 typedef struct cs_environment_view {
-    double rotation_deg; /* about +Y, seen from above against the clock */
+    double rotation_deg; /* about the axis that is up, seen from above against the clock */
     double strength;     /* its radiance is multiplied by it */
+    int z_up;            /* 1: +Z is up; 0: +Y is */
 } cs_environment_view;
 
 /* From "R,G,B", "gradient:R,G,B,R,G,B" (zenith, horizon) or the path of an image. Freed by

@@ -38,8 +38,9 @@ def records(stream):
 
 
 def raw_arrays(importer, path):
-    """Bytes of the scene's arrays by name. Faces without normals stay flat, as by default."""
-    stream = subprocess.run([importer, path, "0", "-"], stdout=subprocess.PIPE, check=False).stdout
+    """Bytes of the scene's arrays by name. -1: faces without normals are smooth where the file says
+    so, as by default."""
+    stream = subprocess.run([importer, path, "-1", "-"], stdout=subprocess.PIPE, check=False).stdout
     arrays = []
     for tag, content in records(stream):
         if tag == b"FAIL":

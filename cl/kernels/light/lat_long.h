@@ -1,9 +1,10 @@
 /* An environment image of longitude and latitude, with the tables it is sampled by. Shared.
  *
- * +Y is up. The middle of the image is in the direction -Z, and +X is to the right of it. The
- * tables have a cell for some texels each; a cell is drawn in proportion to the light that it
- * gives, a direction in it uniformly (Pharr, Jakob & Humphreys 2023, section 12.5). An image that
- * is even enough has no tables: directions are drawn as a diffuse surface draws them. */
+ * Where +Y is up, the middle of the image is in the direction -Z; where +Z is, it is in +Y. +X is
+ * to the right of it. The tables have a cell for some texels each; a cell is drawn in proportion to
+ * the light that it gives, a direction in it uniformly (Pharr, Jakob & Humphreys 2023,
+ * section 12.5). An image that is even enough has no tables: directions are drawn as a diffuse
+ * surface draws them. */
 #ifndef CS_LIGHT_LAT_LONG_H
 #define CS_LIGHT_LAT_LONG_H
 
@@ -19,8 +20,9 @@ typedef struct cs_lat_long {
     cs_u32 height;
     cs_u32 cells_x; /* 0: there are no tables */
     cs_u32 cells_y;
-    cs_f32 cosine; /* of the angle by which the image is turned about +Y, seen from above against */
-    cs_f32 sine;   /* the clock */
+    cs_f32 cosine; /* of the angle by which the image is turned about the axis that is up, seen */
+    cs_f32 sine;   /* from above against the clock */
+    cs_i32 z_up;   /* 1: +Z is up; 0: +Y is */
 } cs_lat_long;
 
 /* The parts of the environment's buffer, in this order. */
@@ -34,6 +36,7 @@ static inline cs_lat_long cs_lat_long_of(CS_GLOBAL const cs_light *light,
     image.cells_y = (cs_u32)light->parameters[2];
     image.cosine = light->parameters[3];
     image.sine = light->parameters[4];
+    image.z_up = light->axis[2] > light->axis[1];
     image.texels = buffer;
     image.rows = buffer + (size_t)3 * image.width * image.height;
     image.columns = image.rows + image.cells_y;
@@ -60,8 +63,8 @@ static inline cs_vint cs_pick_cells(CS_GLOBAL const cs_f32 *cumulative, cs_vint 
     return low - first;
 }
 
-/* Density, per steradian, of the directions in cells. top, bottom: cosines of the angles from +Y at
- * the edges of their rows. */
+/* Density, per steradian, of the directions in cells. top, bottom: cosines of the angles from above
+ * at the edges of their rows. */
 static inline cs_vfloat cs_cell_density(const cs_lat_long *image, cs_vfloat chance, cs_vfloat top,
                                         cs_vfloat bottom)
 {
@@ -87,9 +90,10 @@ static inline cs_vfloat cs_lat_long_draw(const cs_lat_long *image, cs_vfloat *x,
     *y = cs_angle_to(outward, up) * CS_INVERSE_PI;
     cs_sine_cosine((*x - 0.5f) * (2.0f * CS_PI), &sine, &cosine); /* from -Z towards +X */
     cs_vfloat right = outward * sine, ahead = outward * cosine;
+    cs_vfloat back = -image->cosine * ahead - image->sine * right;
     direction[0] = image->cosine * right - image->sine * ahead;
-    direction[1] = up;
-    direction[2] = -image->cosine * ahead - image->sine * right;
+    direction[1] = image->z_up ? -back : up;
+    direction[2] = image->z_up ? up : back;
     return cs_cell_density(image, row_chance * column_chance, top, bottom);
 }
 
@@ -97,10 +101,12 @@ static inline cs_vfloat cs_lat_long_draw(const cs_lat_long *image, cs_vfloat *x,
 static inline void cs_lat_long_place(const cs_lat_long *image, const cs_vfloat *direction,
                                      cs_vfloat *x, cs_vfloat *y)
 {
-    cs_vfloat right = image->cosine * direction[0] - image->sine * direction[2];
-    cs_vfloat ahead = -image->cosine * direction[2] - image->sine * direction[0];
+    cs_vfloat up = image->z_up ? direction[2] : direction[1];
+    cs_vfloat back = image->z_up ? -direction[1] : direction[2];
+    cs_vfloat right = image->cosine * direction[0] - image->sine * back;
+    cs_vfloat ahead = -image->cosine * back - image->sine * direction[0];
     *x = 0.5f + cs_angle_to(right, ahead) * (0.5f * CS_INVERSE_PI);
-    *y = cs_angle_to(cs_sqrt(right * right + ahead * ahead), direction[1]) * CS_INVERSE_PI;
+    *y = cs_angle_to(cs_sqrt(right * right + ahead * ahead), up) * CS_INVERSE_PI;
 }
 
 /* The number of a texel or cell, of `count`, from its place; an end for what is none. */

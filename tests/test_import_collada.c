@@ -1,0 +1,83 @@
+/* Collada, which Assimp reads behind the wall: as its exporters write it. */
+#include "import_support.h"
+
+#include <stdlib.h>
+
+#define SOURCE(id, numbers)                                                                      \
+    "<source id='" id "'><float_array id='" id "-a' count='9'>" numbers "</float_array>"         \
+    "<technique_common><accessor source='#" id "-a' count='3' stride='3'>"                       \
+    "<param name='X' type='float'/><param name='Y' type='float'/><param name='Z' type='float'/>" \
+    "</accessor></technique_common></source>"
+
+/* A triangle with a colour. */
+#define COLLADA(head, colour)                                                                      \
+    head "<COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'>"          \
+         "<asset><up_axis>Y_UP</up_axis></asset>"                                                  \
+         "<library_effects><effect id='e'><profile_COMMON><technique sid='t'><lambert><diffuse>"   \
+         "<color>" colour "</color></diffuse></lambert></technique></profile_COMMON></effect>"     \
+         "</library_effects><library_materials><material id='m'><instance_effect url='#e'/>"       \
+         "</material></library_materials><library_geometries><geometry id='g'><mesh>" SOURCE(      \
+             "p", "0 0 0 1 0 0 0 1 0") "<vertices id='v'><input semantic='POSITION' source='#p'/>" \
+                                       "</vertices><triangles count='1' material='s'><input "      \
+                                       "semantic='VERTEX' source='#v' "                            \
+                                       "offset='0'/><p>0 1 "                                       \
+                                       "2</p></triangles></mesh></geometry></library_geometries>"  \
+                                       "<library_visual_scenes><visual_scene id='w'><node "        \
+                                       "id='n'><instance_geometry url='#g'>"                       \
+                                       "<bind_material><technique_common><instance_material "      \
+                                       "symbol='s' target='#m'/>"                                  \
+                                       "</technique_common></bind_material></instance_geometry></" \
+                                       "node></visual_scene>"                                      \
+                                       "</library_visual_scenes><scene><instance_visual_scene "    \
+                                       "url='#w'/></scene></COLLADA>\n"
+
+static void expect_triangle(const char *path, float red)
+{
+    const cs_import_options options = {.smooth_degrees = -1.0};
+    const cs_log log = {.warn = import_collect};
+    cs_scene scene;
+    cs_error error = {0};
+    cs_scene_init(&scene);
+    if (cs_scene_import(path, &options, &scene, &log, &error) != CLSHEAR_OK)
+        fail_msg("%s", error.message);
+    assert_int_equal(scene.triangle_flags.count, 1);
+    expect_close(import_material(&scene, 0)->diffuse, red, 0.25f, 0);
+    cs_scene_free(&scene);
+}
+
+/* Colours that begin with a blank, or on a line of their own. */
+static void colours_behind_blanks(void **state)
+{
+    (void)state;
+    expect_triangle(test_file("plain.dae", COLLADA("", "0.5 0.25 0 1")), 0.5f);
+    expect_triangle(test_file("blank.dae", COLLADA("", " 0.75 0.25 0 1")), 0.75f);
+    expect_triangle(test_file("line.dae", COLLADA("", "\r\n\t0.125 0.25\n0 1\n")), 0.125f);
+}
+
+/* UTF-16 with a byte order mark, of both orders. */
+static void utf_16(void **state)
+{
+    static const char text[] = COLLADA("<?xml version='1.0' encoding='UTF-16'?>", " 0.75 0.25 0 1");
+    unsigned char *bytes = malloc(2 * sizeof text);
+    (void)state;
+    assert_non_null(bytes);
+    for (int big = 0; big < 2; big++) {
+        bytes[big] = 0xff;
+        bytes[!big] = 0xfe;
+        for (size_t i = 0; i + 1 < sizeof text; i++) {
+            bytes[2 * i + 2 + (size_t)big] = (unsigned char)text[i];
+            bytes[2 * i + 2 + (size_t)!big] = 0;
+        }
+        expect_triangle(test_bytes("wide.dae", bytes, 2 * sizeof text), 0.75f);
+    }
+    free(bytes);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(colours_behind_blanks),
+        cmocka_unit_test(utf_16),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
