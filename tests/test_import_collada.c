@@ -1,6 +1,7 @@
 /* Collada, which Assimp reads behind the wall: as its exporters write it. */
 #include "import_support.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #define SOURCE(id, numbers)                                                                      \
@@ -73,11 +74,70 @@ static void utf_16(void **state)
     free(bytes);
 }
 
+/* A file with a camera of these optics at the origin. */
+static const char *camera_file(const char *optics)
+{
+    static const char plain[] = COLLADA("", "0.5 0.25 0 1");
+    const char *effects = strstr(plain, "<library_effects>"), *node = strstr(plain, "<node ");
+    char text[8192];
+    snprintf(text, sizeof text,
+             "%.*s<library_cameras><camera id='c' "
+             "name='c'><optics><technique_common>%s</technique_common>"
+             "</optics></camera></library_cameras>%.*s<node id='k'><instance_camera url='#c'/>"
+             "</node>%s",
+             (int)(effects - plain), plain, optics, (int)(node - effects), effects, node);
+    return test_file("camera.dae", text);
+}
+
+/* What the picture shows downwards: an angle in degrees, or of parallel cameras the height. */
+static void expect_extent(const char *optics, float degrees, float height)
+{
+    const cs_import_options options = {.smooth_degrees = -1.0};
+    const cs_log log = {.warn = import_collect};
+    cs_scene scene;
+    cs_error error = {0};
+    cs_scene_init(&scene);
+    if (cs_scene_import(camera_file(optics), &options, &scene, &log, &error) != CLSHEAR_OK)
+        fail_msg("%s", error.message);
+    assert_int_equal(scene.cameras.count, 1);
+    const cs_view *view = &((const cs_scene_camera *)scene.cameras.items)->view;
+    assert_near(view->orthographic, height, 1e-5f * height);
+    if (height <= 0.0f) assert_near(view->fov_deg, degrees, 1e-4f * degrees);
+    cs_scene_free(&scene);
+}
+
+/* What is downwards counts; what is across needs an aspect: 60 degrees at 4 : 3 are 2 atan(tan 30
+ * degrees 3 / 4) downwards. */
+static void cameras_show_what_they_say(void **state)
+{
+    (void)state;
+    expect_extent("<perspective><yfov>50</yfov><znear>1</znear><zfar>9</zfar></perspective>", 50.0f,
+                  0.0f);
+    expect_extent("<perspective>\n <yfov sid='Y'>50</yfov>\n <aspect_ratio>2</aspect_ratio> "
+                  "<znear>1</znear><zfar>9</zfar></perspective>",
+                  50.0f, 0.0f);
+    expect_extent("<perspective><xfov>60</xfov><yfov>46.82644889</yfov><znear>1</znear><zfar>9</"
+                  "zfar></perspective>",
+                  46.82644889f, 0.0f);
+    expect_extent("<perspective><xfov>60</xfov><aspect_ratio>1.3333333</aspect_ratio>"
+                  "<znear>1</znear><zfar>9</zfar></perspective>",
+                  46.82644889f, 0.0f);
+    expect_extent("<orthographic><ymag>1.5</ymag><znear>1</znear><zfar>9</zfar></orthographic>",
+                  0.0f, 3.0f);
+    expect_extent(
+        "<orthographic><xmag>4</xmag><ymag>1.5</ymag><znear>1</znear><zfar>9</zfar></orthographic>",
+        0.0f, 3.0f);
+    expect_extent("<orthographic><xmag sid='X'> 3</xmag><aspect_ratio>2</aspect_ratio>"
+                  "<znear>1</znear><zfar>9</zfar></orthographic>",
+                  0.0f, 3.0f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(colours_behind_blanks),
         cmocka_unit_test(utf_16),
+        cmocka_unit_test(cameras_show_what_they_say),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,6 +11,7 @@
 #include <strings.h>
 
 #include "helper/collada.h"
+#include "helper/collada_camera.h"
 #include "helper/node.h"
 #include "import/find_file.h"
 
@@ -222,6 +223,13 @@ static clshear_status add_camera(const importing *work, const struct aiCamera *s
     transform(&matrix, &source->mUp, 0.0, camera->up);
     camera->height = 2.0 * (double)source->mOrthographicWidth / aspect;
     camera->fov = 2.0 * atan(tan(0.5 * (double)source->mHorizontalFOV) / aspect);
+    if (cs_is_collada(work->model->path)) {
+        const double *up = camera->up;
+        const struct aiVector3D of = source->mUp;
+        const double before = (double)(of.x * of.x + of.y * of.y + of.z * of.z);
+        const double after = up[0] * up[0] + up[1] * up[1] + up[2] * up[2];
+        cs_collada_extent(source, before > 0.0 ? sqrt(after / before) : 1.0, camera);
+    }
     return CLSHEAR_OK;
 }
 
@@ -272,7 +280,8 @@ static clshear_status open_file(cs_bytes *bytes, const char *path, const struct 
         *file = aiImportFile(path, 0);
         return CLSHEAR_OK;
     }
-    const clshear_status status = cs_collada_tidy(bytes, path, error);
+    clshear_status status = cs_collada_tidy(bytes, path, error);
+    if (status == CLSHEAR_OK) status = cs_collada_edit_cameras(bytes, error);
     if (status == CLSHEAR_OK)
         *file = aiImportFileFromMemory(bytes->data, (unsigned)bytes->size, 0, "dae");
     return status;

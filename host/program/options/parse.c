@@ -196,8 +196,7 @@ static int take_line(void *user, const char *file, int line, const char *name, c
                                        *options->file_words != '\0' ? " " : "", name,
                                        value != NULL ? " " : "", value != NULL ? value : "");
     if (find(p, p->command, name, &flag, &nearest)) {
-        if (flag.row != NULL && (flag.row == common_row(p->command, SETTINGS_ROW) ||
-                                 flag.row == &common_rows[HELP_ROW]))
+        if (flag.row == common_row(p->command, SETTINGS_ROW) || flag.row == &common_rows[HELP_ROW])
             return p->code =
                        complain(EXIT_USAGE, "%s%s: is for the command line only", place, name);
         const int is_left_out = p->command != p->renders && flag.row->adds;
