@@ -136,7 +136,7 @@ static int write_outputs(const spectrum_job *job, const clshear_spectrum *spectr
             code = exit_status_of(clshear_spectrum_write(spectrum, job->keep_dc, path));
     }
     if (code == EXIT_DONE && plot.path != NULL && t.radii < 2)
-        code = complain(EXIT_FAILED, "--plot: too few frequencies; give a larger --resolution");
+        code = complain(EXIT_USAGE, "--plot: too few frequencies; give a larger --resolution");
     else if (code == EXIT_DONE)
         code = plot_draw(&plot, write_table, write_script, &t);
     free(t.mean);
