@@ -146,6 +146,7 @@ static const struct {
     {"zip.obj", "PK\3\4", "is a ZIP archive; unpack it first"},
     {"pointer.stl", "version https://git-lfs.github.com/spec/v1\n", "run git lfs pull"},
     {"page.ply", "<!DOCTYPE html>\n", "is a web page"},
+    {"page.off", "\xef\xbb\xbf\n\n  <!Doctype HTML>\n", "is a web page"},
 };
 
 static void refusals_name_the_remedy(void **state)
@@ -153,6 +154,56 @@ static void refusals_name_the_remedy(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
         import_refused(test_file(refused[i].name, refused[i].text), refused[i].words);
+}
+
+/* In place of Assimp: takes what is called so, and refuses all else. */
+static clshear_status read_some(cs_bytes *bytes, cs_model *model, cs_error *error)
+{
+    (void)bytes;
+    static const double triangle[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    static const cs_corner corners[3] = {{0, CS_NO_INDEX, CS_NO_INDEX},
+                                         {1, CS_NO_INDEX, CS_NO_INDEX},
+                                         {2, CS_NO_INDEX, CS_NO_INDEX}};
+    if (strstr(model->path, "some.") == NULL)
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: no reader", model->path);
+    memcpy(cs_model_extend(&model->positions, 3), triangle, sizeof triangle);
+    return cs_model_add_polygon(model, corners, 3, CS_NO_INDEX, 0, error);
+}
+
+/* Formats that Assimp reads may be packed, as Blender's; those that clshear reads itself are not.
+ */
+static void packed_files(void **state)
+{
+    static const struct {
+        const char *name;
+        const char *first;
+        const char *words; /* "" where it is read */
+    } files[] = {{"some.blend", "\x1f\x8b\x08", ""},
+                 {"some.3mf", "PK\3\4", ""},
+                 {"some.obj", "\x1f\x8b\x08", "is compressed by gzip; unpack it first"},
+                 {"some.obj.gz", "\x1f\x8b\x08", "is compressed by gzip; unpack it first"},
+                 {"other.blend", "\x28\xb5\x2f\xfd", "is compressed by zstd; unpack it first"},
+                 {"other",
+                  "\xfd"
+                  "7zXZ",
+                  "is compressed by xz; unpack it first"},
+                 {"other.3mf", "PK\3\4", "no reader"},
+                 {"some.blend", "<!DOCTYPE html>", "is a web page"}};
+    const cs_log log = {.warn = import_collect};
+    const cs_import_options options = {.smooth_degrees = -1.0};
+    (void)state;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        cs_scene scene;
+        cs_error error = {""};
+        cs_scene_init(&scene);
+        const char *path = test_file(files[i].name, files[i].first);
+        const clshear_status status =
+            cs_import_here(path, &options, read_some, &scene, &log, &error);
+        assert_int_equal(status, *files[i].words == '\0' ? CLSHEAR_OK : CLSHEAR_BAD_FILE);
+        if (strstr(error.message, files[i].words) == NULL)
+            fail_msg("%s: \"%s\"", files[i].name, error.message);
+        cs_scene_free(&scene);
+    }
 }
 
 /* Streams leave the count open. */
@@ -220,6 +271,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(squares_of_all_kinds),
         cmocka_unit_test(refusals_name_the_remedy),
+        cmocka_unit_test(packed_files),
         cmocka_unit_test(stl_without_a_count),
         cmocka_unit_test(textures_of_ply_faces),
         cmocka_unit_test(long_names_of_materials),
