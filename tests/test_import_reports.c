@@ -240,6 +240,39 @@ static void textures_of_ply_faces(void **state)
     cs_scene_free(&scene);
 }
 
+/* tx and ty are texture coordinates of some programs, and with tz the tangents of others. Of two
+ * sets the first one counts. */
+static void texture_coordinates_of_ply(void **state)
+{
+    static const struct {
+        const char *properties;
+        const char *numbers; /* of each vertex */
+        int is_there;
+    } table[] = {{"s t tx ty tz", "3 4 1 0 0", 1}, {"tx ty tz s t", "1 0 0 3 4", 1},
+                 {"tx ty s t", "1 0 3 4", 1},      {"tx ty", "3 4", 1},
+                 {"tx ty tz", "1 0 0", 0},         {"u v texture_u texture_v", "3 4 7 8", 1}};
+    (void)state;
+    import_picture("one.ppm");
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        char text[1024] =
+            "ply\nformat ascii 1.0\ncomment TextureFile one.ppm\nelement vertex 4\n" XYZ;
+        char names[64], *rest = names;
+        snprintf(names, sizeof names, "%s", table[i].properties);
+        for (char *name = strtok_r(names, " ", &rest); name; name = strtok_r(NULL, " ", &rest))
+            snprintf(text + strlen(text), sizeof text - strlen(text), "property float %s\n", name);
+        strcat(text, "element face 1\n" LIST "end_header\n");
+        for (int k = 0; k < 4; k++)
+            snprintf(text + strlen(text), sizeof text - strlen(text), "%d %d 0 %s\n",
+                     k == 1 || k == 2 ? 1 : -1, k > 1 ? 1 : -1, table[i].numbers);
+        strcat(text, "4 0 1 2 3\n");
+        cs_scene scene = import_text("coordinates.ply", text);
+        assert_int_equal(*(const uint8_t *)scene.triangle_flags.items & CS_FACE_TEXTURED,
+                         table[i].is_there ? CS_FACE_TEXTURED : 0);
+        if (table[i].is_there) expect_st(&scene, 0, 3, 4);
+        cs_scene_free(&scene);
+    }
+}
+
 static void long_names_of_materials(void **state)
 {
     char mtl[512], obj[512], name[140];
@@ -274,6 +307,7 @@ int main(void)
         cmocka_unit_test(packed_files),
         cmocka_unit_test(stl_without_a_count),
         cmocka_unit_test(textures_of_ply_faces),
+        cmocka_unit_test(texture_coordinates_of_ply),
         cmocka_unit_test(long_names_of_materials),
         cmocka_unit_test(controls_do_not_reach_terminals),
     };
