@@ -64,6 +64,12 @@ refuse 2 "--settings is given twice" -- "$cornell" --settings quiet.flags --sett
 expect 0 "the shard cannot be merged without an .exr among the outputs" -- "$cornell" $small --shard 1/2 --out one.png
 printf '\033[31mred 1\n' >red.flags
 refuse 2 "red.flags:1: unknown flag --?[31mred" -- "$cornell" --settings red.flags
+printf 'r\302\233\302\240\303\251d 1\n' >red.flags # U+009B begins a code, U+00A0 and U+00E9 are letters
+refuse 2 $'red.flags:1: unknown flag --r??\302\240\303\251d' -- "$cornell" --settings red.flags
+strange=$'str\302\233ange.flags'
+echo 'spp 1' >"$strange"
+expect 0 "settings from str??ange.flags" -- "$cornell" $small --settings "$strange" --out one.png
+case $output in *$'\302\233'*) wrong "a control character in the name of a settings file: $output" ;; esac
 # No file is two things: a checkpoint is removed at the end, with the picture of its name.
 expect 2 "--checkpoint ./one.exr: is the file of --out, too" -- "$cornell" $small --checkpoint ./one.exr --out one.exr
 expect 2 "--gain one.png: is the file of --out, too" -- "$cornell" $small --gain one.png --out "$PWD/one.png"
