@@ -299,6 +299,7 @@ int options_parse(const program_command *command, const program_command *renders
     if (code != EXIT_DONE || options->help) return code;
     const char *file = find_file(options);
     if (file != NULL) code = read_file(&p, file);
+    options->file = file;
     for (size_t i = 0; i < command->flag_count && code == EXIT_DONE; i++) {
         const program_flag *row = &command->flags[i];
         const size_t *count = (const void *)((const char *)options + row->target);
