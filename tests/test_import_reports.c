@@ -193,7 +193,26 @@ static clshear_status read_some(cs_bytes *bytes, cs_model *model, cs_error *erro
     if (strstr(model->path, "some.") == NULL)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: no reader", model->path);
     memcpy(cs_model_extend(&model->positions, 3), triangle, sizeof triangle);
+    cs_model_set_colour(model, 0, (const float[3]){-1.0f, -0.5f, 0.25f}, error);
+    cs_model_set_colour(model, 1, (const float[3]){0.25f, 0.5f, 2.0f}, error);
     return cs_model_add_polygon(model, corners, 3, CS_NO_INDEX, 0, error);
+}
+
+/* Negative colours are black, not the white of positions that have none. */
+static void colours_below_0(void **state)
+{
+    cs_scene scene;
+    cs_error error;
+    const cs_log log = {.warn = import_collect};
+    const cs_import_options options = {.smooth_degrees = -1.0};
+    (void)state;
+    cs_scene_init(&scene);
+    const char *path = test_file("some.dae", "<COLLADA/>");
+    assert_int_equal(cs_import_here(path, &options, read_some, &scene, &log, &error), CLSHEAR_OK);
+    expect_close(import_colour(&scene, 0, 0), 0, 0, 0.25f);
+    expect_close(import_colour(&scene, 0, 1), 0.25f, 0.5f, 2);
+    expect_close(import_colour(&scene, 0, 2), 1, 1, 1);
+    cs_scene_free(&scene);
 }
 
 /* Formats that Assimp reads may be packed, as Blender's; those that clshear reads itself are not.
@@ -330,6 +349,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(squares_of_all_kinds),
         cmocka_unit_test(refusals_name_the_remedy),
+        cmocka_unit_test(colours_below_0),
         cmocka_unit_test(packed_files),
         cmocka_unit_test(stl_without_a_count),
         cmocka_unit_test(textures_of_ply_faces),
