@@ -182,9 +182,9 @@ static void sparse_indices(void **state)
         char accessor[512];
         snprintf(accessor, sizeof accessor,
                  ",{%s\"componentType\":5121,\"count\":3,\"type\":\"SCALAR\",\"sparse\":{"
-                 "\"count\":2,\"indices\":{\"bufferView\":2,\"componentType\":5121},"
+                 "\"count\":2,\"indices\":{\"bufferView\":2,\"componentType\":%d},"
                  "\"values\":{\"bufferView\":2}}}",
-                 is_based ? "\"bufferView\":1," : "");
+                 is_based ? "\"bufferView\":1," : "", is_based ? 5121 : 5120);
         cs_scene scene = import_text("sparse.gltf", triangle(accessor, ",\"indices\":1",
                                                              ",\"asset\":{\"version\":\"2.0\"}"));
         assert_int_equal(scene.indices.count, 1);
@@ -192,6 +192,18 @@ static void sparse_indices(void **state)
         expect_close(import_position(&scene, 0, 2), 0, 0, 1);
         cs_scene_free(&scene);
     }
+}
+
+/* Indices of which an exporter says that they have a sign. */
+static void signed_indices(void)
+{
+    cs_scene scene = import_text(
+        "signed.gltf",
+        triangle(",{\"bufferView\":1,\"componentType\":5120,\"count\":3,\"type\":\"SCALAR\"}",
+                 ",\"indices\":1", ",\"asset\":{\"version\":\"2.0\"}"));
+    assert_int_equal(scene.indices.count, 1);
+    assert_string_equal(import_warnings, "");
+    cs_scene_free(&scene);
 }
 
 /* The version is a number here, also where the program's locale has decimal commas, if such a one
@@ -229,6 +241,7 @@ static void slips_of_exporters(void **state)
     }
     import_refused(test_file("one.gltf", "{\"meshes\":{\"a\":{}}}"), "version 1.0");
     numbers_of_versions();
+    signed_indices();
     import_refused(import_gltf_square("", "{}", "{\"mesh\":-1}", ""),
                    "an index into meshes is no whole number of 0 or more");
     import_refused(import_gltf_square("", "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{}}}",
