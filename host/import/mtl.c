@@ -20,6 +20,7 @@ typedef struct mtl_reader {
     cs_error *error;
     size_t line;
     size_t complaints;
+    size_t turned;                 /* materials whose Tr of 1 is taken for opaque */
     char folders[2][CS_FILE_PATH]; /* of the library and of the model */
 } mtl_reader;
 
@@ -299,6 +300,11 @@ void cs_mtl_key(const char *name, char key[CS_MATERIAL_NAME])
                  (unsigned long long)cs_checksum_add(CS_CHECKSUM_OF_NOTHING, name, length));
 }
 
+static void finish_material(mtl_reader *reader, cs_material_description *material)
+{
+    if (material != NULL && mtl_make_surface(&reader->values, material)) reader->turned++;
+}
+
 static clshear_status read_lines(mtl_reader *reader, cs_bytes *bytes)
 {
     char name[CS_MATERIAL_NAME];
@@ -311,7 +317,7 @@ static clshear_status read_lines(mtl_reader *reader, cs_bytes *bytes)
         const char *key = cs_next_word(&at);
         if (key == NULL || key[0] == '#') continue;
         if (strcasecmp(key, "newmtl") == 0) {
-            if (material != NULL) mtl_make_surface(&reader->values, material);
+            finish_material(reader, material);
             mtl_values_init(&reader->values);
             material = cs_model_extend(reader->materials, 1);
             if (material == NULL) return cs_model_full(reader->model, reader->error);
@@ -321,7 +327,7 @@ static clshear_status read_lines(mtl_reader *reader, cs_bytes *bytes)
             status = read_line(reader, material, key, at);
         }
     }
-    if (material != NULL) mtl_make_surface(&reader->values, material);
+    finish_material(reader, material);
     return status;
 }
 
@@ -338,6 +344,12 @@ clshear_status cs_mtl_read(const char *path, cs_model *model, cs_array *material
     if (status == CLSHEAR_OK) status = read_lines(reader, &bytes);
     if (reader->complaints > 10)
         cs_warn(model->log, "%s: %zu more lines are left out", path, reader->complaints - 10);
+    if (reader->turned > 0)
+        cs_warn(
+            model->log,
+            "%s: Tr 1 is taken as opaque, as some programs mean it, in %zu material%s without d; "
+            "write d 0 to hide",
+            path, reader->turned, reader->turned > 1 ? "s" : "");
     cs_bytes_free(&bytes);
     free(reader);
     return status;
