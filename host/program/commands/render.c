@@ -181,6 +181,7 @@ static int render_frame(const render_job *job, int frame)
         (clshear_settings_copy(job->options.settings, &one.options.settings) != CLSHEAR_OK ||
          clshear_settings_set_integer(one.options.settings, CLSHEAR_FRAME, frame) != CLSHEAR_OK))
         code = complain_of_library();
+    if (code == EXIT_DONE) code = render_check_files(&one);
     if (code == EXIT_DONE) code = render_scene(&one);
     free_names(&one.files.out);
     free_names(&one.files.gain);
