@@ -64,6 +64,12 @@ refuse 2 "--settings is given twice" -- "$cornell" --settings quiet.flags --sett
 expect 0 "the shard cannot be merged without an .exr among the outputs" -- "$cornell" $small --shard 1/2 --out one.png
 printf '\033[31mred 1\n' >red.flags
 refuse 2 "red.flags:1: unknown flag --?[31mred" -- "$cornell" --settings red.flags
+printf 'r\302\233\302\240\303\251d 1\n' >red.flags # U+009B begins a code, U+00A0 and U+00E9 are letters
+refuse 2 $'red.flags:1: unknown flag --r??\302\240\303\251d' -- "$cornell" --settings red.flags
+strange=$'str\302\233ange.flags'
+echo 'spp 1' >"$strange"
+expect 0 "settings from str??ange.flags" -- "$cornell" $small --settings "$strange" --out one.png
+case $output in *$'\302\233'*) wrong "a control character in the name of a settings file: $output" ;; esac
 # No file is two things: a checkpoint is removed at the end, with the picture of its name.
 expect 2 "--checkpoint ./one.exr: is the file of --out, too" -- "$cornell" $small --checkpoint ./one.exr --out one.exr
 expect 2 "--gain one.png: is the file of --out, too" -- "$cornell" $small --gain one.png --out "$PWD/one.png"
@@ -71,6 +77,38 @@ cp "$cornell" copy.obj
 expect 2 "--record copy.obj: is the file of the scene, too" -- copy.obj $small --record copy.obj
 expect 2 "--record state2: is the file of --checkpoint, too" -- "$cornell" $small --record state2 --checkpoint state2 --out one.exr
 expect 0 "" -- "$cornell" $small --quiet --preview one.png --out one.png
+expect 2 "--out ./two.png: is the file of --out, too" -- "$cornell" $small --out two.png --out ./two.png
+ln -s two.png link.png
+expect 2 "--out two.png: is the file of --out, too" -- "$cornell" $small --out link.png --out two.png
+[ ! -e two.png ] || wrong "two outputs in one: a picture"
+expect 0 "" -- points --out - --quiet --count 4
+# What is read is not written over, be it by the name that the picture has by default.
+# spares FILE OWNER -- ARGUMENTS: they are refused, since one of their outputs is the file.
+spares() {
+    local file=$1 owner=$2
+    cp "$file" kept
+    expect 2 " $file: is the file of $owner, too; give it another" "${@:3}"
+    cmp -s "$file" kept || wrong "$file is written over: ${*:4}"
+}
+cp "$cornell" scene.exr
+spares scene.exr "the scene" -- scene.exr $small
+spares scene.exr "the scene" -- scene.exr $small --out other.png --out scene.exr
+expect 0 "" -- "$cornell" $small --quiet --out sky.exr --out iris.png
+spares sky.exr --environment -- "$cornell" $small --environment ./sky.exr --out sky.exr
+spares sky.exr --environment -- "$cornell" $small --environment sky.exr --out other.exr --gain sky.exr
+spares iris.png --aperture -- "$cornell" $small --aperture=iris.png --out iris.png
+spares sky.exr --extend -- "$cornell" $small --extend sky.exr --checkpoint sky.exr --out other.exr
+spares sky.exr --reference -- converge "$cornell" $small --reference sky.exr --map sky.exr
+echo 'spp 2' >two.exr
+spares two.exr "the settings" -- "$cornell" $small --settings two.exr --out two.exr
+"$program" points --count 16 --sets 2 --quiet --out points.csv
+spares points.csv --in -- points --in points.csv --out points.csv
+spares points.csv --in -- spectrum --in points.csv --out - --out points.csv
+cp sky.exr sky.0002.exr
+spares sky.0002.exr --environment -- "$root/scenes/wheel.gltf" $small --quiet --frames 1,2 --environment sky.0002.exr --out sky.exr
+expect 2 "--plot plane.png: is the file of --out, too" -- spectrum --count 16 --sets 2 --out plane.png --plot plane.png
+expect 2 "--spectrum a.png: is the file of --out, too" -- slice "$cornell" --pixel 4,4 --out a.png --spectrum a.png
+expect 2 "--out ./m.exr: is the file of --out, too" -- merge sky.exr --out m.exr --out ./m.exr
 cp "$cornell" .hidden
 expect 0 "" -- .hidden $small --quiet
 [ -e .hidden.exr ] || wrong "no name for the picture of .hidden"

@@ -64,7 +64,12 @@ keep=$PATH PATH=/none
 render
 PATH=$keep
 case $output in
-*"which is in no folder of \$PATH"*) refused "PoCL links the kernels with ld" ;;
+*"which is in no folder of \$PATH"*)
+    refused "PoCL links the kernels with ld"
+    output=$(env -u PATH "$program" "$scene" --width 16 --height 16 --spp 4 --quiet --out out.exr 2>&1)
+    code=$?
+    refused "\$PATH is not set: set it to /usr/bin"
+    ;;
 *) [ $code -eq 0 ] || wrong "without ld: $output" ;; # of another PoCL than Debian's, which needs none
 esac
 render

@@ -1,4 +1,5 @@
 /* The textures that materials of files name, from the images to the texels on the device. */
+#include "exr_parts.h"
 #include "material_scenes.h"
 
 #include <math.h>
@@ -227,6 +228,24 @@ static void layers_of_exr(void **state)
     expect_red(write_exr("plain.exr", 0, 1, 1, 7, plain, seven), 1, 1, two);
 }
 
+/* The same among the parts of a file, whose names count where their channels name no layer. */
+static void parts_of_exr(void **state)
+{
+    static const test_exr_part files[][2] = {
+        {{"depth", "Z", 1}, {"main", "R,G,B", 2}},
+        {{"a", "albedo.R,albedo.G,albedo.B", 1}, {"b", "combined.R,combined.G,combined.B", 2}},
+        {{"a", "albedo.R,albedo.G,albedo.B", 1}, {"rgba", "R,G,B,Z", 2}},
+        {{"diffuse", "R,G,B", 1}, {"View.Beauty", "R,G,B", 2}},
+        {{"left", "R,G,B", 2}, {"right", "R,G,B", 1}},
+        {{"beauty", "R,G,B", 2}, {"depth", "Z", 1}}};
+    (void)state;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        const char *path = test_path("parts.exr");
+        assert_int_equal(test_write_exr_parts(path, files[i], 2), 1);
+        expect_red(path, 1, 1, (const float[]){2});
+    }
+}
+
 /* A Radiance file whose head names the axes in another order, or runs along them backwards. */
 static void order_of_radiance(void **state)
 {
@@ -273,7 +292,8 @@ int main(void)
         cmocka_unit_test(maps_of_gltf),           cmocka_unit_test(maps_of_mtl),
         cmocka_unit_test(gamma_of_png),           cmocka_unit_test(texels_beyond_halves),
         cmocka_unit_test(heights_become_normals), cmocka_unit_test(windows_of_exr),
-        cmocka_unit_test(layers_of_exr),          cmocka_unit_test(order_of_radiance),
+        cmocka_unit_test(layers_of_exr),          cmocka_unit_test(parts_of_exr),
+        cmocka_unit_test(order_of_radiance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -195,6 +195,10 @@ static void flags_of_materials(void **state)
         cs_scene_free(&scene);
     }
     cs_scene scene = material_scene_mtl("Tr 1");
+    assert_int_equal(import_material(&scene, 0)->flags, 0);
+    import_warned("Tr 1 is taken as opaque, as some programs mean it, in 1 material without d");
+    cs_scene_free(&scene);
+    scene = material_scene_mtl("d 0");
     import_warned("\"m\" has the opacity 0 and cannot be seen");
     cs_scene_free(&scene);
 }

@@ -1,6 +1,7 @@
 /* glTF files, by what the reader makes of small ones. */
 #include "import_support.h"
 
+#include <locale.h>
 #include <stdio.h>
 
 #include "scene/camera.h"
@@ -181,9 +182,9 @@ static void sparse_indices(void **state)
         char accessor[512];
         snprintf(accessor, sizeof accessor,
                  ",{%s\"componentType\":5121,\"count\":3,\"type\":\"SCALAR\",\"sparse\":{"
-                 "\"count\":2,\"indices\":{\"bufferView\":2,\"componentType\":5121},"
+                 "\"count\":2,\"indices\":{\"bufferView\":2,\"componentType\":%d},"
                  "\"values\":{\"bufferView\":2}}}",
-                 is_based ? "\"bufferView\":1," : "");
+                 is_based ? "\"bufferView\":1," : "", is_based ? 5121 : 5120);
         cs_scene scene = import_text("sparse.gltf", triangle(accessor, ",\"indices\":1",
                                                              ",\"asset\":{\"version\":\"2.0\"}"));
         assert_int_equal(scene.indices.count, 1);
@@ -191,6 +192,37 @@ static void sparse_indices(void **state)
         expect_close(import_position(&scene, 0, 2), 0, 0, 1);
         cs_scene_free(&scene);
     }
+}
+
+/* Indices of which an exporter says that they have a sign. */
+static void signed_indices(void)
+{
+    cs_scene scene = import_text(
+        "signed.gltf",
+        triangle(",{\"bufferView\":1,\"componentType\":5120,\"count\":3,\"type\":\"SCALAR\"}",
+                 ",\"indices\":1", ",\"asset\":{\"version\":\"2.0\"}"));
+    assert_int_equal(scene.indices.count, 1);
+    assert_string_equal(import_warnings, "");
+    cs_scene_free(&scene);
+}
+
+/* The version is a number here, also where the program's locale has decimal commas, if such a one
+ * is installed. */
+static void numbers_of_versions(void)
+{
+    static const char *const texts[] = {"2.0", "2", "2.1", "\"2\""};
+    char asset[64];
+    for (int with_commas = 0; with_commas < 2; with_commas++) {
+        if (with_commas && setlocale(LC_ALL, "de_DE.UTF-8") == NULL) continue;
+        for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+            snprintf(asset, sizeof asset, ",\"asset\":{\"version\":%s}", texts[i]);
+            cs_scene scene = import_text("version.gltf", triangle("", "", asset));
+            cs_scene_free(&scene);
+        }
+        import_refused(test_file("old.gltf", "{\"asset\":{\"version\":1.5}}"), "version 1.5;");
+        import_refused(test_file("new.gltf", "{\"asset\":{\"version\":20}}"), "version 20;");
+    }
+    setlocale(LC_ALL, "C");
 }
 
 /* What exporters write that the specification does not have, but whose meaning is plain. */
@@ -208,6 +240,8 @@ static void slips_of_exporters(void **state)
         cs_scene_free(&scene);
     }
     import_refused(test_file("one.gltf", "{\"meshes\":{\"a\":{}}}"), "version 1.0");
+    numbers_of_versions();
+    signed_indices();
     import_refused(import_gltf_square("", "{}", "{\"mesh\":-1}", ""),
                    "an index into meshes is no whole number of 0 or more");
     import_refused(import_gltf_square("", "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{}}}",
@@ -216,8 +250,7 @@ static void slips_of_exporters(void **state)
     cs_scene scene = import_load(import_gltf_square(
         "", "{}", "{\"mesh\":0,\"children\":[1]},{\"mesh\":0,\"translation\":[9,0,0]}",
         ",\"scenes\":[{\"nodes\":[1,0,0]}]"));
-    import_warned("nodes[1] is in the scene more than once");
-    import_warned("nodes[0] is in the scene more than once");
+    import_warned("nodes[0] and 1 more: in the scene more than once");
     assert_int_equal(scene.indices.count, 4);
     cs_scene_free(&scene);
     scene = import_load(import_gltf_square("", "{}", "{\"mesh\":0}",

@@ -3,7 +3,9 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <sys/stat.h>
+#include <time.h>
 
 #define SQUARE "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
 #define COORDINATES "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
@@ -86,6 +88,31 @@ static void map_options_are_obeyed(void **state)
     assert_int_equal(texel[1], 0x3400); /* 0.25 */
     assert_string_equal(import_warnings, "");
     cs_scene_free(&scene);
+}
+
+/* An option without its word takes nothing, least of all the name. */
+static void words_of_map_options(void **state)
+{
+    static const struct {
+        const char *line;
+        int clamps;
+    } lines[] = {
+        {"-clamp on four.ppm", 1},  {"-clamp ON four.ppm", 1},   {"four.ppm -clamp on", 1},
+        {"-clamp off four.ppm", 0}, {"-clamp four.ppm", 0},      {"four.ppm -clamp", 0},
+        {"-imfchan four.ppm", 0},   {"-blendu -cc four.ppm", 0}, {"-type sphere four.ppm", 0}};
+    char text[128];
+    (void)state;
+    import_picture("four.ppm");
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        snprintf(text, sizeof text, "newmtl t\nKd 1 1 1\nmap_Kd %s\n", lines[i].line);
+        test_file("words.mtl", text);
+        cs_scene scene = import_text("words.obj", "mtllib words.mtl\n" TEXTURED);
+        assert_string_equal(import_warnings, "");
+        const cs_texture *texture = scene.textures.items;
+        texture += import_material(&scene, 0)->texture;
+        assert_int_equal(texture->wrap & CS_TEXTURE_CLAMP, lines[i].clamps ? CS_TEXTURE_CLAMP : 0);
+        cs_scene_free(&scene);
+    }
 }
 
 /* Exporters of MTL leave Kd 0 beside a map, or no Kd; in glTF black is black. */
@@ -227,6 +254,84 @@ static void damaged_obj(void **state)
     import_refused(SCRATCH, "is a folder");
 }
 
+/* ----- Names of materials ----- */
+
+/* Expects a triangle's material to be of a colour of 0 or 1 in each of red, green and blue. */
+static void expect_material(const cs_scene *scene, size_t triangle, const char *rgb)
+{
+    expect_close(import_material(scene, triangle)->diffuse, (float)(rgb[0] - '0'),
+                 (float)(rgb[1] - '0'), (float)(rgb[2] - '0'));
+}
+
+/* What follows a # is part of the name where a material is called so, else a comment. */
+static void names_with_comments(void **state)
+{
+    (void)state;
+    test_file("names.mtl", "newmtl Material #1\nKd 1 0 0\nnewmtl Material\nKd 0 1 0\n"
+                           "newmtl red\nKd 0 0 1\nnewmtl red\nKd 1 0 0\n");
+    cs_scene scene =
+        import_text("names.obj", "mtllib names.mtl\n" SQUARE "usemtl Material #1\nf 1 2 3\n"
+                                 "usemtl red # a\nf 1 2 3\nusemtl red # b\nf 1 2 3\n"
+                                 "usemtl red\nf 1 2 3\nusemtl Material # c\nf 1 2 3\n"
+                                 "usemtl Material #2\nf 1 2 3\n");
+    static const char *const colours[] = {"100", "100", "100", "100", "010", "010"};
+    for (size_t i = 0; i < sizeof colours / sizeof *colours; i++)
+        expect_material(&scene, i, colours[i]);
+    assert_string_equal(import_warnings, "");
+    cs_scene_free(&scene);
+}
+
+/* Libraries whose names begin with the same 255 bytes are two. */
+static void long_names_of_libraries(void **state)
+{
+    char name[300], text[1024];
+    (void)state;
+    for (size_t i = 0; i < 280; i += 2)
+        memcpy(name + i, "./", 2);
+    for (int i = 0; i < 2; i++) {
+        snprintf(name + 280, sizeof name - 280, "long%d.mtl", i);
+        snprintf(text, sizeof text, "newmtl m%d\nKd %d 1 0\n", i, i);
+        test_file(name + 280, text);
+    }
+    name[280] = '\0';
+    snprintf(text, sizeof text,
+             "mtllib %slong0.mtl\nmtllib %slong1.mtl\n" SQUARE
+             "usemtl m0\nf 1 2 3\nusemtl m1\nf 1 2 3\n",
+             name, name);
+    cs_scene scene = import_text("long.obj", text);
+    assert_string_equal(import_warnings, "");
+    expect_material(&scene, 0, "010");
+    expect_material(&scene, 1, "110");
+    cs_scene_free(&scene);
+}
+
+/* Time that is linear in the number of materials: 10 000 that are defined and 10 000 others that
+ * are used with comments took the square of that, many seconds. */
+static void many_names(void **state)
+{
+    enum {
+        COUNT = 20000,
+        ROOM = 48 * COUNT
+    };
+    char *text = malloc(ROOM);
+    size_t used = 0;
+    (void)state;
+    assert_non_null(text);
+    for (int i = 0; i < COUNT; i++)
+        used += (size_t)snprintf(text + used, ROOM - used, "newmtl m%d\n", i);
+    test_file("many.mtl", text);
+    used = (size_t)snprintf(text, ROOM, "mtllib many.mtl\n" SQUARE);
+    for (int i = 0; i < COUNT; i++)
+        used += (size_t)snprintf(text + used, ROOM - used, "usemtl n%d # n\nf 1 2 3\n", i);
+    const clock_t begin = clock();
+    cs_scene scene = import_text("many.obj", text);
+    const double taken_s = (double)(clock() - begin) / CLOCKS_PER_SEC;
+    print_message("%d names of materials: %.2f s\n", COUNT, taken_s);
+    assert_below(taken_s, 10.0);
+    cs_scene_free(&scene);
+    free(text);
+}
+
 /* ----- Smoothness ----- */
 
 /* Normals count by their direction alone, and one without a direction not at all. */
@@ -280,6 +385,7 @@ int main(void)
         cmocka_unit_test(marks_line_ends_and_encodings),
         cmocka_unit_test(maps_are_found_wherever_they_are),
         cmocka_unit_test(map_options_are_obeyed),
+        cmocka_unit_test(words_of_map_options),
         cmocka_unit_test(black_beside_a_map),
         cmocka_unit_test(what_is_missing_is_told_once),
         cmocka_unit_test(material_lines),
@@ -288,6 +394,9 @@ int main(void)
         cmocka_unit_test(polygons_keep_their_area),
         cmocka_unit_test(damaged_obj),
         cmocka_unit_test(normals_have_length_one),
+        cmocka_unit_test(names_with_comments),
+        cmocka_unit_test(long_names_of_libraries),
+        cmocka_unit_test(many_names),
         cmocka_unit_test(smoothing_groups_and_angles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

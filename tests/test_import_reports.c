@@ -80,6 +80,27 @@ static const struct {
      "4OFF\n4 1 0\n-2 -2 0 2\n1 -1 0 1\n1 1 0 1\n-1 1 0 1\n4 0 1 2 3\n",
      {0.5f, 0.5f, 0.5f},
      ""},
+    {"shared.off",
+     "OFF 4 2\n-1 -1 0 1 -1 0\n1 1 0 -1 1 0\n3 0 1 2\n3 0 2 3\n",
+     {0.5f, 0.5f, 0.5f},
+     ""},
+    {"faces-share.off", "COFF\n4 2 0\n" RED_POINTS "3 0 1 2 3 0 2 3\x1a", {1, 0, 0}, ""},
+    {"one-line.off",
+     "STOFF 4 1 0 -1 -1 0 0 0 1 -1 0 1 0 1 1 0 1 1 -1 1 0 0 1 4 0 1 2 3",
+     {0.5f, 0.5f, 0.5f},
+     ""},
+    {"spread.off",
+     "OFF\n4 1 0\n-1\n-1 0\n1 -1 0\n1 1\n0\n-1 1 0\n4\n0 1 2 3\n",
+     {0.5f, 0.5f, 0.5f},
+     ""},
+    {"more.off",
+     "OFF\n4 1 0\n-1 -1 0 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7\n1 -1 0\n1 1 0\n-1 1 0\n4 0 1 2 3\n",
+     {0.5f, 0.5f, 0.5f},
+     "more.off: has lines with more numbers"},
+    {"more-faces.off",
+     "OFF\n4 1 0\n" POINTS "4 0 1 2 3 1 0 0 1 9\n",
+     {0.5f, 0.5f, 0.5f},
+     "more-faces.off: has lines with more numbers"},
     {"bytes.obj",
      "v -1 -1 0 255 0 0\nv 1 -1 0 1 1 1\nv 1 1 0 9 9 9\nv -1 1 0 0 0 0\nf 1 2 3 4\n",
      {1, 0, 0},
@@ -138,6 +159,11 @@ static const struct {
     {"back.off", "OFF\n4 1 0\n" POINTS "3 0 1 -1\n", "back.off:7:"},
     {"cut.off", "OFF\n4 3 0\n" POINTS "4 0 1 2 3\n", "cut.off:7: the file ends here"},
     {"word.off", "OFF\n4 1 0\n0 0 x\n", "word.off:3: this is not a number"},
+    {"share.off", "OFF\n4.5 1 0\n" POINTS "4 0 1 2 3\n", "share.off:2: a count must be a whole"},
+    {"corners.off", "OFF\n4 1 0\n" POINTS "3.5 0 1 2 3\n",
+     "corners.off:7: a count must be a whole"},
+    {"between.off", "OFF\n4 1 0\n" POINTS "4 0 1.5 2 3\n",
+     "between.off:7: the face names a vertex that is not there"},
     {"points.off", "OFF\n4 0 0\n" POINTS, "there are no faces in it"},
     {"comma.obj", "v 1,5 2 3\n",
      "comma.obj:1: a vertex needs three numbers; \"1,5\" is not a number"},
@@ -146,6 +172,7 @@ static const struct {
     {"zip.obj", "PK\3\4", "is a ZIP archive; unpack it first"},
     {"pointer.stl", "version https://git-lfs.github.com/spec/v1\n", "run git lfs pull"},
     {"page.ply", "<!DOCTYPE html>\n", "is a web page"},
+    {"page.off", "\xef\xbb\xbf\n\n  <!Doctype HTML>\n", "is a web page"},
 };
 
 static void refusals_name_the_remedy(void **state)
@@ -153,6 +180,75 @@ static void refusals_name_the_remedy(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
         import_refused(test_file(refused[i].name, refused[i].text), refused[i].words);
+}
+
+/* In place of Assimp: takes what is called so, and refuses all else. */
+static clshear_status read_some(cs_bytes *bytes, cs_model *model, cs_error *error)
+{
+    (void)bytes;
+    static const double triangle[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    static const cs_corner corners[3] = {{0, CS_NO_INDEX, CS_NO_INDEX},
+                                         {1, CS_NO_INDEX, CS_NO_INDEX},
+                                         {2, CS_NO_INDEX, CS_NO_INDEX}};
+    if (strstr(model->path, "some.") == NULL)
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: no reader", model->path);
+    memcpy(cs_model_extend(&model->positions, 3), triangle, sizeof triangle);
+    cs_model_set_colour(model, 0, (const float[3]){-1.0f, -0.5f, 0.25f}, error);
+    cs_model_set_colour(model, 1, (const float[3]){0.25f, 0.5f, 2.0f}, error);
+    return cs_model_add_polygon(model, corners, 3, CS_NO_INDEX, 0, error);
+}
+
+/* Negative colours are black, not the white of positions that have none. */
+static void colours_below_0(void **state)
+{
+    cs_scene scene;
+    cs_error error;
+    const cs_log log = {.warn = import_collect};
+    const cs_import_options options = {.smooth_degrees = -1.0};
+    (void)state;
+    cs_scene_init(&scene);
+    const char *path = test_file("some.dae", "<COLLADA/>");
+    assert_int_equal(cs_import_here(path, &options, read_some, &scene, &log, &error), CLSHEAR_OK);
+    expect_close(import_colour(&scene, 0, 0), 0, 0, 0.25f);
+    expect_close(import_colour(&scene, 0, 1), 0.25f, 0.5f, 2);
+    expect_close(import_colour(&scene, 0, 2), 1, 1, 1);
+    cs_scene_free(&scene);
+}
+
+/* Formats that Assimp reads may be packed, as Blender's; those that clshear reads itself are not.
+ */
+static void packed_files(void **state)
+{
+    static const struct {
+        const char *name;
+        const char *first;
+        const char *words; /* "" where it is read */
+    } files[] = {{"some.blend", "\x1f\x8b\x08", ""},
+                 {"some.3mf", "PK\3\4", ""},
+                 {"some.obj", "\x1f\x8b\x08", "is compressed by gzip; unpack it first"},
+                 {"some.obj.gz", "\x1f\x8b\x08", "is compressed by gzip; unpack it first"},
+                 {"other.blend", "\x28\xb5\x2f\xfd", "is compressed by zstd; unpack it first"},
+                 {"other",
+                  "\xfd"
+                  "7zXZ",
+                  "is compressed by xz; unpack it first"},
+                 {"other.3mf", "PK\3\4", "no reader"},
+                 {"some.blend", "<!DOCTYPE html>", "is a web page"}};
+    const cs_log log = {.warn = import_collect};
+    const cs_import_options options = {.smooth_degrees = -1.0};
+    (void)state;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        cs_scene scene;
+        cs_error error = {""};
+        cs_scene_init(&scene);
+        const char *path = test_file(files[i].name, files[i].first);
+        const clshear_status status =
+            cs_import_here(path, &options, read_some, &scene, &log, &error);
+        assert_int_equal(status, *files[i].words == '\0' ? CLSHEAR_OK : CLSHEAR_BAD_FILE);
+        if (strstr(error.message, files[i].words) == NULL)
+            fail_msg("%s: \"%s\"", files[i].name, error.message);
+        cs_scene_free(&scene);
+    }
 }
 
 /* Streams leave the count open. */
@@ -189,6 +285,39 @@ static void textures_of_ply_faces(void **state)
     cs_scene_free(&scene);
 }
 
+/* tx and ty are texture coordinates of some programs, and with tz the tangents of others. Of two
+ * sets the first one counts. */
+static void texture_coordinates_of_ply(void **state)
+{
+    static const struct {
+        const char *properties;
+        const char *numbers; /* of each vertex */
+        int is_there;
+    } table[] = {{"s t tx ty tz", "3 4 1 0 0", 1}, {"tx ty tz s t", "1 0 0 3 4", 1},
+                 {"tx ty s t", "1 0 3 4", 1},      {"tx ty", "3 4", 1},
+                 {"tx ty tz", "1 0 0", 0},         {"u v texture_u texture_v", "3 4 7 8", 1}};
+    (void)state;
+    import_picture("one.ppm");
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        char text[1024] =
+            "ply\nformat ascii 1.0\ncomment TextureFile one.ppm\nelement vertex 4\n" XYZ;
+        char names[64], *rest = names;
+        snprintf(names, sizeof names, "%s", table[i].properties);
+        for (char *name = strtok_r(names, " ", &rest); name; name = strtok_r(NULL, " ", &rest))
+            snprintf(text + strlen(text), sizeof text - strlen(text), "property float %s\n", name);
+        strcat(text, "element face 1\n" LIST "end_header\n");
+        for (int k = 0; k < 4; k++)
+            snprintf(text + strlen(text), sizeof text - strlen(text), "%d %d 0 %s\n",
+                     k == 1 || k == 2 ? 1 : -1, k > 1 ? 1 : -1, table[i].numbers);
+        strcat(text, "4 0 1 2 3\n");
+        cs_scene scene = import_text("coordinates.ply", text);
+        assert_int_equal(*(const uint8_t *)scene.triangle_flags.items & CS_FACE_TEXTURED,
+                         table[i].is_there ? CS_FACE_TEXTURED : 0);
+        if (table[i].is_there) expect_st(&scene, 0, 3, 4);
+        cs_scene_free(&scene);
+    }
+}
+
 static void long_names_of_materials(void **state)
 {
     char mtl[512], obj[512], name[140];
@@ -220,8 +349,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(squares_of_all_kinds),
         cmocka_unit_test(refusals_name_the_remedy),
+        cmocka_unit_test(colours_below_0),
+        cmocka_unit_test(packed_files),
         cmocka_unit_test(stl_without_a_count),
         cmocka_unit_test(textures_of_ply_faces),
+        cmocka_unit_test(texture_coordinates_of_ply),
         cmocka_unit_test(long_names_of_materials),
         cmocka_unit_test(controls_do_not_reach_terminals),
     };

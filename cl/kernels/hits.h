@@ -196,6 +196,38 @@ static inline void cs_finish_material(CS_GLOBAL const cs_material *material, cs_
 }
 #endif
 
+/* What the vertices of the triangle that the lanes in `mine` hit say of the surface there: normal,
+ * textures, colour. square: of the length of the shape's normal. */
+static inline void cs_apply_vertices(const cs_scene_buffers *scene,
+                                     CS_GLOBAL const cs_triangle *triangle, const cs_shape *shape,
+                                     cs_shape_number square, cs_vint mine, cs_surface *surface)
+{
+    const cs_shape_number *n = shape->normal;
+    cs_vfloat x = surface->point[0] - shape->corner[0];
+    cs_vfloat y = surface->point[1] - shape->corner[1];
+    cs_vfloat z = surface->point[2] - shape->corner[2];
+    cs_shape_number inverse = 1.0f / square;
+    const cs_shape_number *e1 = shape->edge1;
+    const cs_shape_number *e2 = shape->edge2;
+    cs_vfloat b1 = (x * (e2[1] * n[2] - e2[2] * n[1]) + y * (e2[2] * n[0] - e2[0] * n[2]) +
+                    z * (e2[0] * n[1] - e2[1] * n[0])) *
+                   inverse;
+    cs_vfloat b2 = (x * (n[1] * e1[2] - n[2] * e1[1]) + y * (n[2] * e1[0] - n[0] * e1[2]) +
+                    z * (n[0] * e1[1] - n[1] * e1[0])) *
+                   inverse;
+    CS_GLOBAL const cs_face *face = scene->faces + triangle->face;
+    if (triangle->flags & CS_FACE_SMOOTH)
+        cs_apply_smooth_normal(scene, face, b1, b2, mine, surface);
+#if CS_HAS(TEXTURES)
+    if (triangle->flags & CS_FACE_TEXTURED)
+        cs_apply_textures(scene, scene->materials + triangle->material, shape, face, b1, b2, mine,
+                          surface);
+#endif
+#if CS_HAS(COLOURS)
+    if (triangle->flags & CS_FACE_COLOURED) cs_apply_colour(scene, face, b1, b2, mine, surface);
+#endif
+}
+
 /* Fills in the lanes in `mine`, which all hit triangle number `index`. */
 static inline void cs_describe_triangle(const cs_scene_buffers *scene, const cs_ray *ray,
                                         cs_i32 index, cs_vint mine, cs_surface *surface)
@@ -223,35 +255,7 @@ static inline void cs_describe_triangle(const cs_scene_buffers *scene, const cs_
     cs_describe_bsdf(material, mine, surface);
     surface->inside = mine ? (cs_vint)(along > 0.0f) : surface->inside;
 #endif
-    if (triangle->flags == 0u) {
-#if CS_HAS(MATERIALS)
-        cs_finish_material(material, mine, surface);
-#endif
-        return;
-    }
-
-    cs_vfloat x = surface->point[0] - shape.corner[0];
-    cs_vfloat y = surface->point[1] - shape.corner[1];
-    cs_vfloat z = surface->point[2] - shape.corner[2];
-    cs_shape_number inverse = 1.0f / square;
-    const cs_shape_number *e1 = shape.edge1;
-    const cs_shape_number *e2 = shape.edge2;
-    cs_vfloat b1 = (x * (e2[1] * n[2] - e2[2] * n[1]) + y * (e2[2] * n[0] - e2[0] * n[2]) +
-                    z * (e2[0] * n[1] - e2[1] * n[0])) *
-                   inverse;
-    cs_vfloat b2 = (x * (n[1] * e1[2] - n[2] * e1[1]) + y * (n[2] * e1[0] - n[0] * e1[2]) +
-                    z * (n[0] * e1[1] - n[1] * e1[0])) *
-                   inverse;
-    CS_GLOBAL const cs_face *face = scene->faces + triangle->face;
-    if (triangle->flags & CS_FACE_SMOOTH)
-        cs_apply_smooth_normal(scene, face, b1, b2, mine, surface);
-#if CS_HAS(TEXTURES)
-    if (triangle->flags & CS_FACE_TEXTURED)
-        cs_apply_textures(scene, material, &shape, face, b1, b2, mine, surface);
-#endif
-#if CS_HAS(COLOURS)
-    if (triangle->flags & CS_FACE_COLOURED) cs_apply_colour(scene, face, b1, b2, mine, surface);
-#endif
+    if (triangle->flags != 0u) cs_apply_vertices(scene, triangle, &shape, square, mine, surface);
 #if CS_HAS(MATERIALS)
     cs_finish_material(material, mine, surface);
 #endif

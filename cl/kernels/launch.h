@@ -12,8 +12,8 @@ enum {
     CS_POINT_VALUES = CS_DIMENSIONS + CS_MAIN_DIMENSIONS + 1,
     /* Floats of a point at which the radiance kernel evaluates: a tuple and the time. */
     CS_EVALUATED = CS_DIMENSIONS + 1,
-    /* Updates of pixels' states, of CS_FLUSH_BLOCKS blocks each, whose paths are followed together,
-     * except with packets of one lane. */
+    /* Samples whose paths a work-item follows together, in updates of CS_FLUSH_BLOCKS blocks of
+     * samples each. With packets of one lane it is one update. */
     CS_POOL_FLUSHES = 4
 };
 
@@ -75,9 +75,9 @@ static inline cs_u32 cs_pixels_of_update(cs_u32 samples, cs_u32 packet)
     return packets > 0u ? together / packets : 0u;
 }
 
-/* How many pixels a work-item draws: those of an update, or of CS_POOL_FLUSHES if paths of several
- * pixels may be followed together. blocks: of a pixel's pattern in the launch. packet: lanes.
- * pools: whether they may. */
+/* The number of pixels that one work-item draws: as many as have the samples of one update, or of
+ * CS_POOL_FLUSHES updates if it may follow paths of several pixels together. blocks: of samples of
+ * each pixel in the launch. packet: lanes. pools: whether it may. */
 static inline cs_u32 cs_pixels_together(cs_u32 blocks, cs_u32 packet, int pools)
 {
     cs_u32 pixels = cs_pixels_of_update(blocks * (cs_u32)CS_BLOCK, packet);

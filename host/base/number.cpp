@@ -15,8 +15,9 @@ static bool is_tiny(const char *text, const char *end)
     return false;
 }
 
-/* The end of what Microsoft's C library wrote for numbers that are none, as 1.#IND and -1.#QNAN0;
- * `text` where it is not that. */
+/* Reads the rest of an infinity or a NaN as Microsoft's C library printed them before 2015, with a
+ * number in front: 1.#INF, -1.#IND, 1.#QNAN0. `text` is behind the point, and `*value` the number
+ * before it, whose sign counts. Returns the end of it, or `text` where there is no such thing. */
 static const char *end_of_windows_nan(const char *text, const char *end, double *value)
 {
     static const struct {

@@ -1,11 +1,11 @@
 #include "base/status.h"
 
 #include <locale.h>
-#include <stdarg.h>
 #include <stdio.h>
 
-/* Names out of files may hold line ends, and codes that terminals obey: those of ASCII, and U+0080
- * to U+009F, which UTF-8 writes as c2 and one byte more. */
+/* Replaces control characters by '?', since names in a message come from files and command lines,
+ * and may hold line ends and codes that terminals obey: those of ASCII, and U+0080 to U+009F, which
+ * UTF-8 writes as c2 and one byte more. */
 static void make_printable(char *line)
 {
     for (unsigned char *at = (unsigned char *)line; *at != '\0'; at++) {
@@ -27,11 +27,18 @@ static void print_line(char *line, size_t size, const char *format, va_list argu
     freelocale(plain);
 }
 
+clshear_status cs_fail_with(cs_error *error, clshear_status status, const char *format,
+                            va_list arguments)
+{
+    print_line(error->message, sizeof error->message, format, arguments);
+    return status;
+}
+
 clshear_status cs_fail(cs_error *error, clshear_status status, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    print_line(error->message, sizeof error->message, format, arguments);
+    cs_fail_with(error, status, format, arguments);
     va_end(arguments);
     return status;
 }

@@ -2,6 +2,7 @@
 #ifndef CS_BASE_STATUS_H
 #define CS_BASE_STATUS_H
 
+#include <stdarg.h>
 #include <time.h>
 
 #include "clshear/common.h"
@@ -17,6 +18,10 @@ typedef struct cs_error {
 /* Stores a one-line reason in `error` and returns `status`. */
 clshear_status cs_fail(cs_error *error, clshear_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+/* The same with the arguments of a function that takes any number of them. */
+clshear_status cs_fail_with(cs_error *error, clshear_status status, const char *format,
+                            va_list arguments) __attribute__((format(printf, 3, 0)));
 
 /* The error of the calling thread. Public functions pass it to the functions they call. */
 cs_error *cs_thread_error(void);

@@ -40,14 +40,14 @@ static const char *code_name(cl_int code)
 
 clshear_status cs_opencl_fail(cs_error *error, cl_int code, const char *format, ...)
 {
-    char what[512];
+    cs_error what;
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(what, sizeof what, format, arguments);
+    cs_fail_with(&what, CLSHEAR_DEVICE_FAILED, format, arguments);
     va_end(arguments);
     int memory = code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY;
     return cs_fail(error, memory ? CLSHEAR_OUT_OF_MEMORY : CLSHEAR_DEVICE_FAILED,
-                   "%s (OpenCL error %d: %s)", what, code, code_name(code));
+                   "%.512s (OpenCL error %d: %s)", what.message, code, code_name(code));
 }
 
 void cs_opencl_describe(cl_device_id device, char *name, char *driver, size_t size)

@@ -11,19 +11,28 @@
 
 enum {
     PATH_SIZE = 4096,
-    /* Bytes of stack that a thread of PoCL is given: the kernels with paths take up to 900 KB. */
-    LEAST_STACK = 1 << 20
+    LEAST_STACK = 1 << 20 /* bytes; the kernels of paths take up to 900 KB of a thread's stack */
 };
 
-/* PoCL makes its threads with the default size of their stacks, which `ulimit -s` sets. */
-static clshear_status check_stack(cs_error *error)
+/* Bytes of stack that new threads have unless they ask for more; 0 where the C library has no call
+ * that says so. */
+static size_t default_stack(void)
 {
+    size_t size = 0;
+#ifdef __GLIBC__
     pthread_attr_t attributes;
-    size_t size = LEAST_STACK;
-    if (pthread_getattr_default_np(&attributes) != 0) return CLSHEAR_OK;
+    if (pthread_getattr_default_np(&attributes) != 0) return 0;
     pthread_attr_getstacksize(&attributes, &size);
     pthread_attr_destroy(&attributes);
-    if (size >= LEAST_STACK) return CLSHEAR_OK;
+#endif
+    return size;
+}
+
+/* PoCL's threads have stacks of the default size, which `ulimit -s` sets. */
+static clshear_status check_stack(cs_error *error)
+{
+    const size_t size = default_stack();
+    if (size == 0 || size >= LEAST_STACK) return CLSHEAR_OK;
     return cs_fail(error, CLSHEAR_DEVICE_FAILED,
                    "threads have stacks of %zu KB, too small for the kernels on PoCL: allow %d KB "
                    "or more (ulimit -s)",
@@ -45,8 +54,9 @@ static int is_in_path(const char *program)
     return 0;
 }
 
-/* Debian's PoCL links kernels with `ld`, and ends the process where it finds none. PoCL of
- * elsewhere may have another linker. Kernels in the cache are linked already. */
+/* Fails where Debian's PoCL has to link kernels and cannot find `ld`, for which it ends the
+ * process. Kernels in its cache are linked already. Other builds of PoCL may have their linker
+ * inside. */
 static clshear_status check_linker(cl_device_id device, cs_error *error)
 {
     char version[128] = "";
@@ -54,6 +64,13 @@ static clshear_status check_linker(cl_device_id device, cs_error *error)
     version[sizeof version - 1] = '\0';
     if (strstr(version, "+debian") == NULL || is_in_path("ld") || !cs_pocl_cache_is_empty())
         return CLSHEAR_OK;
+    const char *folders = getenv("PATH");
+    if (folders == NULL || *folders == '\0')
+        return cs_fail(
+            error, CLSHEAR_DEVICE_FAILED,
+            "PoCL links the kernels with ld, which it looks for in the folders of $PATH, "
+            "but $PATH is %s: set it to /usr/bin",
+            folders == NULL ? "not set" : "empty");
     return cs_fail(error, CLSHEAR_DEVICE_FAILED,
                    "PoCL links the kernels with ld, which is in no folder of $PATH: add /usr/bin "
                    "to it, or install binutils");

@@ -51,6 +51,13 @@ size_t rank_of(const std::string &layer)
     return rank;
 }
 
+/* The same of a part: channels that name no layer are of the one that the part is called. */
+size_t rank_of_part(const ImageSpec &spec, const std::string &layer)
+{
+    const std::string name(spec.get_string_attribute("oiio:subimagename"));
+    return rank_of(layer.empty() ? name : layer);
+}
+
 /* Finds the layer that is the picture; false where none has all three colours. */
 bool find_layer(const ImageSpec &spec, std::string &found)
 {
@@ -87,10 +94,21 @@ int picture_part(ImageBuf &image, const std::string &path, const ImageSpec *conf
 {
     std::string layer;
     const int parts = std::string(image.file_format_name()) == "openexr" ? image.nsubimages() : 1;
+    int found = 0;
+    bool any = false;
+    size_t least = 0;
     for (int part = 0; part < parts && parts > 1; part++) {
         image.reset(path, part, 0, nullptr, config, memory);
-        if (image.init_spec(path, part, 0) && find_layer(image.spec(), layer)) return part;
+        if (!image.init_spec(path, part, 0) || !find_layer(image.spec(), layer)) continue;
+        const size_t rank = rank_of_part(image.spec(), layer);
+        if (any && rank >= least) continue;
+        found = part;
+        least = rank;
+        any = true;
     }
-    if (parts > 1) image.reset(path, 0, 0, nullptr, config, memory);
-    return 0;
+    if (parts > 1) {
+        image.reset(path, found, 0, nullptr, config, memory);
+        image.init_spec(path, found, 0);
+    }
+    return found;
 }

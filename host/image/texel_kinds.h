@@ -8,6 +8,9 @@
 extern "C" {
 #endif
 
+/* The largest number that a half holds. */
+#define CS_LARGEST_HALF 65504.0f
+
 typedef enum cs_texel_kind {
     CS_TEXELS_COLOUR,  /* on the curve that the file says, or sRGB's; becomes linear */
     CS_TEXELS_DATA,    /* numbers as they are */

@@ -92,9 +92,6 @@ const char *extension_for(const void *memory, size_t size)
     return "png";
 }
 
-/* The largest half. Brighter texels would be infinite, and black times them no number. */
-constexpr float most_light = 65504.0f;
-
 /* Texels in one image: more are a damaged head rather than a picture. */
 constexpr uint64_t most_texels = uint64_t(1) << 28;
 
@@ -199,7 +196,8 @@ clshear_status read_texels(const Source &from, const cs_texel_use &use, cs_texel
         read_rgba(from, use.kind == CS_TEXELS_COLOUR ? given : Curve::none, rgba, error);
     if (status != CLSHEAR_OK) return status;
     convert_texels(use, rgba);
-    rgba = OIIO::ImageBufAlgo::clamp(rgba, 0.0f, most_light); /* what is no number becomes 0 */
+    /* Brighter texels would be infinite, and black times them no number. No number becomes 0. */
+    rgba = OIIO::ImageBufAlgo::clamp(rgba, 0.0f, CS_LARGEST_HALF);
     const size_t width = static_cast<size_t>(rgba.spec().width);
     const size_t height = static_cast<size_t>(rgba.spec().height);
     auto *halves = static_cast<uint16_t *>(std::malloc(width * height * 4 * sizeof(uint16_t)));

@@ -240,16 +240,16 @@ static int are_bytes(const cs_array *colours)
 /* One linear colour for each position, white where none was given. */
 static clshear_status complete_colours(cs_model *model, cs_error *error)
 {
-    const float none[3] = {CS_NO_COLOUR, CS_NO_COLOUR, CS_NO_COLOUR};
     if (model->colours.count == 0) return CLSHEAR_OK;
-    if (model->colours.count < model->positions.count) {
-        clshear_status status = cs_model_set_colour(model, model->positions.count - 1, none, error);
-        if (status != CLSHEAR_OK) return status;
-    }
-    const int bytes = are_bytes(&model->colours);
+    const size_t given = 3 * model->colours.count, all = 3 * model->positions.count;
+    if (given < all && cs_model_extend(&model->colours, (all - given) / 3) == NULL)
+        return cs_model_full(model, error);
     float *values = model->colours.items;
+    for (size_t i = given; i < all; i++)
+        values[i] = CS_NO_COLOUR;
+    const int bytes = are_bytes(&model->colours);
     for (size_t i = 0; i < 3 * model->colours.count; i++) {
-        if (values[i] < 0.0f)
+        if (values[i] == CS_NO_COLOUR)
             values[i] = 1.0f;
         else if (bytes)
             values[i] = cs_colour_value((double)values[i] / 255.0, 1);

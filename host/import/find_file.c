@@ -71,7 +71,9 @@ static int find_in_any_case(const char *folder, const char *name, int kind, char
     return is_there(path, kind);
 }
 
-/* Whether a name is a place on another machine: C:/, or file:/// and the like. */
+/* Whether a name begins at the root of a machine, its author's as a rule: with a slash, with the
+ * letter of a drive (C:/), or with a scheme (file:///). Only its last part is looked for then. The
+ * name has slashes, no backslashes. */
 static int is_elsewhere(const char *name)
 {
     const int has_drive = isalpha((unsigned char)name[0]) && name[1] == ':' && name[2] == '/';

@@ -1,9 +1,9 @@
 /* glTF 2.0 and GLB: the container, the JSON, what it requires. */
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "import/find_file.h"
 #include "import/gltf_reader.h"
 #include "import/readers.h"
@@ -23,14 +23,44 @@ int cs_is_gltf(const cs_bytes *bytes, const char *path)
 clshear_status gltf_complain(const gltf_reader *reader, const char *place, long long index,
                              const char *format, ...)
 {
-    char what[512], where[64] = "";
+    cs_error what;
+    char where[64] = "";
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(what, sizeof what, format, arguments);
+    cs_fail_with(&what, CLSHEAR_BAD_FILE, format, arguments);
     va_end(arguments);
     if (index >= 0) snprintf(where, sizeof where, "[%lld]", index);
-    return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: %s%s: %s", reader->model->path, place,
-                   where, what);
+    return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: %s%s: %.512s", reader->model->path, place,
+                   where, what.message);
+}
+
+void gltf_note(gltf_reader *reader, gltf_remark remark, const char *place, long long index)
+{
+    gltf_places *places = &reader->places[remark];
+    if (places->count++ > 0) return;
+    if (index >= 0)
+        snprintf(places->first, sizeof places->first, "%s[%lld]", place, index);
+    else
+        snprintf(places->first, sizeof places->first, "%s", place);
+}
+
+void gltf_tell(const gltf_reader *reader)
+{
+    static const char *const words[GLTF_REMARKS] = {
+        [GLTF_DOUBLED] = "in the scene more than once, or a child there, too; shown once",
+        [GLTF_INSTANCED] = "EXT_mesh_gpu_instancing is not supported; one instance is read",
+        [GLTF_MORE_JOINTS] =
+            "more than four joints of a vertex are not supported; the first four move it",
+        [GLTF_BASISU] = "no image that can be read (extension KHR_texture_basisu)",
+        [GLTF_WITHOUT_IMAGE] = "no image that can be read (extension not known)"};
+    for (int i = 0; i < GLTF_REMARKS; i++) {
+        const gltf_places *places = &reader->places[i];
+        char more[32] = "";
+        if (places->count > 1) snprintf(more, sizeof more, " and %zu more", places->count - 1);
+        if (places->count > 0)
+            cs_warn(reader->model->log, "%s: %s%s: %s", reader->model->path, places->first, more,
+                    words[i]);
+    }
 }
 
 json_t *gltf_at(const gltf_reader *reader, const char *name, long long index)
@@ -162,7 +192,7 @@ static void find_version(const json_t *root, char *version, size_t size)
     const json_t *given = json_object_get(json_object_get(root, "asset"), "version");
     const int has_arrays = json_is_array(json_object_get(root, "meshes"));
     if (json_is_number(given))
-        snprintf(version, size, "%.1f", json_number_value(given));
+        cs_format_number(version, size, json_number_value(given), 6);
     else
         snprintf(version, size, "%.20s",
                  json_is_string(given) ? json_string_value(given)
@@ -186,7 +216,7 @@ static clshear_status parse(gltf_reader *reader, const char *text, size_t size)
     find_version(reader->root, version, sizeof version);
     if (!json_is_object(reader->root))
         return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: is JSON, but no glTF", path);
-    if (strncmp(version, "2.", 2) != 0)
+    if (version[0] != '2' || (version[1] != '.' && version[1] != '\0'))
         return cs_fail(reader->error, CLSHEAR_BAD_FILE,
                        "%s: is glTF of version %s; version 2.0 is read", path, version);
     return CLSHEAR_OK;
@@ -254,6 +284,7 @@ static clshear_status read_all(gltf_reader *reader, cs_bytes *bytes)
     CS_TRY(gltf_materials(reader));
     CS_TRY(gltf_animate(reader));
     CS_TRY(gltf_nodes(reader));
+    gltf_tell(reader);
     CS_TRY(check(reader));
 done:
     return status;

@@ -211,6 +211,13 @@ static clshear_status open_accessor(gltf_reader *reader, long long index, const 
     return is_there ? point_into(reader, *json, index, span) : CLSHEAR_OK;
 }
 
+/* The type of indices whose exporter calls them signed, which glTF has not: the bytes are the same.
+ */
+static int unsigned_type(int type)
+{
+    return type == 5120 || type == 5122 ? type + 1 : type;
+}
+
 static double component_at(const unsigned char *at, const gltf_span *span)
 {
     uint32_t word = 0;
@@ -275,10 +282,12 @@ static clshear_status apply_sparse(gltf_reader *reader, long long index, const j
     const json_t *sparse = json_object_get(json, "sparse");
     if (!json_is_object(sparse)) return CLSHEAR_OK;
     const json_t *places = json_object_get(sparse, "indices");
-    const long long count = gltf_index(sparse, "count"), type = gltf_index(places, "componentType");
+    const long long count = gltf_index(sparse, "count");
+    const long long given = gltf_index(places, "componentType");
+    const int type = given >= 5120 && given <= 5126 ? unsigned_type((int)given) : 0;
     if (count < 0 || (size_t)count > span->count || (type != 5121 && type != 5123 && type != 5125))
         return gltf_complain(reader, "accessors", index, "its sparse part cannot be");
-    gltf_span which = {.components = 1, .type = (int)type, .count = (size_t)count};
+    gltf_span which = {.components = 1, .type = type, .count = (size_t)count};
     gltf_span what = *span;
     what.count = (size_t)count;
     clshear_status status = point_into(reader, places, index, &which);
@@ -352,6 +361,7 @@ clshear_status gltf_read_indices(gltf_reader *reader, long long index, uint32_t 
     gltf_span span;
     clshear_status status = open_accessor(reader, index, &json, &span);
     if (status != CLSHEAR_OK) return status;
+    span.type = unsigned_type(span.type);
     if (span.components != 1 || (span.type != 5121 && span.type != 5123 && span.type != 5125))
         return gltf_complain(reader, "accessors", index, "its type is none of indices");
     span.normalised = 0;

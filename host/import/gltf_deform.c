@@ -4,6 +4,25 @@
 
 #include "import/gltf_reader.h"
 
+/* Matrix of joint number `i` of a skin. inverse: what brings the mesh to the joint, or NULL. */
+static clshear_status open_joint(gltf_reader *reader, long long skin, const json_t *joints,
+                                 size_t i, const float *inverse, double *matrix)
+{
+    const json_t *joint = json_array_get(joints, i);
+    double global[16], inverse_bind[16];
+    const double place = json_is_number(joint) ? json_number_value(joint) : -1.0;
+    if (!(place >= 0.0 && place < (double)gltf_count(reader, "nodes")))
+        return gltf_complain(reader, "skins", skin, "joint %zu is no node", i);
+    const clshear_status status = gltf_global_matrix(reader, (long long)place, global);
+    if (status != CLSHEAR_OK) return status;
+    memcpy(matrix, global, sizeof global);
+    if (inverse == NULL) return CLSHEAR_OK;
+    for (size_t k = 0; k < 16; k++)
+        inverse_bind[k] = (double)inverse[k];
+    gltf_multiply(global, inverse_bind, matrix);
+    return CLSHEAR_OK;
+}
+
 clshear_status gltf_skin_open(gltf_reader *reader, const json_t *node, gltf_skin *skin)
 {
     clshear_status status = CLSHEAR_OK;
@@ -25,22 +44,9 @@ clshear_status gltf_skin_open(gltf_reader *reader, const json_t *node, gltf_skin
     }
     skin->joints = calloc(json_array_size(joints) + 1, sizeof *skin->joints);
     CS_REQUIRE(skin->joints != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for a skin");
-    for (size_t i = 0; i < json_array_size(joints); i++) {
-        const json_t *joint = json_array_get(joints, i);
-        double global[16], inverse_bind[16];
-        const double place = json_is_number(joint) ? json_number_value(joint) : -1.0;
-        if (!(place >= 0.0 && place < (double)gltf_count(reader, "nodes"))) {
-            status = gltf_complain(reader, "skins", number, "joint %zu is no node", i);
-            goto done;
-        }
-        CS_TRY(gltf_global_matrix(reader, (long long)place, global));
-        for (size_t k = 0; inverse != NULL && k < 16; k++)
-            inverse_bind[k] = (double)inverse[16 * i + k];
-        if (inverse != NULL)
-            gltf_multiply(global, inverse_bind, skin->joints[i]);
-        else
-            memcpy(skin->joints[i], global, sizeof global);
-    }
+    for (size_t i = 0; i < json_array_size(joints); i++)
+        CS_TRY(open_joint(reader, number, joints, i, inverse != NULL ? inverse + 16 * i : NULL,
+                          skin->joints[i]));
     skin->joint_count = json_array_size(joints);
 done:
     free(inverse);

@@ -115,10 +115,8 @@ static clshear_status read_map(gltf_reader *reader, const json_t *parent, const 
     const long long source = source_of(texture);
     if (source >= 0) return add_image(reader, source, &map->image);
     map->missing = 1;
-    cs_warn(reader->model->log, "%s: texture %lld has no image that can be read (extension %s)",
-            reader->model->path, index,
-            gltf_extension(texture, "KHR_texture_basisu") != NULL ? "KHR_texture_basisu"
-                                                                  : "not known");
+    const int is_basisu = gltf_extension(texture, "KHR_texture_basisu") != NULL;
+    gltf_note(reader, is_basisu ? GLTF_BASISU : GLTF_WITHOUT_IMAGE, "textures", index);
     return CLSHEAR_OK;
 }
 

@@ -239,10 +239,7 @@ static clshear_status bind_skin(gltf_primitive *primitive, const json_t *attribu
     if (accessor == NULL) return CLSHEAR_BAD_FILE;
     const long long count = gltf_index(accessor, "count");
     if (primitive->skin->joint_count > 0 && json_object_get(attributes, "JOINTS_1") != NULL)
-        cs_warn(primitive->reader->model->log,
-                "%s: %s: more than four joints of a vertex are not supported; the first four move "
-                "it",
-                primitive->reader->model->path, primitive->place);
+        gltf_note(primitive->reader, GLTF_MORE_JOINTS, primitive->place, -1);
     return gltf_skin_bind(primitive->reader, attributes, count > 0 ? (size_t)count : 0,
                           primitive->skin);
 }

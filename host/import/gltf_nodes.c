@@ -205,9 +205,7 @@ static clshear_status visit_node(gltf_reader *reader, cs_array *waiting, const g
     double local[16], matrix[16];
     if (node == NULL) return CLSHEAR_BAD_FILE;
     if (seen[visit->node] && visit->is_root) {
-        cs_warn(reader->model->log,
-                "%s: nodes[%lld] is in the scene more than once, or a child there, too; shown once",
-                reader->model->path, visit->node);
+        gltf_note(reader, GLTF_DOUBLED, "nodes", visit->node);
         return CLSHEAR_OK;
     }
     if (seen[visit->node]++)
@@ -224,10 +222,7 @@ static clshear_status visit_node(gltf_reader *reader, cs_array *waiting, const g
     if (light != NULL && !is_hidden)
         CS_TRY(add_light(reader, gltf_index(light, "light"), node, matrix));
     if (gltf_extension(node, "EXT_mesh_gpu_instancing") != NULL && !is_hidden)
-        cs_warn(reader->model->log,
-                "%s: nodes[%lld]: EXT_mesh_gpu_instancing is not supported; one "
-                "instance is read",
-                reader->model->path, visit->node);
+        gltf_note(reader, GLTF_INSTANCED, "nodes", visit->node);
     CS_TRY(push_children(reader, waiting, node, matrix, is_hidden));
 done:
     return status;

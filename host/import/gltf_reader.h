@@ -13,6 +13,21 @@ typedef struct gltf_buffer {
     char *owned;
 } gltf_buffer;
 
+/* What may be said of many places in a file. */
+typedef enum gltf_remark {
+    GLTF_DOUBLED,       /* a node that the scene names where it is already */
+    GLTF_INSTANCED,     /* a node that asks for several instances */
+    GLTF_MORE_JOINTS,   /* a primitive */
+    GLTF_BASISU,        /* a texture that is compressed so */
+    GLTF_WITHOUT_IMAGE, /* a texture */
+    GLTF_REMARKS
+} gltf_remark;
+
+typedef struct gltf_places {
+    size_t count;
+    char first[64];
+} gltf_places;
+
 typedef struct gltf_reader {
     cs_model *model;
     cs_error *error;
@@ -22,12 +37,17 @@ typedef struct gltf_reader {
     gltf_buffer *buffers;
     size_t buffer_count;
     char folder[4096];
-    int default_material; /* number of the one for primitives without; -1: none yet */
+    int default_material;             /* number of the one for primitives without; -1: none yet */
+    gltf_places places[GLTF_REMARKS]; /* of what is said once for all of them */
 } gltf_reader;
 
 /* Fails with "FILE: PLACE[index]: ...". `place` is a name in the JSON; index -1: none. */
 clshear_status gltf_complain(const gltf_reader *reader, const char *place, long long index,
                              const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+/* Notes a place that a remark is about, which gltf_tell prints for all of them in one line. */
+void gltf_note(gltf_reader *reader, gltf_remark remark, const char *place, long long index);
+void gltf_tell(const gltf_reader *reader);
 
 /* Element `index` of the array `name` at the root, or NULL after complaining. */
 json_t *gltf_at(const gltf_reader *reader, const char *name, long long index);

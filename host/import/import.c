@@ -1,6 +1,7 @@
 #include "import/import.h"
 
 #include <string.h>
+#include <strings.h>
 
 #include "import/build.h"
 #include "import/readers.h"
@@ -17,43 +18,69 @@ static clshear_status refuse(cs_bytes *bytes, cs_model *model, cs_error *error)
         model->path);
 }
 
-/* What a file is that no reader can read, whatever its name says, and the remedy; or NULL. */
-static const char *foreign(const cs_bytes *bytes)
+/* The first bytes of a file, and what is said of those that begin so. */
+typedef struct file_mark {
+    const char *bytes;
+    const char *what;
+} file_mark;
+
+/* What Git has in the place of files that it keeps elsewhere. */
+static const file_mark pointers[] = {
+    {"version https://git-lfs", "is a pointer of Git LFS, not the file itself; run git lfs pull"},
+    {NULL, NULL}};
+
+/* What some formats that Assimp reads are packed by: Blender's by gzip. */
+static const file_mark packings[] = {{"\x1f\x8b", "is compressed by gzip; unpack it first"},
+                                     {"BZh", "is compressed by bzip2; unpack it first"},
+                                     {"\xfd"
+                                      "7zXZ",
+                                      "is compressed by xz; unpack it first"},
+                                     {"\x28\xb5\x2f\xfd", "is compressed by zstd; unpack it first"},
+                                     {"7z\xbc\xaf", "is a 7z archive; unpack it first"},
+                                     {"Rar!", "is a RAR archive; unpack it first"},
+                                     {NULL, NULL}};
+
+/* Some formats are archives, and say themselves what is wrong with them. */
+static const file_mark archives[] = {{"PK\3\4", "is a ZIP archive; unpack it first"}, {NULL, NULL}};
+
+/* What is said of a file by its mark, one of a list; NULL where it has none. */
+static const char *find_mark(const cs_bytes *bytes, const file_mark *list)
 {
-    static const struct {
-        const char *mark;
-        const char *what;
-    } kinds[] = {
-        {"\x1f\x8b", "is compressed by gzip; unpack it first"},
-        {"BZh", "is compressed by bzip2; unpack it first"},
-        {"\xfd"
-         "7zXZ",
-         "is compressed by xz; unpack it first"},
-        {"\x28\xb5\x2f\xfd", "is compressed by zstd; unpack it first"},
-        {"7z\xbc\xaf", "is a 7z archive; unpack it first"},
-        {"Rar!", "is a RAR archive; unpack it first"},
-        {"version https://git-lfs",
-         "is a pointer of Git LFS, not the file itself; run git lfs pull"},
-        {"<!DOCTYPE html", "is a web page; download the file itself"},
-        {"<!doctype html", "is a web page; download the file itself"},
-        {"<html", "is a web page; download the file itself"},
-    };
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        const size_t length = strlen(kinds[i].mark);
-        if (bytes->size >= length && memcmp(bytes->data, kinds[i].mark, length) == 0)
-            return kinds[i].what;
+    for (; list->bytes != NULL; list++) {
+        const size_t length = strlen(list->bytes);
+        if (bytes->size >= length && memcmp(bytes->data, list->bytes, length) == 0)
+            return list->what;
     }
     return NULL;
 }
 
-/* An archive under the name of a format that is none. */
-static int is_hidden_zip(const cs_bytes *bytes, const char *path)
+/* Web pages may begin with a mark of the order of bytes, or blank lines. */
+static int is_web_page(const cs_bytes *bytes)
 {
-    static const char *const names[] = {".obj", ".ply", ".stl", ".gltf", ".glb", ".off", ".zip"};
-    if (bytes->size < 4 || memcmp(bytes->data, "PK\3\4", 4) != 0) return 0;
+    const char *at = bytes->data;
+    if (strncmp(at, "\xef\xbb\xbf", 3) == 0) at += 3;
+    at += strspn(at, " \t\r\n");
+    return strncasecmp(at, "<!doctype html", 14) == 0 || strncasecmp(at, "<html", 5) == 0;
+}
+
+/* Whether a name is that of a format whose files are never packed, or says that this one is. */
+static int is_plain_or_packed(const char *path)
+{
+    static const char *const names[] = {".obj", ".ply", ".stl", ".gltf", ".glb", ".off", ".zip",
+                                        ".gz",  ".bz2", ".xz",  ".zst",  ".7z",  ".rar"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (cs_has_suffix(path, names[i])) return 1;
     return 0;
+}
+
+/* Why no reader need try a file; NULL where one has to. */
+static const char *flaw_of(const cs_bytes *bytes, const char *path)
+{
+    const char *flaw = find_mark(bytes, pointers);
+    if (is_web_page(bytes)) flaw = "is a web page; download the file itself";
+    if (flaw != NULL || !is_plain_or_packed(path)) return flaw;
+    flaw = find_mark(bytes, packings);
+    return flaw != NULL ? flaw : find_mark(bytes, archives);
 }
 
 static cs_other_reader reader_for(const cs_bytes *bytes, const char *path, cs_other_reader other)
@@ -78,11 +105,11 @@ clshear_status cs_import_here(const char *path, const cs_import_options *options
     model.time_s = options->time_s;
     CS_TRY(cs_bytes_read(path, &bytes, error));
     CS_REQUIRE(bytes.size > 0, CLSHEAR_BAD_FILE, "%s: is empty", path);
-    const char *flaw =
-        is_hidden_zip(&bytes, path) ? "is a ZIP archive; unpack it first" : foreign(&bytes);
+    const char *flaw = flaw_of(&bytes, path), *packing = find_mark(&bytes, packings);
     CS_REQUIRE(flaw == NULL, CLSHEAR_BAD_FILE, "%s: %s", path, flaw);
-    const cs_other_reader reader = reader_for(&bytes, path, other);
-    CS_TRY(reader(&bytes, &model, error));
+    status = reader_for(&bytes, path, other)(&bytes, &model, error);
+    CS_REQUIRE(status != CLSHEAR_BAD_FILE || packing == NULL, status, "%s: %s", path, packing);
+    CS_TRY(status);
     scene->z_up = model.z_up;
     scene->up_is_open = model.up_is_open;
     cs_bytes_free(&bytes);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "import/colour.h"
 #include "import/polygon.h"
 
 void cs_model_init(cs_model *model, const char *path, const cs_log *log)
@@ -60,7 +61,9 @@ clshear_status cs_model_set_colour(cs_model *model, size_t index, const float *c
             for (int c = 0; c < 3; c++)
                 added[i - before][c] = CS_NO_COLOUR;
     }
-    memcpy(((float(*)[3])model->colours.items)[index], colour, 3 * sizeof *colour);
+    float *value = ((float(*)[3])model->colours.items)[index];
+    for (int c = 0; c < 3; c++)
+        value[c] = cs_colour_value((double)colour[c], 0);
     return CLSHEAR_OK;
 }
 

@@ -96,7 +96,8 @@ void *cs_model_extend(cs_array *array, size_t count);
 /* Records that the model is too large for memory, or for what the renderer can count. */
 clshear_status cs_model_full(const cs_model *model, cs_error *error);
 
-/* Gives the position number `index` a colour. Those that get none are white. */
+/* Gives the position number `index` a linear colour, of which negative values and those that are no
+ * numbers become 0. Positions that get none are white. */
 clshear_status cs_model_set_colour(cs_model *model, size_t index, const float *colour,
                                    cs_error *error);
 

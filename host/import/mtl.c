@@ -20,6 +20,7 @@ typedef struct mtl_reader {
     cs_error *error;
     size_t line;
     size_t complaints;
+    size_t turned;                 /* materials whose Tr of 1 is taken for opaque */
     char folders[2][CS_FILE_PATH]; /* of the library and of the model */
 } mtl_reader;
 
@@ -143,23 +144,57 @@ static const struct {
                   {"map_Ps", "a map of sheen"},           {"map_Pc", "a map of the clear coat"},
                   {"map_Pcr", "a map of the clear coat"}, {"decal", "a decal"}};
 
-/* Options of a map with their numbers at most; 0: a word. */
+/* Options of a map with their numbers at most, or the words that they take. */
 static const struct {
     const char *name;
     int numbers;
-} options[] = {{"-s", 3},       {"-o", 3},      {"-t", 3},     {"-mm", 2},     {"-bm", 1},
-               {"-boost", 1},   {"-texres", 1}, {"-clamp", 0}, {"-blendu", 0}, {"-blendv", 0},
-               {"-imfchan", 0}, {"-cc", 0},     {"-type", 0}};
+    const char *words[7];
+} options[] = {
+    {"-s", 3, {0}},
+    {"-o", 3, {0}},
+    {"-t", 3, {0}},
+    {"-mm", 2, {0}},
+    {"-bm", 1, {0}},
+    {"-boost", 1, {0}},
+    {"-texres", 1, {0}},
+    {"-clamp", 0, {"on", "off"}},
+    {"-blendu", 0, {"on", "off"}},
+    {"-blendv", 0, {"on", "off"}},
+    {"-cc", 0, {"on", "off"}},
+    {"-imfchan", 0, {"r", "g", "b", "m", "l", "z"}},
+    {"-type",
+     0,
+     {"sphere", "cube_top", "cube_bottom", "cube_front", "cube_back", "cube_left", "cube_right"}}};
+
+enum {
+    OPTIONS = sizeof options / sizeof *options,
+    WORDS = sizeof options[0].words / sizeof *options[0].words
+};
 
 /* The option at the beginning of `text`: its place in `options`, or their number. */
 static size_t option_at(const char *text)
 {
-    const size_t length = strcspn(text, " \t"), count = sizeof options / sizeof *options;
+    const size_t length = strcspn(text, " \t");
     size_t i = 0;
-    while (i < count &&
+    while (i < OPTIONS &&
            (strlen(options[i].name) != length || strncmp(text, options[i].name, length) != 0))
         i++;
     return i;
+}
+
+/* Goes past a word that option number `i` takes, and returns it as the option's table has it; NULL
+ * where another one follows, which may be the name of the image. */
+static const char *take_word(size_t i, char **at)
+{
+    char *word = *at + strspn(*at, " \t");
+    const size_t length = strcspn(word, " \t");
+    for (size_t k = 0; k < WORDS && options[i].words[k] != NULL; k++) {
+        const char *known = options[i].words[k];
+        if (strlen(known) != length || strncasecmp(word, known, length) != 0) continue;
+        *at = word + length;
+        return known;
+    }
+    return NULL;
 }
 
 /* Takes one option into `map`; 0 where `*at` begins with none. */
@@ -168,13 +203,11 @@ static int take_option(char **at, cs_map *map, double *scale, double *shift, dou
     char *begin = *at + strspn(*at, " \t");
     const size_t i = option_at(begin);
     double numbers[3];
-    if (i == sizeof options / sizeof *options) return 0;
+    if (i == OPTIONS) return 0;
     *at = begin + strlen(options[i].name);
     const int count = read_numbers(at, numbers, options[i].numbers);
-    char *word = *at + strspn(*at, " \t");
-    const size_t word_length = strcspn(word, " \t");
-    if (options[i].numbers == 0) *at = word + word_length;
-    if (strcmp(options[i].name, "-clamp") == 0 && strncmp(word, "on", word_length) == 0)
+    const char *word = take_word(i, at);
+    if (strcmp(options[i].name, "-clamp") == 0 && word != NULL && strcmp(word, "on") == 0)
         map->wrap[0] = map->wrap[1] = CS_WRAP_CLAMP;
     if (strcmp(options[i].name, "-mm") == 0) {
         if (count > 0) map->use.base = (float)numbers[0];
@@ -192,8 +225,7 @@ static int take_option(char **at, cs_map *map, double *scale, double *shift, dou
 static char *cut_options(char *name)
 {
     for (char *mark = strchr(name, '-'); mark != NULL; mark = strchr(mark + 1, '-')) {
-        if (mark == name || (mark[-1] != ' ' && mark[-1] != '\t') ||
-            option_at(mark) == sizeof options / sizeof *options)
+        if (mark == name || (mark[-1] != ' ' && mark[-1] != '\t') || option_at(mark) == OPTIONS)
             continue;
         mark[-1] = '\0';
         return mark;
@@ -268,6 +300,11 @@ void cs_mtl_key(const char *name, char key[CS_MATERIAL_NAME])
                  (unsigned long long)cs_checksum_add(CS_CHECKSUM_OF_NOTHING, name, length));
 }
 
+static void finish_material(mtl_reader *reader, cs_material_description *material)
+{
+    if (material != NULL && mtl_make_surface(&reader->values, material)) reader->turned++;
+}
+
 static clshear_status read_lines(mtl_reader *reader, cs_bytes *bytes)
 {
     char name[CS_MATERIAL_NAME];
@@ -280,7 +317,7 @@ static clshear_status read_lines(mtl_reader *reader, cs_bytes *bytes)
         const char *key = cs_next_word(&at);
         if (key == NULL || key[0] == '#') continue;
         if (strcasecmp(key, "newmtl") == 0) {
-            if (material != NULL) mtl_make_surface(&reader->values, material);
+            finish_material(reader, material);
             mtl_values_init(&reader->values);
             material = cs_model_extend(reader->materials, 1);
             if (material == NULL) return cs_model_full(reader->model, reader->error);
@@ -290,7 +327,7 @@ static clshear_status read_lines(mtl_reader *reader, cs_bytes *bytes)
             status = read_line(reader, material, key, at);
         }
     }
-    if (material != NULL) mtl_make_surface(&reader->values, material);
+    finish_material(reader, material);
     return status;
 }
 
@@ -307,6 +344,12 @@ clshear_status cs_mtl_read(const char *path, cs_model *model, cs_array *material
     if (status == CLSHEAR_OK) status = read_lines(reader, &bytes);
     if (reader->complaints > 10)
         cs_warn(model->log, "%s: %zu more lines are left out", path, reader->complaints - 10);
+    if (reader->turned > 0)
+        cs_warn(
+            model->log,
+            "%s: Tr 1 is taken as opaque, as some programs mean it, in %zu material%s without d; "
+            "write d 0 to hide",
+            path, reader->turned, reader->turned > 1 ? "s" : "");
     cs_bytes_free(&bytes);
     free(reader);
     return status;

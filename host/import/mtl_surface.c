@@ -132,14 +132,15 @@ static int is_black(const float *colour)
     return !(colour[0] > 0.0f || colour[1] > 0.0f || colour[2] > 0.0f);
 }
 
-void mtl_make_surface(const mtl_values *values, cs_material_description *material)
+int mtl_make_surface(const mtl_values *values, cs_material_description *material)
 {
     const float opacity = opacity_of(values);
     const int model = values->model;
     if (!values->has_colour && cs_map_is_used(&material->base_map))
         material->base_colour[0] = material->base_colour[1] = material->base_colour[2] = 1.0f;
-    if (make_glass(values, opacity, material)) return;
-    make_see_through(opacity, material);
+    if (make_glass(values, opacity, material)) return 0;
+    const int is_turned = opacity == 0.0f && values->opacity < 0.0f;
+    make_see_through(is_turned ? 1.0f : opacity, material);
     if (is_physical(values, material)) {
         set_gloss(values, 0.5f, material);
         make_physical(values, material);
@@ -156,4 +157,5 @@ void mtl_make_surface(const mtl_values *values, cs_material_description *materia
         set_gloss(values, 1.0f, material);
         make_highlight(values, material);
     }
+    return is_turned;
 }

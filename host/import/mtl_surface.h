@@ -21,7 +21,9 @@ typedef struct mtl_values {
 
 void mtl_values_init(mtl_values *values);
 
-/* Completes a material whose lines are all read. */
-void mtl_make_surface(const mtl_values *values, cs_material_description *material);
+/* Completes a material whose lines are all read. Returns 1 where its Tr of 1, which would hide it,
+ * is taken for opaque, as programs write it that mean what `d` does: nobody wants a material that
+ * cannot be seen. */
+int mtl_make_surface(const mtl_values *values, cs_material_description *material);
 
 #endif

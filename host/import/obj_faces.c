@@ -20,7 +20,7 @@ static const char *const place_names[PLACES] = {"vertex", "texture coordinate", 
 void cs_obj_begin(obj_reader *reader)
 {
     cs_index_map_init(&reader->used, CS_MATERIAL_NAME);
-    cs_index_map_init(&reader->libraries, 256);
+    cs_index_map_init(&reader->libraries, CS_MATERIAL_NAME);
     reader->defined.item_size = sizeof(cs_material_description);
     reader->corners.item_size = sizeof(cs_corner);
     reader->waiting.item_size = sizeof(obj_face);

@@ -20,9 +20,8 @@ clshear_status cs_obj_use_material(obj_reader *reader, const char *name)
 /* Whether a library comes for the first time. */
 static int is_new(obj_reader *reader, const char *name)
 {
-    char key[256] = {0};
-    snprintf(key, sizeof key, "%s", name);
-    memset(key + strlen(key), 0, sizeof key - strlen(key));
+    char key[CS_MATERIAL_NAME];
+    cs_mtl_key(name, key);
     const size_t before = reader->libraries.keys.count;
     return cs_index_map_add(&reader->libraries, key) == before;
 }
@@ -82,48 +81,96 @@ static clshear_status read_namesake(obj_reader *reader)
     return find_library(reader, name, ignored) ? read_library(reader, name) : CLSHEAR_OK;
 }
 
-/* The number of the used name that means this one: the same, or the same and a comment. */
-static uint32_t user_of(const obj_reader *reader, const char *name)
+/* ----- Definitions ----- */
+
+/* Materials of the libraries by their names. */
+typedef struct definitions {
+    const cs_material_description *all;
+    cs_index_map names; /* char[CS_MATERIAL_NAME] */
+    cs_array last;      /* uint32_t: of each name the last material in `all` that has it */
+} definitions;
+
+static void free_definitions(definitions *defined)
 {
-    char key[CS_MATERIAL_NAME];
-    cs_mtl_key(name, key);
-    const uint32_t number = cs_index_map_find(&reader->used, key);
-    const char(*names)[CS_MATERIAL_NAME] = reader->used.keys.items;
-    for (size_t i = 0; i < reader->used.keys.count && number == UINT32_MAX; i++) {
-        memcpy(key, names[i], sizeof key);
-        if (cs_cut_comment(key) && strcmp(key, name) == 0) return (uint32_t)i;
+    cs_index_map_free(&defined->names);
+    cs_array_free(&defined->last);
+}
+
+/* Returns 0 without memory. */
+static int find_definitions(const obj_reader *reader, definitions *defined)
+{
+    *defined = (definitions){.all = reader->defined.items, .last.item_size = sizeof(uint32_t)};
+    cs_index_map_init(&defined->names, CS_MATERIAL_NAME);
+    for (size_t i = 0; i < reader->defined.count; i++) {
+        char key[CS_MATERIAL_NAME];
+        cs_mtl_key(defined->all[i].name, key);
+        const uint32_t number = cs_index_map_add(&defined->names, key);
+        if (number == UINT32_MAX) return 0;
+        if (number == defined->last.count && cs_array_extend(&defined->last, 1) == NULL) return 0;
+        ((uint32_t *)defined->last.items)[number] = (uint32_t)i;
     }
-    return number;
+    return 1;
+}
+
+/* The material that a name means: that of the whole name, or else of what is before a comment in
+ * it. NULL where neither is defined. */
+static const cs_material_description *definition_of(const definitions *defined, const char *name)
+{
+    char key[CS_MATERIAL_NAME], text[CS_MATERIAL_NAME];
+    cs_mtl_key(name, key);
+    uint32_t number = cs_index_map_find(&defined->names, key);
+    memcpy(text, key, sizeof text);
+    if (number == UINT32_MAX && cs_cut_comment(text)) {
+        cs_mtl_key(text, key);
+        number = cs_index_map_find(&defined->names, key);
+    }
+    return number != UINT32_MAX ? &defined->all[((uint32_t *)defined->last.items)[number]] : NULL;
+}
+
+static void tell_undefined(const cs_model *model, const char *name)
+{
+    cs_warn(model->log, "%s: material \"%s\" %s", model->path, name,
+            model->colours.count > 0 ? "is not defined; it is white"
+                                     : "is not defined; it is mid-grey");
+}
+
+/* Makes the materials of the names that were used. */
+static void make_used(const obj_reader *reader, const definitions *defined,
+                      cs_material_description *made)
+{
+    enum {
+        MOST_LINES = 8
+    };
+    const cs_model *model = reader->model;
+    const char(*names)[CS_MATERIAL_NAME] = reader->used.keys.items;
+    size_t undefined = 0;
+    for (size_t i = 0; i < reader->used.keys.count; i++) {
+        const cs_material_description *definition = definition_of(defined, names[i]);
+        if (definition != NULL) {
+            made[i] = *definition;
+            cs_material_whiten(&made[i]);
+            continue;
+        }
+        cs_model_plain(model, names[i], &made[i]);
+        if (reader->missing == 0 && undefined++ < MOST_LINES) tell_undefined(model, names[i]);
+    }
+    if (undefined > MOST_LINES)
+        cs_warn(model->log, "%s: %zu more materials are not defined", model->path,
+                undefined - MOST_LINES);
 }
 
 /* For each name that was used, the material called so: the last one, where there are several. */
 clshear_status cs_obj_materials(obj_reader *reader)
 {
+    definitions defined = {0};
     cs_model *model = reader->model;
     clshear_status status = read_namesake(reader);
     if (status != CLSHEAR_OK) return status;
-    const cs_material_description *defined = reader->defined.items;
-    const char(*names)[CS_MATERIAL_NAME] = reader->used.keys.items;
-    const size_t count = reader->used.keys.count;
-    cs_material_description *made = cs_model_extend(&model->materials, count);
-    if (made == NULL) return cs_model_full(model, reader->error);
-    for (size_t i = 0; i < count; i++)
-        cs_material_init(&made[i], "");
-    for (size_t i = 0; i < reader->defined.count; i++) {
-        const uint32_t number = user_of(reader, defined[i].name);
-        if (number != UINT32_MAX) made[number] = defined[i];
-    }
-    size_t undefined = 0;
-    for (size_t i = 0; i < count; i++) {
-        cs_material_whiten(&made[i]);
-        if (made[i].name[0] != '\0') continue;
-        cs_model_plain(model, names[i], &made[i]);
-        if (reader->missing == 0 && undefined++ < 8)
-            cs_warn(model->log, "%s: material \"%s\" %s", model->path, names[i],
-                    model->colours.count > 0 ? "is not defined; it is white"
-                                             : "is not defined; it is mid-grey");
-    }
-    if (undefined > 8)
-        cs_warn(model->log, "%s: %zu more materials are not defined", model->path, undefined - 8);
-    return CLSHEAR_OK;
+    cs_material_description *made = cs_model_extend(&model->materials, reader->used.keys.count);
+    if (made != NULL && find_definitions(reader, &defined))
+        make_used(reader, &defined, made);
+    else
+        status = cs_model_full(model, reader->error);
+    free_definitions(&defined);
+    return status;
 }

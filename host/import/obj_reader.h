@@ -13,7 +13,7 @@ typedef struct obj_reader {
     uint32_t group;           /* of the faces that follow */
     uint32_t material;        /* the same: number of a name in `used`, or CS_NO_INDEX */
     cs_index_map used;        /* names of usemtl, char[CS_MATERIAL_NAME] */
-    cs_index_map libraries;   /* names of mtllib that were read or are missing, char[256] */
+    cs_index_map libraries;   /* the same of mtllib, for those that were read or are missing */
     cs_array defined;         /* cs_material_description, of the libraries */
     cs_array corners;         /* cs_corner, of the current face */
     cs_array waiting;         /* obj_face: those that name what comes later */

@@ -1,4 +1,5 @@
 /* OFF, the Object File Format of Geomview, as text. */
+#include <math.h>
 #include <string.h>
 #include <strings.h>
 
@@ -7,7 +8,7 @@
 #include "import/readers.h"
 
 enum {
-    MOST = 16 /* numbers of a vertex, or behind a face */
+    MOST = 16 /* numbers of a vertex, or behind an item */
 };
 
 typedef struct off_reader {
@@ -19,6 +20,8 @@ typedef struct off_reader {
     int has_normals, has_w;
     int dimension; /* of the vertices, 3 at least; 0: stands before the counts */
     size_t vertices, faces;
+    int is_dense;     /* vertices, or faces, share lines: there is nothing behind them */
+    int has_more;     /* some line has numbers that mean nothing */
     cs_array corners; /* cs_corner, of the current face */
 } off_reader;
 
@@ -70,7 +73,7 @@ static int find_word(off_reader *reader)
         if (reader->at == NULL) return 0;
         while (*reader->at != '\0' && (unsigned char)*reader->at <= ' ')
             reader->at++;
-        if (*reader->at != '\0' && *reader->at != '#' && *reader->at != 0x1a) return 1;
+        if (*reader->at != '\0' && *reader->at != '#') return 1;
         reader->at = NULL;
     }
 }
@@ -79,10 +82,12 @@ static int find_word(off_reader *reader)
 static int next_in_line(off_reader *reader, double *value)
 {
     if (reader->at == NULL) return 0;
-    char *at = reader->at + strspn(reader->at, " \t\v\f");
+    char *at = reader->at;
+    while (*at != '\0' && (unsigned char)*at <= ' ')
+        at++;
     const char *end = at + strcspn(at, " \t\v\f");
     const char *after = cs_parse_number(at, end, value);
-    if (after == at || (after != end && *after != '#')) return 0;
+    if (after == at || ((unsigned char)*after > ' ' && *after != '#')) return 0;
     reader->at = at + (after - at);
     return 1;
 }
@@ -100,8 +105,8 @@ static clshear_status next_count(off_reader *reader, size_t *count)
     double value = 0.0;
     const clshear_status status = next_number(reader, &value);
     if (status != CLSHEAR_OK) return status;
-    if (!(value >= 0.0 && value <= (double)CS_MODEL_MOST))
-        return complain(reader, "a count must be 0 to 134217727");
+    if (!(value >= 0.0 && value <= (double)CS_MODEL_MOST) || value != floor(value))
+        return complain(reader, "a count must be a whole number of 0 to 134217727");
     *count = (size_t)value;
     return CLSHEAR_OK;
 }
@@ -131,26 +136,45 @@ static clshear_status read_head(off_reader *reader)
     return status;
 }
 
+/* Whether what is left has fewer lines than items. */
+static int shares_lines(const off_reader *reader, size_t items)
+{
+    const char *at = reader->lines.at;
+    size_t count = reader->at != NULL && reader->at[strspn(reader->at, " \t\v\f")] != '\0';
+    int is_new = 1; /* no word or comment has begun in the line */
+    for (; at != reader->lines.end && count < items; at++) {
+        if (*at == '\n' || *at == '\r') {
+            is_new = 1;
+        } else if (is_new && (unsigned char)*at > ' ') {
+            count += *at != '#';
+            is_new = 0;
+        }
+    }
+    return count < items;
+}
+
+/* The numbers that are left in the line of an item, of which MOST are kept; returns their count. */
+static int read_behind(off_reader *reader, double numbers[MOST])
+{
+    double beyond;
+    int count = 0;
+    while (!reader->is_dense && next_in_line(reader, count < MOST ? &numbers[count] : &beyond))
+        count++;
+    return count;
+}
+
 static void take_colour(const double *numbers, float *colour)
 {
     for (int c = 0; c < 3; c++)
         colour[c] = cs_colour_value(numbers[c], 1);
 }
 
-/* x y z, w, a normal, a colour, texture coordinates, as far as the mark says. */
-static clshear_status read_vertex(off_reader *reader)
+/* Adds a vertex of these numbers, the texture coordinates last. `places` are those of its position,
+ * `marked` all that the mark says. */
+static clshear_status add_vertex(off_reader *reader, const double *numbers, int places, int marked,
+                                 int count)
 {
     cs_model *model = reader->model;
-    double numbers[MOST] = {0};
-    const int places = reader->has_w ? 4 : reader->dimension;
-    const int needed = places + 3 * (reader->has_normals + reader->has_colours);
-    int count = 0;
-    clshear_status status = CLSHEAR_OK;
-    for (; count < needed && status == CLSHEAR_OK; count++)
-        status = next_number(reader, &numbers[count]);
-    if (status != CLSHEAR_OK) return status;
-    while (count < MOST && next_in_line(reader, &numbers[count]))
-        count++;
     double *position = cs_model_extend(&model->positions, 1);
     float *normal = cs_model_extend(&model->normals, (size_t)reader->has_normals);
     float *st = cs_model_extend(&model->textures, (size_t)reader->has_st);
@@ -161,13 +185,32 @@ static clshear_status read_vertex(off_reader *reader)
         position[i] = numbers[i] / w;
         if (reader->has_normals) normal[i] = (float)numbers[places + i];
     }
-    for (int i = 0; i < 2 && reader->has_st; i++) /* last of all */
-        st[i] = count >= needed + 2 ? (float)numbers[count - 2 + i] : 0.0f;
-    const int unmarked = !reader->has_st && (count == needed + 3 || count == needed + 4);
+    for (int i = 0; i < 2 && reader->has_st; i++)
+        st[i] = count >= marked + 2 ? (float)numbers[count - 2 + i] : 0.0f;
+    const int unmarked = !reader->has_st && (count == marked + 3 || count == marked + 4);
     if (!reader->has_colours && !unmarked) return CLSHEAR_OK; /* OFF with the colours of COFF */
     float colour[3];
-    take_colour(numbers + needed - (reader->has_colours ? 3 : 0), colour);
+    take_colour(numbers + marked - (reader->has_colours ? 3 : 0), colour);
     return cs_model_set_colour(model, model->positions.count - 1, colour, reader->error);
+}
+
+/* x y z, w, a normal, a colour, texture coordinates, as far as the mark says. What is behind them
+ * in the line may be the colour and the alpha that the mark does not say. */
+static clshear_status read_vertex(off_reader *reader)
+{
+    double numbers[2 * MOST] = {0};
+    const int places = reader->has_w ? 4 : reader->dimension;
+    const int marked = places + 3 * (reader->has_normals + reader->has_colours);
+    const int coordinates = 2 * reader->has_st;
+    int count = 0;
+    while (count < marked + (reader->is_dense ? coordinates : 0)) {
+        const clshear_status status = next_number(reader, &numbers[count++]);
+        if (status != CLSHEAR_OK) return status;
+    }
+    const int behind = read_behind(reader, numbers + count);
+    const int is_known = behind <= 4 + coordinates;
+    reader->has_more |= !is_known;
+    return add_vertex(reader, numbers, places, marked, count + (is_known ? behind : 0));
 }
 
 /* The colour behind a face: three or four numbers. One is the number of a colour in a map that is
@@ -178,10 +221,9 @@ static clshear_status colour_face(off_reader *reader)
     cs_corner *corners = reader->corners.items;
     double numbers[MOST];
     float colour[3];
-    int count = 0;
-    while (count < MOST && next_in_line(reader, &numbers[count]))
-        count++;
-    if (count < 3) return CLSHEAR_OK;
+    const int count = read_behind(reader, numbers);
+    reader->has_more |= count == 2 || count > 4;
+    if (count < 3 || count > 4) return CLSHEAR_OK;
     take_colour(numbers, colour);
     for (size_t i = 0; i < reader->corners.count; i++) { /* positions of its own */
         const size_t place = model->positions.count;
@@ -205,7 +247,7 @@ static clshear_status read_face(off_reader *reader)
     for (size_t i = 0; i < count && status == CLSHEAR_OK; i++) {
         status = next_number(reader, &number);
         if (status != CLSHEAR_OK) return status;
-        if (!(number >= 0.0 && number < (double)reader->vertices))
+        if (!(number >= 0.0 && number < (double)reader->vertices) || number != floor(number))
             return complain(reader, "the face names a vertex that is not there");
         cs_corner *corner = cs_array_extend(&reader->corners, 1);
         if (corner == NULL) return cs_model_full(reader->model, reader->error);
@@ -227,10 +269,15 @@ clshear_status cs_read_off(cs_bytes *bytes, cs_model *model, cs_error *error)
     clshear_status status = cs_bytes_to_utf8(bytes, model->path, error);
     reader.lines = cs_lines_of(bytes);
     if (status == CLSHEAR_OK) status = read_head(&reader);
+    reader.is_dense = shares_lines(&reader, reader.vertices + reader.faces);
     for (size_t i = 0; i < reader.vertices && status == CLSHEAR_OK; i++)
         status = read_vertex(&reader);
+    reader.is_dense = shares_lines(&reader, reader.faces);
     for (size_t i = 0; i < reader.faces && status == CLSHEAR_OK; i++)
         status = read_face(&reader);
+    if (status == CLSHEAR_OK && reader.has_more)
+        cs_warn(model->log, "%s: has lines with more numbers than its kind of OFF has; left out",
+                model->path);
     if (status == CLSHEAR_OK && model->triangles.count == 0)
         status = cs_fail(error, CLSHEAR_BAD_FILE, "%s: there are no faces in it", model->path);
     cs_array_free(&reader.corners);

@@ -15,6 +15,14 @@ int cs_is_ply(const cs_bytes *bytes, const char *path)
 
 /* ----- Vertices ----- */
 
+/* What texture coordinates are in, and the role behind it; or CS_PLY_NO_ROLE. */
+static cs_ply_role coordinates_of(const cs_ply_scalars *given)
+{
+    const int *there = given->is_there;
+    if (there[CS_PLY_S] && there[CS_PLY_T]) return CS_PLY_S;
+    return there[CS_PLY_TX] && there[CS_PLY_TY] && !there[CS_PLY_TZ] ? CS_PLY_TX : CS_PLY_NO_ROLE;
+}
+
 static clshear_status add_vertex(cs_ply_reader *reader, const cs_ply_scalars *given)
 {
     cs_model *model = reader->model;
@@ -28,12 +36,13 @@ static clshear_status add_vertex(cs_ply_reader *reader, const cs_ply_scalars *gi
         for (int i = 0; i < 3; i++)
             normal[i] = (float)given->value[CS_PLY_NX + i];
     }
-    reader->has_coordinates = given->is_there[CS_PLY_S] && given->is_there[CS_PLY_T];
+    const cs_ply_role s = coordinates_of(given);
+    reader->has_coordinates = s != CS_PLY_NO_ROLE;
     if (reader->has_coordinates) {
         float *st = cs_model_extend(&model->textures, 1);
         if (st == NULL) return cs_model_full(model, reader->error);
-        st[0] = (float)given->value[CS_PLY_S];
-        st[1] = (float)given->value[CS_PLY_T];
+        st[0] = (float)given->value[s];
+        st[1] = (float)given->value[s + 1];
     }
     float colour[3];
     model->fades |= given->is_there[CS_PLY_ALPHA] &&
@@ -132,13 +141,6 @@ static clshear_status add_strip(cs_ply_reader *reader, const cs_ply_element *ele
 
 /* ----- Elements ----- */
 
-static int has_role(const cs_ply_element *element, cs_ply_role role)
-{
-    for (size_t p = 0; p < element->property_count; p++)
-        if (element->properties[p].role == role) return 1;
-    return 0;
-}
-
 /* Whether the rest of the file can hold as many items as the head says. */
 static clshear_status check_count(const cs_ply_reader *reader, const cs_ply_element *element)
 {
@@ -161,7 +163,7 @@ static clshear_status read_element(cs_ply_reader *reader, const cs_ply_element *
                                    size_t *vertices)
 {
     const int is_vertex = strcmp(element->name, "vertex") == 0;
-    const int has_indices = has_role(element, CS_PLY_INDICES);
+    const int has_indices = cs_ply_has_role(element, CS_PLY_INDICES);
     const int is_strip = strcmp(element->name, "tristrips") == 0 && has_indices;
     const int is_face = strcmp(element->name, "face") == 0 && has_indices;
     if (element->property_count == 0) return CLSHEAR_OK;
@@ -272,11 +274,11 @@ static clshear_status read_elements(cs_ply_reader *reader, cs_bytes *bytes)
         const cs_ply_element *element = &reader->head.elements[i];
         items += element->property_count > 0 ? element->count : 0;
         CS_REQUIRE(strcmp(element->name, "vertex") != 0 || element->count == 0 ||
-                       (has_role(element, CS_PLY_X) && has_role(element, CS_PLY_Y) &&
-                        has_role(element, CS_PLY_Z)),
+                       (cs_ply_has_role(element, CS_PLY_X) && cs_ply_has_role(element, CS_PLY_Y) &&
+                        cs_ply_has_role(element, CS_PLY_Z)),
                    CLSHEAR_BAD_FILE, "%s: its vertices have no x, y, z", reader->model->path);
         CS_REQUIRE(strcmp(element->name, "face") != 0 || element->count == 0 ||
-                       has_role(element, CS_PLY_INDICES),
+                       cs_ply_has_role(element, CS_PLY_INDICES),
                    CLSHEAR_BAD_FILE, "%s: its faces have no list called vertex_indices",
                    reader->model->path);
     }

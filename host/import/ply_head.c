@@ -35,8 +35,9 @@ static const struct {
     {"texture_v", CS_PLY_T},
     {"texture_s", CS_PLY_S},
     {"texture_t", CS_PLY_T},
-    {"tx", CS_PLY_S},
-    {"ty", CS_PLY_T},
+    {"tx", CS_PLY_TX},
+    {"ty", CS_PLY_TY},
+    {"tz", CS_PLY_TZ},
     {"s0", CS_PLY_S},
     {"t0", CS_PLY_T},
     {"u0", CS_PLY_S},
@@ -74,6 +75,13 @@ static cs_ply_role role_called(const char *name, int is_list)
             return role_names[i].role;
     }
     return CS_PLY_NO_ROLE;
+}
+
+int cs_ply_has_role(const cs_ply_element *element, cs_ply_role role)
+{
+    for (size_t p = 0; p < element->property_count; p++)
+        if (element->properties[p].role == role) return 1;
+    return 0;
 }
 
 /* Each of these returns what is wrong with a line, or NULL. */
@@ -122,6 +130,7 @@ static const char *read_property(cs_ply_head *head, char *at)
     if (property.type == CS_PLY_NO_TYPE || name == NULL)
         return "a property needs a type (char uchar short ushort int uint float double) and a name";
     property.role = role_called(name, is_list);
+    if (cs_ply_has_role(element, property.role)) property.role = CS_PLY_NO_ROLE; /* a second set */
     element->properties[element->property_count++] = property;
     return NULL;
 }

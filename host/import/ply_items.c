@@ -57,8 +57,6 @@ static clshear_status read_list(cs_ply_reader *reader, const cs_ply_element *ele
         return cs_ply_complain(reader, element, item, "a list is longer than the rest of the file");
     const int is_indices = property->role == CS_PLY_INDICES;
     const int is_text = property->role == CS_PLY_COORDINATES;
-    reader->corners.count = is_indices ? 0 : reader->corners.count;
-    reader->texts.count = is_text ? 0 : reader->texts.count;
     for (size_t i = 0; i < (size_t)count; i++) {
         double value;
         if (!cs_ply_next(&reader->cursor, property->type, &value))

@@ -41,6 +41,9 @@ typedef enum cs_ply_role {
     CS_PLY_NZ,
     CS_PLY_S,
     CS_PLY_T,
+    CS_PLY_TX, /* with TZ a tangent, without it the texture coordinates of some programs */
+    CS_PLY_TY,
+    CS_PLY_TZ,
     CS_PLY_RED,
     CS_PLY_GREEN,
     CS_PLY_BLUE,
@@ -77,6 +80,9 @@ typedef struct cs_ply_head {
 /* Reads the head. `path` is for messages. */
 clshear_status cs_ply_read_head(const cs_bytes *bytes, const char *path, cs_ply_head *head,
                                 cs_error *error);
+
+/* Whether one of the element's properties means this. No two of them do. */
+int cs_ply_has_role(const cs_ply_element *element, cs_ply_role role);
 
 /* Where in the numbers the reader is. */
 typedef struct cs_ply_cursor {

@@ -200,46 +200,59 @@ static uint32_t colour_at(const cs_bytes *bytes, stl_colours kind, const char *f
     return colour;
 }
 
-static clshear_status read_binary(stl_reader *reader, const cs_bytes *bytes)
+/* How many facets are read: those that the head counts, if they are there. */
+static clshear_status count_facets(const stl_reader *reader, const cs_bytes *bytes, size_t *facets)
 {
     const char *path = reader->model->path;
     if (bytes->size < HEAD)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE,
                        "%s: is shorter than the head of an STL file; it was cut", path);
-    size_t facets = word_at(bytes->data + HEAD - 4);
-    const size_t room = (bytes->size - HEAD) / FACET;
-    if ((facets == 0 || facets == UINT32_MAX) && room > 0) { /* written before it was known */
+    const size_t given = word_at(bytes->data + HEAD - 4), room = (bytes->size - HEAD) / FACET;
+    *facets = given;
+    if ((given == 0 || given == UINT32_MAX) && room > 0) { /* written before it was known */
         cs_warn(reader->model->log, "%s: does not say how many triangles it has; %zu fit", path,
                 room);
-        facets = room;
-    }
-    if (facets > room)
+        *facets = room;
+    } else if (given > room) {
         return cs_fail(reader->error, CLSHEAR_BAD_FILE,
                        "%s: says that it has %zu triangles, but ends after %zu; it was cut", path,
-                       facets, room);
-    if (facets < room)
+                       given, room);
+    } else if (given < room) {
         cs_warn(reader->model->log,
                 "%s: says that it has %zu triangles; bytes for %zu more behind them are left out",
-                path, facets, room - facets);
+                path, given, room - given);
+    }
+    return CLSHEAR_OK;
+}
+
+static clshear_status read_facet(stl_reader *reader, const char *facet, uint32_t colour,
+                                 uint32_t material)
+{
+    cs_corner corners[3];
+    for (size_t k = 0; k < 3; k++) {
+        double position[3];
+        for (size_t axis = 0; axis < 3; axis++) {
+            const uint32_t word = word_at(facet + 12 + 12 * k + 4 * axis);
+            float value;
+            memcpy(&value, &word, sizeof value);
+            position[axis] = (double)value;
+        }
+        const clshear_status status = add_corner(reader, position, colour, &corners[k]);
+        if (status != CLSHEAR_OK) return status;
+    }
+    return cs_model_add_polygon(reader->model, corners, 3, material, 0, reader->error);
+}
+
+static clshear_status read_binary(stl_reader *reader, const cs_bytes *bytes)
+{
+    size_t facets = 0;
+    clshear_status status = count_facets(reader, bytes, &facets);
+    if (status != CLSHEAR_OK) return status;
     const stl_colours kind = colours_of(bytes, facets);
-    clshear_status status = CLSHEAR_OK;
     for (size_t i = 0; i < facets && status == CLSHEAR_OK; i++) {
         const char *facet = bytes->data + HEAD + i * FACET;
-        const uint32_t colour = colour_at(bytes, kind, facet);
-        cs_corner corners[3];
-        for (size_t k = 0; k < 3 && status == CLSHEAR_OK; k++) {
-            double position[3];
-            for (size_t axis = 0; axis < 3; axis++) {
-                const uint32_t word = word_at(facet + 12 + 12 * k + 4 * axis);
-                float value;
-                memcpy(&value, &word, sizeof value);
-                position[axis] = (double)value;
-            }
-            status = add_corner(reader, position, colour, &corners[k]);
-        }
-        if (status == CLSHEAR_OK)
-            status = cs_model_add_polygon(reader->model, corners, 3, kind == NONE ? CS_NO_INDEX : 0,
-                                          0, reader->error);
+        status = read_facet(reader, facet, colour_at(bytes, kind, facet),
+                            kind == NONE ? CS_NO_INDEX : 0);
     }
     if (status != CLSHEAR_OK || kind == NONE) return status;
     cs_material_description *material = cs_model_extend(&reader->model->materials, 1);

@@ -48,10 +48,11 @@ static void occupy_streams(void)
     }
 }
 
-/* Gives threads, those of drivers too, stacks of 2 MB where the system's limit allows less: that is
- * one of the first thread's, but sets the default of the others. */
+/* Gives threads, those of drivers too, stacks of 2 MB where `ulimit -s` sets a smaller default: it
+ * is meant for the first thread. Only GNU's C library has the call. */
 static void enlarge_stacks(void)
 {
+#ifdef __GLIBC__
     const size_t wanted = (size_t)2 << 20;
     size_t size = wanted;
     pthread_attr_t attributes;
@@ -60,6 +61,7 @@ static void enlarge_stacks(void)
         pthread_attr_setstacksize(&attributes, wanted) == 0)
         pthread_setattr_default_np(&attributes);
     pthread_attr_destroy(&attributes);
+#endif
 }
 
 int main(int argc, char **argv)

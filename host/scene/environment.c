@@ -38,14 +38,12 @@ void cs_environment_show(const cs_environment_view *view, cs_light *light)
     light->axis[2] = view->z_up ? 1.0f : 0.0f;
 }
 
-/* The largest half: files of halves have infinity for what is brighter. */
-static const float most_half = 65504.0f;
-
-/* What a channel of a texel shines: 0 where it is no number or negative. */
+/* What a channel of a texel shines: 0 where it is no number or negative. Files of halves have
+ * infinity for all that is brighter than the largest half. */
 static float radiance_of(float channel)
 {
     if (!(channel > 0.0f)) return 0.0f;
-    if (isinf(channel)) return most_half;
+    if (isinf(channel)) return CS_LARGEST_HALF;
     return channel > most_radiance ? most_radiance : channel;
 }
 

@@ -100,17 +100,17 @@ typedef struct clshear_scene_info {
     double high[3];
 } clshear_scene_info;
 
-/* Reads OBJ, glTF 2.0, PLY, STL or another format that Assimp supports, and completes the scene. Of
- * the settings (NULL: fallbacks), those that say how the file is read count: CLSHEAR_SMOOTH, and
- * for motion CLSHEAR_FRAME, _FPS, _SHUTTER, _SHUTTER_ANGLE, _TO and _TURNTABLE. Give the same ones
- * to the render: there they have no effect, but its film names them; others are warned of. Repairs
- * are reported to the context's warning callback: missing material files and textures, invalid
- * colours (negative or not finite), degenerate triangles.
+/* Reads OBJ, glTF 2.0, PLY, STL, OFF or another format that Assimp supports, and completes the
+ * scene. Of the settings (NULL: fallbacks), those that say how the file is read count:
+ * CLSHEAR_SMOOTH, and for motion CLSHEAR_FRAME, _FPS, _SHUTTER, _SHUTTER_ANGLE, _TO, _TURNTABLE.
+ * Give the same ones to the render: there they have no effect, but its film names them; others are
+ * warned of. Repairs are reported to the context's warning callback: missing material files and
+ * textures, invalid colours (negative or not finite), degenerate triangles.
  *
  * The program clshear-import reads the file, in a process with limits on time and memory, so that a
  * damaged file ends in a message. It is looked for beside the library, in libexec/clshear, and at
- * the path in the environment variable CLSHEAR_IMPORT. Without it, OBJ, glTF, PLY and STL are read
- * in the calling process, and other formats are refused.
+ * the path in the environment variable CLSHEAR_IMPORT. Without it, OBJ, glTF, PLY, STL and OFF
+ * are read in the calling process, and other formats are refused.
  *
  * A scene that lies far from the origin is moved there, with a warning, since the device computes
  * with floats. Cameras and lights, in settings and added, stay in the coordinates of the file. */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "commands/commands.h"
+#include "commands/outputs.h"
 #include "commands/point_source.h"
 #include "commands/scene_view.h"
 #include "report/failure.h"
@@ -248,6 +249,7 @@ static int check_integrand(converge_job *job)
 
 static int check(converge_job *job)
 {
+    output_files outputs = {0};
     int code = check_integrand(job);
     if (code == EXIT_DONE) code = check_reference(job);
     if (code == EXIT_DONE) code = check_lists(job);
@@ -259,10 +261,13 @@ static int check(converge_job *job)
                         job->pixels.count > 0 ? "pixels" : "integrand");
     if (job->out.count == 0 && job->plot.count == 0 && job->map.count == 0)
         job->out.items[job->out.count++] = "-";
-    if (code == EXIT_DONE) code = check_places("out", job->out.items, job->out.count);
-    if (code == EXIT_DONE) code = check_places("plot", job->plot.items, job->plot.count);
-    if (code == EXIT_DONE) code = check_places("map", job->map.items, job->map.count);
-    return code;
+    outputs_add(&outputs, "out", job->out.items, job->out.count);
+    outputs_add(&outputs, "plot", job->plot.items, job->plot.count);
+    outputs_add(&outputs, "map", job->map.items, job->map.count);
+    if (code == EXIT_DONE) code = check_outputs(&job->options, &outputs);
+    return code == EXIT_DONE
+               ? outputs_spare(&outputs, "--reference", job->reference.items, job->reference.count)
+               : code;
 }
 
 static int write_study(const converge_job *job, const error_study *study)

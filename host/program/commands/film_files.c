@@ -103,12 +103,12 @@ static int is_spared(const film_files *files, const char *path, film_content con
 static void tell(const char *event, const char *path, int spared, film_content content, int quiet)
 {
     if (spared && access(path, F_OK) == 0)
-        fprintf(stderr, "clshear: %s; %s is left as it was\n", event, path);
+        remark("%s; %s is left as it was", event, path);
     else if (spared)
-        fprintf(stderr, "clshear: %s before the first samples; %s is not written\n", event, path);
+        remark("%s before the first samples; %s is not written", event, path);
     else if (!quiet)
-        fprintf(stderr, "clshear: %s; %s holds the samples so far%s\n", event, path,
-                content == SOME_SAMPLES ? "; some pixels have none" : "");
+        remark("%s; %s holds the samples so far%s", event, path,
+               content == SOME_SAMPLES ? "; some pixels have none" : "");
 }
 
 int film_files_write(const film_files *files, const program_options *options, clshear_film *film,

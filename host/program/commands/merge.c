@@ -56,10 +56,12 @@ static int run(void *user)
     const merge_job *job = user;
     const size_t count = job->options.file_count;
     clshear_film *merged = NULL;
+    output_files outputs = {0};
     if (count == 0)
         return complain(EXIT_USAGE, "no files given; try: clshear merge a.exr b.exr --out c.exr");
     if (job->out.count == 0) return complain(EXIT_USAGE, "no --out given");
-    int code = check_places("out", job->out.items, job->out.count);
+    outputs_add(&outputs, "out", job->out.items, job->out.count);
+    int code = outputs_check(&outputs);
     if (code != EXIT_DONE) return code;
     clshear_film **films = calloc(count, sizeof *films);
     if (films == NULL) return complain(EXIT_FAILED, "out of memory");

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "commands/outputs.h"
 #include "report/failure.h"
 
 double number_or(const number_list *list, double fallback)
@@ -70,6 +71,13 @@ static clshear_status shear_points(const point_source *source, clshear_points *p
     }
     return shear_px != 0.0f ? clshear_points_shear(points, (clshear_shear)shear, shear_px)
                             : CLSHEAR_OK;
+}
+
+int point_source_check_outputs(const point_source *source, const output_files *files)
+{
+    const int code = check_outputs(&source->options, files);
+    return code == EXIT_DONE ? outputs_spare(files, "--in", source->in.items, source->in.count)
+                             : code;
 }
 
 clshear_status point_source_make(const point_source *source, size_t sets, uint32_t seed,

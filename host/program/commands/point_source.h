@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "options/options.h"
+#include "report/output.h"
 
 /* The first member of the structs of commands that take points. */
 typedef struct point_source {
@@ -43,6 +44,9 @@ typedef struct point_source {
 /* Whether the flags fit together: EXIT_DONE, or EXIT_USAGE with a line printed. Letters are those
  * of `flag`, and `exact` many unless it is 0. */
 int point_source_check(const point_source *source, const char *flag, size_t exact);
+
+/* As check_outputs; the file of the points is spared, too. */
+int point_source_check_outputs(const point_source *source, const output_files *files);
 
 /* Draws or reads `sets` sets, shears, and keeps the letters, which are `letters` where none are
  * given for drawn points. Those that are drawn have a time if a letter or a velocity needs one. */

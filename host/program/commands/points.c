@@ -40,8 +40,10 @@ static int check(const points_job *job)
     if (has_ending(".png .jpg .jpeg .tif .tiff", out))
         return complain(EXIT_USAGE, "--out %s: must be a text, .csv or .exr file, not a picture",
                         out);
+    output_files outputs = {0};
+    outputs_add(&outputs, "out", job->out.items, 1);
     const int code = point_source_check(&job->source, "dims", 0);
-    return code == EXIT_DONE ? check_places("out", job->out.items, 1) : code;
+    return code == EXIT_DONE ? point_source_check_outputs(&job->source, &outputs) : code;
 }
 
 static int write_points(const points_job *job)

@@ -154,8 +154,10 @@ static int check(const predict_job *job, clshear_integrand *integrand)
     integrand->extent = number_or(&job->size, integrand->extent);
     if (integrand->kind != CLSHEAR_INTEGRAND_STEP && !(integrand->extent > 0.0))
         return complain(EXIT_USAGE, "--size %g: must be above 0", integrand->extent);
+    output_files outputs = {0};
+    outputs_add(&outputs, "out", job->out.items, 1);
     const int code = point_source_check(&job->source, "projection", 2);
-    return code == EXIT_DONE ? check_places("out", job->out.items, 1) : code;
+    return code == EXIT_DONE ? point_source_check_outputs(&job->source, &outputs) : code;
 }
 
 static int run(void *user)

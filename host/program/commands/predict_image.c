@@ -178,8 +178,10 @@ static int check(const predict_job *job)
                         "--out %s: is of a --pixel or an --integrand; --map FILE.csv has "
                         "the table of all pixels",
                         job->out.items[0]);
-    const int code = check_places("map", job->map.items, job->map.count);
-    return code == EXIT_DONE ? check_places("plot", job->plot.items, job->plot.count) : code;
+    output_files outputs = {0};
+    outputs_add(&outputs, "map", job->map.items, job->map.count);
+    outputs_add(&outputs, "plot", job->plot.items, job->plot.count);
+    return point_source_check_outputs(&job->source, &outputs);
 }
 
 int predict_image(predict_job *job)

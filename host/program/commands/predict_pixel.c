@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "commands/outputs.h"
 #include "commands/predict.h"
 #include "report/failure.h"
 #include "report/output.h"
@@ -109,8 +110,10 @@ static int check(const predict_job *job)
         return complain(EXIT_USAGE, "give either an --integrand or a --pixel");
     if (job->source.in.count > 0)
         return complain(EXIT_USAGE, "--in %s: a --pixel needs a sampler", job->source.in.items[0]);
+    output_files outputs = {0};
+    outputs_add(&outputs, "out", job->out.items, 1);
     const int code = check_pixel(options, "pixel", job->pixel.items);
-    return code == EXIT_DONE ? check_places("out", job->out.items, 1) : code;
+    return code == EXIT_DONE ? check_outputs(options, &outputs) : code;
 }
 
 /* The shear that is given, or the oracle's; and the velocity. */

@@ -183,6 +183,7 @@ static int render_frame(const render_job *job, int frame)
     if (code == EXIT_DONE)
         code = exit_status_of(
             clshear_settings_set_integer(one.options.settings, CLSHEAR_FRAME, frame));
+    if (code == EXIT_DONE) code = render_check_files(&one);
     if (code == EXIT_DONE) code = render_scene(&one);
     free_names(&one.files.out);
     free_names(&one.files.gain);

@@ -3,9 +3,9 @@
 #include <string.h>
 #include <strings.h>
 
+#include "commands/outputs.h"
 #include "commands/render_job.h"
 #include "report/failure.h"
-#include "report/output.h"
 
 enum {
     PATH_SIZE = 4096
@@ -40,38 +40,35 @@ static void file_of(const render_job *job, clshear_setting setting, char path[PA
         clshear_settings_get_text(settings, setting, path, PATH_SIZE);
 }
 
-/* Whether the file that a setting names can be written, and is none that something else is in. */
-static int check_setting(const render_job *job, clshear_setting setting, const char *flag)
+/* Adds the file that a setting names, if it is set; `path` has room for it. */
+static void add_setting(const render_job *job, clshear_setting setting, const char *flag,
+                        char path[PATH_SIZE], output_files *outputs)
 {
-    char path[PATH_SIZE], checkpoint[PATH_SIZE] = "";
-    const char *const own[] = {path}, *const other[] = {checkpoint};
+    const char *const paths[] = {path};
     file_of(job, setting, path);
-    if (setting != CLSHEAR_CHECKPOINT) file_of(job, CLSHEAR_CHECKPOINT, checkpoint);
-    if (*path == '\0') return EXIT_DONE;
-    int code = check_places(flag, own, 1);
-    if (code == EXIT_DONE) code = check_apart(flag, path, "the scene", &job->options.scene, 1);
-    if (code == EXIT_DONE)
-        code = check_apart(flag, path, "--gain", job->files.gain.items, job->files.gain.count);
-    if (code == EXIT_DONE)
-        code = check_apart(flag, path, "--checkpoint", other, *checkpoint != '\0');
-    if (code == EXIT_DONE && setting != CLSHEAR_PREVIEW) /* the last preview is the picture */
-        code = check_apart(flag, path, "--out", job->files.out.items, job->files.out.count);
-    return code;
+    if (*path != '\0') outputs_add(outputs, flag, paths, 1);
 }
 
-/* The files that are written. A checkpoint is removed at the end, whatever else has its name. */
-static int check_files(const render_job *job)
+int render_check_files(const render_job *job)
 {
     const film_files *files = &job->files;
-    int code = check_places("out", files->out.items, files->out.count);
+    char checkpoint[PATH_SIZE], record[PATH_SIZE], preview[PATH_SIZE];
+    output_files pictures = {0}, others = {0}, all;
+    outputs_add(&pictures, "out", files->out.items, files->out.count);
+    int code = outputs_check(&pictures);
     if (code == EXIT_DONE) code = check_formats(job);
-    if (code == EXIT_DONE) code = check_places("gain", files->gain.items, files->gain.count);
-    if (code == EXIT_DONE && files->gain.count > 0)
-        code =
-            check_apart("gain", files->gain.items[0], "--out", files->out.items, files->out.count);
-    if (code == EXIT_DONE) code = check_setting(job, CLSHEAR_CHECKPOINT, "checkpoint");
-    if (code == EXIT_DONE) code = check_setting(job, CLSHEAR_RECORD, "record");
-    return code == EXIT_DONE ? check_setting(job, CLSHEAR_PREVIEW, "preview") : code;
+    outputs_add(&others, "gain", files->gain.items, files->gain.count);
+    add_setting(job, CLSHEAR_CHECKPOINT, "checkpoint", checkpoint, &others);
+    add_setting(job, CLSHEAR_RECORD, "record", record, &others);
+    all = pictures;
+    for (size_t i = 0; i < others.count; i++)
+        outputs_add(&all, others.flags[i], &others.paths[i], 1);
+    if (code == EXIT_DONE) code = check_outputs(&job->options, &all);
+    /* A picture may go on with itself, and the last preview is the picture. */
+    if (code == EXIT_DONE)
+        code = outputs_spare(&others, "--extend", files->extend.items, files->extend.count);
+    add_setting(job, CLSHEAR_PREVIEW, "preview", preview, &others);
+    return code == EXIT_DONE ? check_outputs(&job->options, &others) : code;
 }
 
 /* Whether an output is an EXR, or (`is_exr` 0) whether one is not. */
@@ -84,21 +81,7 @@ static int has_output(const render_job *job, int is_exr)
     return 0;
 }
 
-/* Whether the command line gives a flag by this name: a settings file describes its scene for any
- * use, so that its flags may do nothing. */
-static int is_on_line(const program_options *options, const char *name)
-{
-    for (int i = 1; i < options->word_count; i++) {
-        const char *word = options->words[i];
-        if (*word != '-') continue;
-        word += word[1] == '-' ? 2 : 1;
-        const size_t length = strcspn(word, "=");
-        if (length == strlen(name) && strncmp(word, name, length) == 0) return 1;
-    }
-    return 0;
-}
-
-/* A choice's number. */
+/* The number of the choice that a setting has, which is its default where it is not set. */
 static int64_t choice_of(const clshear_settings *settings, clshear_setting setting)
 {
     int64_t number = 0;
@@ -106,7 +89,8 @@ static int64_t choice_of(const clshear_settings *settings, clshear_setting setti
     return number;
 }
 
-/* A flag that may do nothing. */
+/* A flag that may do nothing. Only those of the command line are told: a settings file describes
+ * its scene for any use. */
 typedef struct idle_flag {
     int has_use;
     const char *name;
@@ -116,7 +100,7 @@ typedef struct idle_flag {
 static void tell(const render_job *job, const idle_flag *list, size_t count)
 {
     for (size_t i = 0; i < count && !job->options.quiet; i++)
-        if (!list[i].has_use && is_on_line(&job->options, list[i].name))
+        if (!list[i].has_use && value_on_line(&job->options, list[i].name) != NULL)
             fprintf(stderr, "clshear: --%s is not used: it needs %s\n", list[i].name,
                     list[i].needs);
 }
@@ -174,7 +158,7 @@ static void tell_of_flags(const render_job *job)
 
 int render_check(const render_job *job)
 {
-    const int code = check_files(job);
+    const int code = render_check_files(job);
     if (code != EXIT_DONE) return code;
     tell_of_formats(job);
     tell_of_flags(job);

@@ -20,4 +20,7 @@ typedef struct render_job {
  * flags that do nothing. Returns an exit status, with a line printed if it is not EXIT_DONE. */
 int render_check(const render_job *job);
 
+/* The part of it that is about files. */
+int render_check_files(const render_job *job);
+
 #endif

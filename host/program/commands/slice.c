@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "commands/commands.h"
+#include "commands/outputs.h"
 #include "commands/scene_view.h"
 #include "report/failure.h"
 #include "report/output.h"
@@ -160,11 +161,11 @@ static int check(slice_job *job)
                             "--out: .npy is for --projection 4d, and the only one for it");
     if (job->out.count == 0 && job->spectrum.count == 0)
         job->out.items[job->out.count++] = four ? "slice.npy" : "slice.png";
-    int code = check_pixel(&job->options, "pixel", job->pixel.items);
-    if (code == EXIT_DONE) code = check_places("out", job->out.items, job->out.count);
-    if (code == EXIT_DONE)
-        code = check_places("spectrum", job->spectrum.items, job->spectrum.count);
-    return code;
+    output_files outputs = {0};
+    outputs_add(&outputs, "out", job->out.items, job->out.count);
+    outputs_add(&outputs, "spectrum", job->spectrum.items, job->spectrum.count);
+    const int code = check_pixel(&job->options, "pixel", job->pixel.items);
+    return code == EXIT_DONE ? check_outputs(&job->options, &outputs) : code;
 }
 
 static int write_files(const slice_job *job, const slice_values *slice)

@@ -167,14 +167,15 @@ static int measure(const spectrum_job *job)
 static int check(spectrum_job *job)
 {
     const double *direction = job->directions.items;
+    output_files outputs = {0};
     int code = point_source_check(&job->source, "projection", 2);
     for (size_t i = 0; i < job->directions.count && code == EXIT_DONE; i += 2)
         if (direction[i] == 0.0 && direction[i + 1] == 0.0)
             code = complain(EXIT_USAGE, "--direction 0,0: must be two numbers, not both 0");
     if (job->out.count == 0 && job->plot.count == 0) job->out.items[job->out.count++] = "-";
-    if (code == EXIT_DONE) code = check_places("out", job->out.items, job->out.count);
-    if (code == EXIT_DONE) code = check_places("plot", job->plot.items, job->plot.count);
-    return code;
+    outputs_add(&outputs, "out", job->out.items, job->out.count);
+    outputs_add(&outputs, "plot", job->plot.items, job->plot.count);
+    return code == EXIT_DONE ? point_source_check_outputs(&job->source, &outputs) : code;
 }
 
 static int run(void *job)

@@ -71,6 +71,7 @@ typedef struct program_options {
     const char **files; /* of a command that takes them */
     size_t file_count;
     text_list settings_file;
+    const char *file; /* the settings file that was read; NULL: none */
     int quiet;
     int help;
     int word_count; /* of the line */

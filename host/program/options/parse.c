@@ -133,8 +133,7 @@ static void tell_unused(const parser *p, const char *place, const char *name, co
     clshear_setting_info info = {.struct_size = sizeof info};
     for (size_t i = 0; clshear_setting_describe(i, &info) && i < MOST_SETTINGS; i++)
         if (before[i] && !clshear_settings_is_set(p->settings, info.setting) && !p->options->quiet)
-            fprintf(stderr, "clshear: %s--%s is not used: --%s comes after it\n", place, info.name,
-                    name);
+            remark("%s--%s is not used: --%s comes after it", place, info.name, name);
 }
 
 /* Sets a setting; alternatives that were set before it are told. */
@@ -313,12 +312,12 @@ int options_parse(const program_command *command, const program_command *renders
     if (code != EXIT_DONE || options->help) return code;
     const char *file = find_file(options);
     if (file != NULL) code = read_file(&p, file);
+    options->file = file;
     for (size_t i = 0; i < command->flag_count && code == EXIT_DONE; i++) {
         const program_flag *row = &command->flags[i];
         const size_t *count = (const void *)((const char *)options + row->target);
         if (*row->fallback != '\0' && *count == 0) flag_store(options, row, row->fallback);
     }
-    if (code == EXIT_DONE && file != NULL && !options->quiet)
-        fprintf(stderr, "clshear: settings from %s\n", file);
+    if (code == EXIT_DONE && file != NULL && !options->quiet) remark("settings from %s", file);
     return code;
 }

@@ -3,17 +3,38 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-/* Control characters, which names and settings files may have, do not reach the terminal. */
-int complain(int code, const char *format, ...)
+/* Replaces control characters: those of ASCII, and U+0080 to U+009F, which UTF-8 writes as c2 and
+ * one byte more. */
+static void make_printable(char *line)
+{
+    for (unsigned char *at = (unsigned char *)line; *at != '\0'; at++) {
+        if (*at < ' ' || *at == 0x7f) *at = '?';
+        if (*at == 0xc2 && at[1] >= 0x80 && at[1] < 0xa0) at[0] = at[1] = '?';
+    }
+}
+
+static void print_line(const char *format, va_list arguments)
 {
     char line[8192];
+    vsnprintf(line, sizeof line, format, arguments);
+    make_printable(line);
+    fprintf(stderr, "clshear: %s\n", line);
+}
+
+void remark(const char *format, ...)
+{
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
+    print_line(format, arguments);
     va_end(arguments);
-    for (char *c = line; *c != '\0'; c++)
-        if ((unsigned char)*c < ' ' || *c == '\x7f') *c = '?';
-    fprintf(stderr, "clshear: %s\n", line);
+}
+
+int complain(int code, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    print_line(format, arguments);
+    va_end(arguments);
     return code;
 }
 

@@ -28,22 +28,34 @@ static int check_place(const char *flag, const char *path)
                     special ? "" : "folder ", special ? path : folder, strerror(errno));
 }
 
-int check_places(const char *flag, const char *const *paths, size_t count)
+/* Where a link leads, though nothing may be there; else the path itself. */
+static void follow(const char *path, char target[PATH_MAX])
 {
-    int code = EXIT_DONE;
-    for (size_t i = 0; i < count && code == EXIT_DONE; i++)
-        code = check_place(flag, paths[i]);
-    return code;
+    char name[PATH_MAX];
+    const char *slash = strrchr(path, '/');
+    const ssize_t length = readlink(path, name, sizeof name - 1);
+    const size_t folder =
+        slash != NULL && length > 0 && *name != '/' ? (size_t)(slash - path) + 1 : 0;
+    name[length > 0 ? length : 0] = '\0';
+    if (length <= 0 || folder + (size_t)length >= PATH_MAX) {
+        snprintf(target, PATH_MAX, "%s", path);
+        return;
+    }
+    memcpy(target, path, folder);
+    memcpy(target + folder, name, (size_t)length + 1);
 }
 
-/* Whether two paths are of one file, though it may not be there yet. */
+/* Whether two paths are of one file that a rename replaces, though it may not be there yet. */
 static int is_same(const char *a, const char *b)
 {
     struct stat of_a, of_b;
-    char folder[2][PATH_MAX] = {".", "."};
-    const char *paths[2] = {a, b}, *names[2] = {a, b};
+    char folder[2][PATH_MAX] = {".", "."}, paths[2][PATH_MAX];
+    const char *names[2] = {paths[0], paths[1]};
+    if (strcmp(a, "-") == 0 || strcmp(b, "-") == 0) return 0;
     const int has_a = stat(a, &of_a) == 0, has_b = stat(b, &of_b) == 0;
     if (has_a != has_b || (has_a && !S_ISREG(of_a.st_mode))) return 0;
+    follow(a, paths[0]);
+    follow(b, paths[1]);
     for (int i = 0; i < 2 && !has_a; i++) {
         const char *slash = strrchr(paths[i], '/');
         if (slash == NULL) continue;
@@ -56,13 +68,40 @@ static int is_same(const char *a, const char *b)
     return of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
 }
 
-int check_apart(const char *flag, const char *path, const char *owner, const char *const *others,
-                size_t count)
+void outputs_add(output_files *files, const char *flag, const char *const *paths, size_t count)
 {
-    for (size_t i = 0; i < count; i++)
-        if (is_same(path, others[i]))
-            return complain(EXIT_USAGE, "--%s %s: is the file of %s, too; give it another", flag,
-                            path, owner);
+    for (size_t i = 0; i < count && files->count < MOST_OUTPUTS; i++) {
+        files->flags[files->count] = flag;
+        files->paths[files->count++] = paths[i];
+    }
+}
+
+static int refuse_to_share(const output_files *files, size_t i, const char *dashes,
+                           const char *owner)
+{
+    return complain(EXIT_USAGE, "--%s %s: is the file of %s%s, too; give it another",
+                    files->flags[i], files->paths[i], dashes, owner);
+}
+
+int outputs_check(const output_files *files)
+{
+    for (size_t i = 0; i < files->count; i++) {
+        const int code = check_place(files->flags[i], files->paths[i]);
+        if (code != EXIT_DONE) return code;
+    }
+    for (size_t i = 0; i < files->count; i++)
+        for (size_t k = 0; k < i; k++)
+            if (is_same(files->paths[i], files->paths[k]))
+                return refuse_to_share(files, i, "--", files->flags[k]);
+    return EXIT_DONE;
+}
+
+int outputs_spare(const output_files *files, const char *owner, const char *const *paths,
+                  size_t count)
+{
+    for (size_t i = 0; i < files->count; i++)
+        for (size_t k = 0; k < count; k++)
+            if (is_same(files->paths[i], paths[k])) return refuse_to_share(files, i, "", owner);
     return EXIT_DONE;
 }
 

@@ -5,15 +5,29 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* Finds out before long work whether results can be kept. "-", standard output, can. `flag` is
- * named in the message. Returns EXIT_DONE or EXIT_FAILED. */
-int check_places(const char *flag, const char *const *paths, size_t count);
+enum {
+    MOST_OUTPUTS = 40
+};
 
-/* Whether the file `path` of --`flag` is none of some others, which `owner` names in the message:
- * each would be written over the other. Devices and pipes may be shared. Returns EXIT_DONE or
- * EXIT_USAGE. */
-int check_apart(const char *flag, const char *path, const char *owner, const char *const *others,
-                size_t count);
+/* The files that a command will write, each with the flag that names it. Start from zeros. */
+typedef struct output_files {
+    size_t count;
+    const char *flags[MOST_OUTPUTS]; /* without dashes */
+    const char *paths[MOST_OUTPUTS]; /* "-" is standard output */
+} output_files;
+
+/* Adds files, as far as there is room. */
+void outputs_add(output_files *files, const char *flag, const char *const *paths, size_t count);
+
+/* Finds out before long work whether the files can be written, and are different ones: each would
+ * be written over the other. Standard output, devices and pipes may be shared. Returns an exit
+ * status, with a line printed if it is not EXIT_DONE. */
+int outputs_check(const output_files *files);
+
+/* The same for files that are read, which none of the outputs may replace. `owner` names them in
+ * the message: a flag with its dashes, or "the scene". */
+int outputs_spare(const output_files *files, const char *owner, const char *const *paths,
+                  size_t count);
 
 /* Writes a file with what `write` puts out; "-" is standard output. Returns EXIT_DONE, or
  * EXIT_FAILED with a line printed. */

@@ -1,0 +1,40 @@
+#include "commands/outputs.h"
+
+#include <string.h>
+
+#include "report/failure.h"
+
+const char *value_on_line(const program_options *options, const char *name)
+{
+    const size_t length = strlen(name);
+    const char *value = NULL;
+    for (int i = 1; i < options->word_count && strcmp(options->words[i], "--") != 0; i++) {
+        const char *word = options->words[i];
+        if (*word != '-') continue;
+        word += word[1] == '-' ? 2 : 1;
+        if (strncmp(word, name, length) != 0) continue;
+        if (word[length] == '=') value = word + length + 1;
+        if (word[length] == '\0') value = i + 1 < options->word_count ? options->words[i + 1] : "";
+    }
+    return value;
+}
+
+int check_outputs(const program_options *options, const output_files *files)
+{
+    char sky[4096] = "";
+    const clshear_settings *settings = options->settings;
+    if (clshear_settings_is_set(settings, CLSHEAR_ENVIRONMENT))
+        clshear_settings_get_text(settings, CLSHEAR_ENVIRONMENT, sky, sizeof sky);
+    const struct {
+        const char *owner;
+        const char *path;
+    } inputs[] = {{"the scene", options->scene},
+                  {"the settings", options->file},
+                  {"--environment", *sky != '\0' ? sky : NULL},
+                  {"--aperture", value_on_line(options, "aperture")}};
+    int code = outputs_check(files);
+    for (size_t i = 0; i < sizeof inputs / sizeof *inputs && code == EXIT_DONE; i++)
+        if (inputs[i].path != NULL)
+            code = outputs_spare(files, inputs[i].owner, &inputs[i].path, 1);
+    return code;
+}
