@@ -286,6 +286,28 @@ static void heights_become_normals(void **state)
     assert_near(middle[2], 0.5 + scale, 1e-6);
 }
 
+/* An image within a file, a grey texel, of which materials share one or two textures, is read
+ * once. */
+static void shared_images(void **state)
+{
+    static const char *const materials =
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}},"
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}},"
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":1}}}";
+    (void)state;
+    cs_scene scene = import_load(import_gltf_square(
+        ",\"TEXCOORD_0\":1", materials, "{\"mesh\":0}",
+        ",\"textures\":[{\"source\":0},{\"source\":0}],\"images\":[{\"uri\":\"data:image/"
+        "png;base64,"
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR42mNoAAAAggCB2kUIOwAAAABJRU5ErkJggg"
+        "==\"}]"));
+    assert_string_equal(import_warnings, "");
+    assert_int_equal(scene.materials.count, 3);
+    assert_int_equal(scene.textures.count, 1);
+    expect_texel(&scene, base_of(&scene), 0.2158, 0.2158, 0.2158, 1);
+    cs_scene_free(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -293,7 +315,7 @@ int main(void)
         cmocka_unit_test(gamma_of_png),           cmocka_unit_test(texels_beyond_halves),
         cmocka_unit_test(heights_become_normals), cmocka_unit_test(windows_of_exr),
         cmocka_unit_test(layers_of_exr),          cmocka_unit_test(parts_of_exr),
-        cmocka_unit_test(order_of_radiance),
+        cmocka_unit_test(order_of_radiance),      cmocka_unit_test(shared_images),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

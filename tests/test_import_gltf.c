@@ -3,6 +3,7 @@
 
 #include <locale.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "scene/camera.h"
 
@@ -161,7 +162,7 @@ static void several_cameras_and_lights(void **state)
  * file: keys that come again replace the first. */
 static const char *triangle(const char *accessor, const char *primitive, const char *more)
 {
-    static char text[2048];
+    static char text[1 << 19];
     snprintf(text, sizeof text,
              "{\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
              "{\"POSITION\":0}%s}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,"
@@ -280,6 +281,41 @@ static void colours_and_skins_of_exporters(void **state)
     cs_scene_free(&scene);
 }
 
+/* A chain of joints, whose places are found once each: they move on and back, the last one by 3. */
+static void long_skeleton(void **state)
+{
+    enum {
+        JOINTS = 4000,
+        ROOM = JOINTS * 80
+    };
+    static const char *const data =
+        ",{\"bufferView\":0,\"componentType\":5121,\"count\":3,\"type\":\"VEC4\"}"
+        ",{\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"}";
+    char *more = malloc(ROOM);
+    size_t used = (size_t)snprintf(more, ROOM, ",\"nodes\":[{\"mesh\":0,\"skin\":0}");
+    (void)state;
+    for (int i = 1; i <= JOINTS; i++)
+        used += (size_t)snprintf(more + used, ROOM - used,
+                                 i == JOINTS ? ",{\"translation\":[0,0,%d]}"
+                                             : ",{\"translation\":[0,0,%d],\"children\":[%d]}",
+                                 i == JOINTS ? 3
+                                 : i % 2     ? 1
+                                             : -1,
+                                 i + 1);
+    used += (size_t)snprintf(more + used, ROOM - used, "],\"skins\":[{\"joints\":[%d", JOINTS);
+    for (int i = 1; i < JOINTS; i++)
+        used += (size_t)snprintf(more + used, ROOM - used, ",%d", i);
+    snprintf(more + used, ROOM - used, "]}]");
+    cs_scene scene =
+        import_text("chain.gltf", triangle(data,
+                                           ",\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,"
+                                           "\"WEIGHTS_0\":2}",
+                                           more));
+    expect_close(import_position(&scene, 0, 0), 1, 0, 4);
+    cs_scene_free(&scene);
+    free(more);
+}
+
 /* Names of images with a scheme or a question, and images that are nowhere. */
 static void names_of_images(void **state)
 {
@@ -300,6 +336,29 @@ static void names_of_images(void **state)
                                                     ",\"images\":[{\"uri\":\"\"}]"));
     import_warned("texture image 0 is not there; it is mid-grey");
     cs_scene_free(&scene);
+}
+
+/* Names in Latin-1, names that were cut within a character, and line breaks in them. */
+static void names_in_other_codings(void **state)
+{
+    static const char *const names[] = {"Stra\xdf"
+                                        "e",
+                                        "half \\ud83d of a pair", "\xf0\x9f\x98", "two\nlines"};
+    char node[128];
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        snprintf(node, sizeof node, "{\"mesh\":0,\"name\":\"%s\"}", names[i]);
+        cs_scene scene = import_load(import_gltf_square("", "{}", node, ""));
+        assert_int_equal(scene.indices.count, 2);
+        import_warned("no UTF-8; they are read as \"?\"");
+        cs_scene_free(&scene);
+    }
+    cs_scene scene = import_load(import_gltf_square(
+        "", "{}", "{\"mesh\":0,\"name\":\"\xc3\xa9\xe2\x82\xac\\ud83d\\ude00\\\"\"}",
+        ",\"extensionsRequired\":[\"CESIUM_RTC\",\"KHR_xmp_json_ld\"]"));
+    assert_string_equal(import_warnings, "");
+    cs_scene_free(&scene);
+    import_refused(import_gltf_square("", "{}", "{\"mesh\":0,\"name\":\"\xdf\",}", ""), "expected");
 }
 
 /* A GLB whose JSON begins with a byte order mark, and whose data come behind a chunk that nobody
@@ -368,6 +427,8 @@ int main(void)
         cmocka_unit_test(chunks_of_glb),
         cmocka_unit_test(colours_and_skins_of_exporters),
         cmocka_unit_test(names_of_images),
+        cmocka_unit_test(names_in_other_codings),
+        cmocka_unit_test(long_skeleton),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

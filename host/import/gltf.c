@@ -11,6 +11,10 @@
 static const char *const supported[] = {"KHR_lights_punctual", "KHR_texture_transform",
                                         "KHR_mesh_quantization", "EXT_texture_webp",
                                         "KHR_node_visibility",
+                                        /* a centre that all is relative to; shown without */
+                                        "CESIUM_RTC",
+                                        /* tells who made what */
+                                        "KHR_xmp_json_ld",
                                         /* chooses among materials; the primitive's own stands */
                                         "KHR_materials_variants"};
 
@@ -157,7 +161,7 @@ static clshear_status find_chunk(gltf_reader *reader, const char *at, const char
 }
 
 /* Finds the JSON in a GLB, and its binary chunk. */
-static clshear_status open_binary(gltf_reader *reader, const cs_bytes *bytes, const char **text,
+static clshear_status open_binary(gltf_reader *reader, const cs_bytes *bytes, char **text,
                                   size_t *size)
 {
     const char *path = reader->model->path;
@@ -200,7 +204,22 @@ static void find_version(const json_t *root, char *version, size_t size)
                                        : "1.0");
 }
 
-static clshear_status parse(gltf_reader *reader, const char *text, size_t size)
+/* Reads the JSON; if that fails, once more with its strings mended, since names in another coding
+ * than UTF-8 are no harm. */
+static json_t *load_json(const gltf_reader *reader, char *text, size_t size, json_error_t *wrong)
+{
+    json_t *root = json_loadb(text, size, json_flags, wrong);
+    const size_t mended = root == NULL ? gltf_mend_strings(text, size) : 0;
+    if (mended == 0) return root;
+    root = json_loadb(text, size, json_flags, wrong);
+    if (root != NULL)
+        cs_warn(reader->model->log,
+                "%s: %zu characters in its names are no UTF-8; they are read as \"?\"",
+                reader->model->path, mended);
+    return root;
+}
+
+static clshear_status parse(gltf_reader *reader, char *text, size_t size)
 {
     const char *path = reader->model->path;
     char version[32];
@@ -209,7 +228,7 @@ static clshear_status parse(gltf_reader *reader, const char *text, size_t size)
         text += 3;
         size -= 3;
     }
-    reader->root = json_loadb(text, size, json_flags, &wrong);
+    reader->root = load_json(reader, text, size, &wrong);
     if (reader->root == NULL)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s:%d:%d: %s", path, wrong.line,
                        wrong.column, wrong.text);
@@ -265,7 +284,7 @@ static clshear_status read_all(gltf_reader *reader, cs_bytes *bytes)
 {
     clshear_status status = CLSHEAR_OK;
     cs_error *error = reader->error;
-    const char *text = bytes->data;
+    char *text = bytes->data;
     size_t size = bytes->size;
     const int is_binary = size >= 4 && memcmp(text, "glTF", 4) == 0;
     if (is_binary) {
@@ -300,6 +319,7 @@ clshear_status cs_read_gltf(cs_bytes *bytes, cs_model *model, cs_error *error)
     for (size_t i = 0; i < reader->buffer_count && reader->buffers != NULL; i++)
         free(reader->buffers[i].owned);
     free(reader->buffers);
+    free(reader->nodes);
     json_decref(reader->root);
     free(reader);
     return status;

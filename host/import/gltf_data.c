@@ -205,7 +205,10 @@ static clshear_status open_accessor(gltf_reader *reader, long long index, const 
     span->type = (int)type;
     const int is_there = gltf_index(*json, "bufferView") != -1;
     /* What has no bytes in the file must not fill the memory. */
-    if (count < 0 || count > (is_there ? 3LL * CS_MODEL_MOST : 1LL << 24))
+    if (count < 0)
+        return gltf_complain(reader, "accessors", index,
+                             "its count is no whole number of 0 or more");
+    if (count > (is_there ? 3LL * CS_MODEL_MOST : 1LL << 24))
         return gltf_complain(reader, "accessors", index, "a count of %lld cannot be", count);
     span->count = (size_t)count;
     return is_there ? point_into(reader, *json, index, span) : CLSHEAR_OK;

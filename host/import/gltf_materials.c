@@ -26,7 +26,16 @@ static clshear_status add_nothing(gltf_reader *reader, long long index, int *ima
     return cs_model_add_image(reader->model, "", label, NULL, 0, image, reader->error);
 }
 
-/* An image of the file as one of the model. */
+/* The embedded image of this label in the model, or CS_NO_IMAGE. */
+static int known_image(const cs_model *model, const char *label)
+{
+    const cs_image_source *images = model->images.items;
+    for (size_t i = 0; i < model->images.count; i++)
+        if (images[i].bytes != NULL && strcmp(images[i].label, label) == 0) return (int)i;
+    return CS_NO_IMAGE;
+}
+
+/* An image of the file as one of the model: the same one for all textures that ask for it. */
 static clshear_status add_image(gltf_reader *reader, long long index, int *image)
 {
     const json_t *json = gltf_at(reader, "images", index);
@@ -41,6 +50,8 @@ static clshear_status add_image(gltf_reader *reader, long long index, int *image
     if (uri != NULL && *uri == '\0') uri = NULL;
     if (uri != NULL && !gltf_is_data(uri)) return add_file(reader, uri, image);
     snprintf(label, sizeof label, "embedded image %lld", index);
+    *image = known_image(reader->model, label);
+    if (*image != CS_NO_IMAGE) return CLSHEAR_OK;
     if (uri != NULL) {
         status = gltf_uri(reader, "images", index, uri, &owned, &size);
         data = (const unsigned char *)owned;

@@ -56,34 +56,72 @@ static void local_matrix(const json_t *node, double *m)
     memcpy(m + 12, t, sizeof t);
 }
 
-/* The node that has `child` among its children, or -1. */
-static long long parent_of(const gltf_reader *reader, long long child)
+/* The node that an element of a list names, -1 if it is no index. */
+static long long node_in(const json_t *list, size_t place)
 {
-    const json_t *nodes = json_object_get(reader->root, "nodes");
-    for (size_t i = 0; i < json_array_size(nodes); i++) {
-        const json_t *children = json_object_get(json_array_get(nodes, i), "children");
-        for (size_t k = 0; k < json_array_size(children); k++)
-            if (json_number_value(json_array_get(children, k)) == (double)child)
-                return (long long)i;
-    }
-    return -1;
+    const json_t *value = json_array_get(list, place);
+    const double number = json_is_number(value) ? json_number_value(value) : -1.0;
+    return number >= 0.0 && number < 9e15 ? (long long)number : -1;
 }
 
-clshear_status gltf_global_matrix(gltf_reader *reader, long long node, double *matrix)
+/* Notes of each node which one has it among its children: the first, if there are more. */
+static clshear_status find_parents(gltf_reader *reader)
 {
-    const size_t count = gltf_count(reader, "nodes");
-    identity(matrix);
-    for (size_t depth = 0; node >= 0; depth++) {
-        const json_t *json = gltf_at(reader, "nodes", node);
-        double local[16], product[16];
-        if (json == NULL) return CLSHEAR_BAD_FILE;
-        if (depth > count) return gltf_complain(reader, "nodes", node, "is its own parent");
-        local_matrix(json, local);
-        gltf_multiply(local, matrix, product);
-        memcpy(matrix, product, sizeof product);
-        node = parent_of(reader, node);
+    const json_t *nodes = json_object_get(reader->root, "nodes");
+    const size_t count = json_array_size(nodes);
+    reader->nodes = calloc(count + 1, sizeof *reader->nodes);
+    if (reader->nodes == NULL) return cs_model_full(reader->model, reader->error);
+    for (size_t i = 0; i < count; i++)
+        reader->nodes[i].parent = -1;
+    for (size_t i = 0; i < count; i++) {
+        const json_t *children = json_object_get(json_array_get(nodes, i), "children");
+        for (size_t k = 0; k < json_array_size(children); k++) {
+            const long long child = node_in(children, k);
+            if (child < 0 || (size_t)child >= count) continue;
+            if (reader->nodes[child].parent < 0) reader->nodes[child].parent = (long long)i;
+        }
     }
     return CLSHEAR_OK;
+}
+
+/* Lists a node and those above it whose places are not known yet, upwards. */
+static clshear_status list_unknown(gltf_reader *reader, long long node, cs_array *path)
+{
+    while (node >= 0 && !reader->nodes[node].is_known) {
+        long long *added = cs_array_extend(path, 1);
+        if (added == NULL) return cs_model_full(reader->model, reader->error);
+        *added = node;
+        if (path->count > gltf_count(reader, "nodes"))
+            return gltf_complain(reader, "nodes", node, "is its own parent");
+        node = reader->nodes[node].parent;
+    }
+    return CLSHEAR_OK;
+}
+
+/* Skins ask for the places of all their joints, which share most of what is above them: each is
+ * found once. */
+clshear_status gltf_global_matrix(gltf_reader *reader, long long node, double *matrix)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_array path = {.item_size = sizeof(long long)};
+    if (gltf_at(reader, "nodes", node) == NULL) return CLSHEAR_BAD_FILE;
+    if (reader->nodes == NULL) status = find_parents(reader);
+    if (status == CLSHEAR_OK) status = list_unknown(reader, node, &path);
+    for (size_t i = path.count; i > 0 && status == CLSHEAR_OK; i--) {
+        const long long number = ((const long long *)path.items)[i - 1];
+        const json_t *json = gltf_at(reader, "nodes", number);
+        gltf_node_place *place = &reader->nodes[number];
+        double local[16];
+        local_matrix(json, local);
+        if (place->parent >= 0)
+            gltf_multiply(reader->nodes[place->parent].matrix, local, place->matrix);
+        else
+            memcpy(place->matrix, local, sizeof local);
+        place->is_known = 1;
+    }
+    if (status == CLSHEAR_OK) memcpy(matrix, reader->nodes[node].matrix, 16 * sizeof *matrix);
+    cs_array_free(&path);
+    return status;
 }
 
 /* ----- Cameras ----- */
@@ -172,14 +210,6 @@ static clshear_status push(gltf_reader *reader, cs_array *waiting, const gltf_vi
     if (added == NULL) return cs_model_full(reader->model, reader->error);
     *added = *visit;
     return CLSHEAR_OK;
-}
-
-/* The node that an element of a list names, -1 if it is no index. */
-static long long node_in(const json_t *list, size_t place)
-{
-    const json_t *value = json_array_get(list, place);
-    const double number = json_is_number(value) ? json_number_value(value) : -1.0;
-    return number >= 0.0 && number < 9e15 ? (long long)number : -1;
 }
 
 /* Lets the children of a node wait. */

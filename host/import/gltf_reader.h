@@ -28,6 +28,13 @@ typedef struct gltf_places {
     char first[64];
 } gltf_places;
 
+/* Where a node is in the scene. */
+typedef struct gltf_node_place {
+    long long parent; /* the node that has it among its children; -1: none */
+    int is_known;     /* whether the matrix was found already */
+    double matrix[16];
+} gltf_node_place;
+
 typedef struct gltf_reader {
     cs_model *model;
     cs_error *error;
@@ -36,6 +43,7 @@ typedef struct gltf_reader {
     size_t chunk_size;
     gltf_buffer *buffers;
     size_t buffer_count;
+    gltf_node_place *nodes; /* of all nodes; NULL until a skin asks for one */
     char folder[4096];
     int default_material;             /* number of the one for primitives without; -1: none yet */
     gltf_places places[GLTF_REMARKS]; /* of what is said once for all of them */
@@ -69,6 +77,10 @@ void gltf_multiply(const double *a, const double *b, double *product);
 
 /* Member `name` of an object's extensions, or NULL. */
 json_t *gltf_extension(const json_t *object, const char *name);
+
+/* Makes the strings of a JSON text, in place, what JSON allows: bytes that are no UTF-8, control
+ * characters and halves of surrogate pairs become question marks. Returns how many there were. */
+size_t gltf_mend_strings(char *text, size_t size);
 
 /* ----- Data ----- */
 

@@ -71,8 +71,8 @@ clshear_status cs_model_add_image(cs_model *model, const char *path, const char 
                                   const void *bytes, size_t size, int *image, cs_error *error)
 {
     const cs_image_source *images = model->images.items;
-    for (size_t i = 0; i < model->images.count && bytes == NULL; i++)
-        if (images[i].bytes == NULL && strcmp(images[i].path, path) == 0 &&
+    for (size_t i = 0; i < model->images.count; i++)
+        if ((images[i].bytes == NULL) == (bytes == NULL) && strcmp(images[i].path, path) == 0 &&
             strcmp(images[i].label, label) == 0) {
             *image = (int)i;
             return CLSHEAR_OK;

@@ -105,7 +105,8 @@ clshear_status cs_model_set_colour(cs_model *model, size_t index, const float *c
  * so that they show those and not half of them. */
 void cs_model_plain(const cs_model *model, const char *name, cs_material_description *material);
 
-/* Adds an image, or finds it: a file (`path`), or a copy of `size` bytes. */
+/* Adds an image, or finds it: a file (`path`), or a copy of `size` bytes. Those with the same path
+ * and label are one; labels of images that are bytes tell them apart. */
 clshear_status cs_model_add_image(cs_model *model, const char *path, const char *label,
                                   const void *bytes, size_t size, int *image, cs_error *error);
 
