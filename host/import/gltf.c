@@ -141,12 +141,17 @@ static uint32_t word_at(const char *at)
            (uint32_t)byte[3] << 24;
 }
 
+static int is_binary_chunk(const char *at, const char *end)
+{
+    return end - at >= 8 && memcmp(at + 4, "BIN", 4) == 0;
+}
+
 /* Finds the binary chunk behind the JSON; others are passed over. */
 static clshear_status find_chunk(gltf_reader *reader, const char *at, const char *end)
 {
     while (end - at >= 8) {
         const size_t size = word_at(at), left = (size_t)(end - at) - 8;
-        if (memcmp(at + 4, "BIN", 4) == 0) {
+        if (is_binary_chunk(at, end)) {
             if (size > left)
                 return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: its binary chunk was cut",
                                reader->model->path);
@@ -158,6 +163,16 @@ static clshear_status find_chunk(gltf_reader *reader, const char *at, const char
         at += 8 + size;
     }
     return CLSHEAR_OK;
+}
+
+/* Where chunks go on behind the JSON: some leave the blanks that fill it up to a multiple of four
+ * bytes out of its size. */
+static const char *chunks_behind(const cs_bytes *bytes, size_t json_end)
+{
+    const char *at = bytes->data + json_end, *end = bytes->data + bytes->size;
+    const size_t filled = (json_end + 3) / 4 * 4;
+    if (is_binary_chunk(at, end) || filled > bytes->size) return at;
+    return is_binary_chunk(bytes->data + filled, end) ? bytes->data + filled : at;
 }
 
 /* Finds the JSON in a GLB, and its binary chunk. */
@@ -181,7 +196,7 @@ static clshear_status open_binary(gltf_reader *reader, const cs_bytes *bytes, ch
         return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: its first chunk is no whole JSON",
                        path);
     *text = bytes->data + 20;
-    return find_chunk(reader, *text + *size, bytes->data + bytes->size);
+    return find_chunk(reader, chunks_behind(bytes, 20 + *size), bytes->data + bytes->size);
 }
 
 /* Trailing bytes, whole numbers beyond 64 bits and \u0000 in names are no harm: exporters leave
