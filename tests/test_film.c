@@ -312,6 +312,17 @@ static void films_recall_their_render(void **state)
 }
 
 /* Every line of text that is taken comes back from the file; the others are refused. */
+/* Other formats are no films, even where their name says EXR. */
+static void films_are_exr(void **state)
+{
+    clshear_film *film = NULL;
+    (void)state;
+    assert_int_equal(clshear_film_read(test_file("picture.exr", "P3\n1 1\n255\n1 2 3\n"), &film),
+                     CLSHEAR_BAD_FILE);
+    assert_non_null(strstr(clshear_message(), "picture.exr: is no EXR file"));
+    assert_null(film);
+}
+
 static void texts_come_back_or_are_refused(void **state)
 {
     static const char *const good[] = {"Software", "DateTime", "Copyright",    "name",
@@ -372,6 +383,7 @@ int main(void)
         cmocka_unit_test(pipes_and_links_stay),
         cmocka_unit_test(no_channel_is_lost),
         cmocka_unit_test(films_recall_their_render),
+        cmocka_unit_test(films_are_exr),
         cmocka_unit_test(texts_come_back_or_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

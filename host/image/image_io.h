@@ -80,7 +80,7 @@ typedef struct cs_loaded_picture {
     cs_attribute *attributes; /* text, integer and float metadata of the file */
 } cs_loaded_picture;
 
-/* Reads all channels as floats. */
+/* Reads all channels of an EXR file as floats; no other format. */
 clshear_status cs_image_read(const char *path, cs_loaded_picture *loaded, cs_error *error);
 void cs_image_free(cs_loaded_picture *loaded);
 

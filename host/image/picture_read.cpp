@@ -1,4 +1,4 @@
-/* Reads pictures with all their channels and metadata. */
+/* Reads EXR pictures with all their channels and metadata. */
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -63,6 +63,19 @@ void describe(const ImageSpec &spec, cs_loaded_picture *loaded)
     picture.attributes = loaded->attributes;
 }
 
+/* Whether a file begins as EXR files do. OpenImageIO would read any format, whatever the name: a
+ * few bytes of WebP become gigabytes of pixels. */
+bool is_exr(const char *path)
+{
+    static const unsigned char mark[4] = {0x76, 0x2f, 0x31, 0x01};
+    unsigned char first[sizeof mark] = {0};
+    std::FILE *stream = std::fopen(path, "rb");
+    if (stream == nullptr) return false;
+    const size_t count = std::fread(first, 1, sizeof first, stream);
+    std::fclose(stream);
+    return count == sizeof first && std::memcmp(first, mark, sizeof mark) == 0;
+}
+
 clshear_status read_picture(const char *path, cs_loaded_picture *loaded, cs_error *error)
 {
     if (access(path, R_OK) != 0)
@@ -70,6 +83,8 @@ clshear_status read_picture(const char *path, cs_loaded_picture *loaded, cs_erro
                        std::strerror(errno));
     const char *flaw = cs_not_a_file(path);
     if (flaw != nullptr) return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", path, flaw);
+    if (!is_exr(path))
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: is no EXR file, as clshear writes them", path);
     forget(path);
     ImageBuf source(path);
     if (!source.read(0, 0, true, TypeDesc::FLOAT))
