@@ -204,6 +204,65 @@ static void flags_of_materials(void **state)
 }
 
 /* What a helper may send only by mistake. Each case changes one word of a sound scene. */
+/* Whatever number a file has, the material is one that the device can take. */
+static void numbers_out_of_range_are_sound(void **state)
+{
+    static const char *const numbers[] = {"-1",    "0",     "0.5",  "1.5",
+                                          "1e-30", "-1e30", "1e30", "1e39"};
+    static const char *const gltf[] = {
+        "{'pbrMetallicRoughness':{'baseColorFactor':[%s,1,1,1],'roughnessFactor':0.5}}",
+        "{'alphaMode':'BLEND','pbrMetallicRoughness':{'baseColorFactor':[1,1,1,%s]}}",
+        "{'pbrMetallicRoughness':{'metallicFactor':%s,'roughnessFactor':0.5}}",
+        "{'pbrMetallicRoughness':{'metallicFactor':0.5,'roughnessFactor':%s}}",
+        "{'emissiveFactor':[1,%s,0]}",
+        "{'emissiveFactor':[1,1,1],'extensions':{'KHR_materials_emissive_strength':"
+        "{'emissiveStrength':%s}}}",
+        "{'alphaMode':'MASK','alphaCutoff':%s}",
+        EXTENSION("ior", "'ior':%s"),
+        EXTENSION("specular", "'specularFactor':%s"),
+        EXTENSION("specular", "'specularColorFactor':[1,%s,1]"),
+        EXTENSION("clearcoat", "'clearcoatFactor':%s,'clearcoatRoughnessFactor':0.5"),
+        EXTENSION("clearcoat", "'clearcoatFactor':1,'clearcoatRoughnessFactor':%s"),
+        EXTENSION("sheen", "'sheenColorFactor':[1,%s,1]"),
+        EXTENSION("sheen", "'sheenColorFactor':[1,1,1],'sheenRoughnessFactor':%s"),
+        EXTENSION("transmission", "'transmissionFactor':%s"),
+        EXTENSION("pbrSpecularGlossiness", "'specularFactor':[%s,1,1],'glossinessFactor':0.5"),
+        EXTENSION("pbrSpecularGlossiness", "'diffuseFactor':[0,0,0,1],'specularFactor':[%s,1,1]"),
+        EXTENSION("pbrSpecularGlossiness", "'glossinessFactor':%s"),
+        VOLUME("'thicknessFactor':%s,'attenuationDistance':2,'attenuationColor':[0.5,1,0.25]"),
+        VOLUME("'thicknessFactor':1,'attenuationDistance':%s,'attenuationColor':[0.5,1,0.25]"),
+        VOLUME("'thicknessFactor':1,'attenuationDistance':2,'attenuationColor':[0.5,%s,0.25]"),
+        "{'pbrMetallicRoughness':{'metallicFactor':0},'extensions':{'KHR_materials_ior':{'ior':%s},"
+        "'KHR_materials_transmission':{'transmissionFactor':1},'KHR_materials_volume':{"
+        "'thicknessFactor':1}}}"};
+    static const char *const mtl[] = {"Kd %s 1 1",
+                                      "Ke %s 1 1",
+                                      "Ks %s 1 1\nNs 10",
+                                      "Ks 1 1 1\nNs %s",
+                                      "Ni %s\nillum 7\nd 0.5",
+                                      "Ni %s\nillum 5\nKs 1 1 1",
+                                      "d %s",
+                                      "Tr %s",
+                                      "illum 7\nd 0.5\nTf 1 %s 1",
+                                      "Pr %s",
+                                      "Pm %s",
+                                      "Pc %s\nPcr 0.5",
+                                      "Pc 1\nPcr %s",
+                                      "Ps %s"};
+    char text[1024];
+    (void)state;
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
+        for (size_t i = 0; i < sizeof gltf / sizeof *gltf + sizeof mtl / sizeof *mtl; i++) {
+            const size_t first = sizeof gltf / sizeof *gltf;
+            const char *const form = i < first ? gltf[i] : mtl[i - first], *at = strstr(form, "%s");
+            snprintf(text, sizeof text, "%.*s%s%s", (int)(at - form), form, numbers[k], at + 2);
+            cs_scene scene = i < first ? material_scene_gltf(text) : material_scene_mtl(text);
+            if (!cs_scene_is_sound(&scene)) fail_msg("%s", text);
+            cs_scene_free(&scene);
+        }
+    }
+}
+
 static void unsound_materials_are_found(void **state)
 {
     static const struct {
@@ -250,9 +309,13 @@ static void unsound_materials_are_found(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_of_gltf),    cmocka_unit_test(numbers_of_mtl),
-        cmocka_unit_test(volumes_are_solids), cmocka_unit_test(lambert_stays_lambert),
-        cmocka_unit_test(flags_of_materials), cmocka_unit_test(unsound_materials_are_found),
+        cmocka_unit_test(numbers_of_gltf),
+        cmocka_unit_test(numbers_of_mtl),
+        cmocka_unit_test(volumes_are_solids),
+        cmocka_unit_test(lambert_stays_lambert),
+        cmocka_unit_test(flags_of_materials),
+        cmocka_unit_test(unsound_materials_are_found),
+        cmocka_unit_test(numbers_out_of_range_are_sound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -142,6 +142,16 @@ static float part(float value)
     return value > 0.0f ? fminf(value, 1.0f) : 0.0f; /* of NaN too */
 }
 
+/* What is within: it takes light away, and bends it by a finite index, whatever the file says. */
+static void set_solid(const cs_material_description *d, cs_material *made)
+{
+    const float most_ior = 1e6f;
+    float colour[3];
+    for (int c = 0; c < 3; c++)
+        colour[c] = part(d->attenuation_colour[c]);
+    cs_standard_solid(fminf(d->ior, most_ior), colour, d->attenuation_distance, made);
+}
+
 static void set_standard(const cs_material_description *d, cs_material *made)
 {
     float *p = made->parameters;
@@ -158,8 +168,7 @@ static void set_standard(const cs_material_description *d, cs_material *made)
         p[CS_PARAMETER_SHEEN + c] = part(d->sheen_colour[c]);
         made->diffuse[c] = part(made->diffuse[c]);
     }
-    if (d->thickness > 0.0f)
-        cs_standard_solid(d->ior, d->attenuation_colour, d->attenuation_distance, made);
+    if (d->thickness > 0.0f) set_solid(d, made);
 }
 
 static void set_alpha(const cs_material_description *d, int covers, cs_material *made)
