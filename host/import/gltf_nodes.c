@@ -64,13 +64,14 @@ static long long node_in(const json_t *list, size_t place)
     return number >= 0.0 && number < 9e15 ? (long long)number : -1;
 }
 
-/* Notes of each node which one has it among its children: the first, if there are more. */
-static clshear_status find_parents(gltf_reader *reader)
+/* Notes of each node which one has it among its children: the first, if there are more. Returns 0
+ * where memory is out. */
+static int find_parents(gltf_reader *reader)
 {
     const json_t *nodes = json_object_get(reader->root, "nodes");
     const size_t count = json_array_size(nodes);
     reader->nodes = calloc(count + 1, sizeof *reader->nodes);
-    if (reader->nodes == NULL) return cs_model_full(reader->model, reader->error);
+    if (reader->nodes == NULL) return 0;
     for (size_t i = 0; i < count; i++)
         reader->nodes[i].parent = -1;
     for (size_t i = 0; i < count; i++) {
@@ -81,7 +82,7 @@ static clshear_status find_parents(gltf_reader *reader)
             if (reader->nodes[child].parent < 0) reader->nodes[child].parent = (long long)i;
         }
     }
-    return CLSHEAR_OK;
+    return 1;
 }
 
 /* Lists a node and those above it whose places are not known yet, upwards. */
@@ -102,11 +103,11 @@ static clshear_status list_unknown(gltf_reader *reader, long long node, cs_array
  * found once. */
 clshear_status gltf_global_matrix(gltf_reader *reader, long long node, double *matrix)
 {
-    clshear_status status = CLSHEAR_OK;
     cs_array path = {.item_size = sizeof(long long)};
     if (gltf_at(reader, "nodes", node) == NULL) return CLSHEAR_BAD_FILE;
-    if (reader->nodes == NULL) status = find_parents(reader);
-    if (status == CLSHEAR_OK) status = list_unknown(reader, node, &path);
+    if (reader->nodes == NULL && !find_parents(reader))
+        return cs_model_full(reader->model, reader->error);
+    clshear_status status = list_unknown(reader, node, &path);
     for (size_t i = path.count; i > 0 && status == CLSHEAR_OK; i--) {
         const long long number = ((const long long *)path.items)[i - 1];
         const json_t *json = gltf_at(reader, "nodes", number);

@@ -22,9 +22,9 @@ static size_t character_size(const unsigned char *at, size_t left)
 /* The number of an escape \uXXXX, or 0. */
 static uint32_t escaped_unit(const char *at, size_t left)
 {
-    char digits[5] = {0}, *end;
     if (left < 6 || at[0] != '\\' || at[1] != 'u') return 0;
-    memcpy(digits, at + 2, 4);
+    const char digits[5] = {at[2], at[3], at[4], at[5]};
+    char *end;
     const unsigned long unit = strtoul(digits, &end, 16);
     return end == digits + 4 ? (uint32_t)unit : 0;
 }
@@ -32,11 +32,12 @@ static uint32_t escaped_unit(const char *at, size_t left)
 /* Passes over the escape at `at`; half of a surrogate pair becomes that of a question mark. */
 static size_t pass_escape(char *at, size_t left, size_t *mended)
 {
+    static const char mark[] = {'0', '0', '3', 'f'};
     const uint32_t unit = escaped_unit(at, left);
     if (unit < 0xd800 || unit >= 0xe000) return left < 2 ? left : 2;
     const uint32_t next = escaped_unit(at + 6, left - 6);
     if (unit < 0xdc00 && next >= 0xdc00 && next < 0xe000) return 12;
-    memcpy(at + 2, "003f", 4);
+    memcpy(at + 2, mark, sizeof mark);
     ++*mended;
     return 6;
 }
