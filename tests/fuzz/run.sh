@@ -2,7 +2,8 @@
 # Fuzzes targets (targets.h; without names, all of them) with clang's libFuzzer under sanitizers for
 # SECONDS of processor time each (120). Builds in build-fuzz/ of the project, and keeps there what
 # was found: corpus_NAME, and files with the inputs that failed. CS_FUZZ_SEEDS may name a folder with
-# more first inputs, NAME/FILE.
+# more first inputs, NAME/FILE; CS_FUZZ_TIMEOUT the seconds of the clock that an input may take (60).
+# ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 looks for leaks, too.
 # usage: tests/fuzz/run.sh [SECONDS [TARGET...]]
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -16,7 +17,8 @@ cmake -S "$root" -B "$root/build-fuzz" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInf
     -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" >/dev/null
 cd "$root/build-fuzz"
 ninja fuzz >build.log || { tail -n 40 build.log; exit 1; }
-export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 # drivers keep what they have until the end
+# Drivers keep what they have until the end.
+export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_leaks=0:allocator_may_return_null=1}"
 # Each input is a file: in memory, where that is possible.
 TMPDIR=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d)
 export TMPDIR
@@ -42,7 +44,7 @@ for name in "$@"; do
     used=0
     inputs=0
     while [ "$used" -lt "$seconds" ]; do
-        "./fuzz_$name" -max_total_time=$((seconds - used)) -max_len=4096 -timeout=60 \
+        "./fuzz_$name" -max_total_time=$((seconds - used)) -max_len=4096 -timeout="${CS_FUZZ_TIMEOUT:-60}" \
             -rss_limit_mb=4096 -print_final_stats=1 -close_fd_mask=1 ${words:+"$words"} \
             -artifact_prefix="$name-" "corpus_$name" >"$name.log" 2>&1 || {
             tail -n 40 "$name.log"
