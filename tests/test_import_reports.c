@@ -52,8 +52,31 @@ static const struct {
      "element material 1\nproperty uchar diffuse_red\nend_header\n" POINTS "4 0 1 2 3\n255\n",
      {0.5f, 0.5f, 0.5f},
      "\"material\" is not supported"},
+    {"behind.ply",
+     PLY(XYZ, LIST, POINTS "4 0 1 2 3\n3 0 2 3\n"),
+     {0.5f, 0.5f, 0.5f},
+     "goes on behind the last item that its head counts; 8 bytes are left out"},
+    {"names.ply",
+     PLY(XYZ "property float normal_x\nproperty float normal_y\nproperty float normal_z\n"
+             "property uchar diffuse_r\nproperty uchar diffuse_g\nproperty uchar diffuse_b\n",
+         LIST,
+         "-1 -1 0 0 0 1 255 0 0\n1 -1 0 0 0 1 255 0 0\n1 1 0 0 0 1 255 0 0\n"
+         "-1 1 0 0 0 1 255 0 0\n4 0 1 2 3\n"),
+     {1, 0, 0},
+     ""},
     {"comment.stl", "# by hand\nsolid a\n" FACETS "endsolid\n", {0.5f, 0.5f, 0.5f}, ""},
     {"words.stl", "solid facet vertex\n" FACETS "endsolid vertex\n", {0.5f, 0.5f, 0.5f}, ""},
+    {"last.stl", "solid facet\n" FACETS "endsolid facet end\n", {0.5f, 0.5f, 0.5f}, ""},
+    {"apart.stl",
+     "solid the end\nfacet\nouter loop\nvertex -1 -1 0\nvertex 3 -1 0\nvertex -1 1 0\n"
+     "end loop\nend facet\nend solid\n",
+     {0.5f, 0.5f, 0.5f},
+     ""},
+    {"open.stl",
+     "solid\nfacet\nouter loop\nvertex -1 -1 0\nvertex 3 -1 0\nvertex -1 1 0\nendloop\n"
+     "endsolid\n",
+     {0.5f, 0.5f, 0.5f},
+     ""},
     {"line.stl",
      "solid a facet normal 0 0 1 outer loop vertex -1 -1 0 vertex 3 -1 0 vertex -1 1 0 endloop "
      "endfacet endsolid a\n",
@@ -170,6 +193,9 @@ static const struct {
     {"none.obj", "f 1 2 3\n", "none.obj:1: the face names vertex 1, but there are none"},
     {"gzip.obj", "\x1f\x8b\x08", "compressed by gzip; unpack it first"},
     {"zip.obj", "PK\3\4", "is a ZIP archive; unpack it first"},
+    {"lost.stl", "solid\nfacet\nvertex 0 0 1\nvertex 0 1 0\n" FACETS,
+     "lost.stl:5: a facet has fewer than three vertices"},
+    {"faces.stl", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "is text without facets"},
     {"pointer.stl", "version https://git-lfs.github.com/spec/v1\n", "run git lfs pull"},
     {"page.ply", "<!DOCTYPE html>\n", "is a web page"},
     {"page.off", "\xef\xbb\xbf\n\n  <!Doctype HTML>\n", "is a web page"},
@@ -334,6 +360,43 @@ static void long_names_of_materials(void **state)
     cs_scene_free(&scene);
 }
 
+/* Remarks may have any length; other lines of a head may not. */
+static void long_remarks_of_ply(void **state)
+{
+    char remark[1024], text[4096];
+    (void)state;
+    memset(remark, 'x', sizeof remark - 1);
+    remark[sizeof remark - 1] = '\0';
+    snprintf(text, sizeof text,
+             "ply\ncomment %s\nobj_info %s\nformat ascii 1.0\nelement vertex 4\n" XYZ
+             "element face 1\n" LIST "end_header\n" POINTS "4 0 1 2 3\n",
+             remark, remark);
+    cs_scene scene = import_text("long.ply", text);
+    assert_int_equal(scene.triangle_flags.count, 2);
+    cs_scene_free(&scene);
+    snprintf(text, sizeof text, "ply\nformat %s\n", remark);
+    import_refused(test_file("long.ply", text), "long.ply:2: the head has a line of more than 511");
+}
+
+/* Returns alone end the lines of the head, and the first number begins with a line feed. */
+static void ply_with_returns_alone(void **state)
+{
+    static const char head[] = "ply\rformat binary_little_endian 1.0\relement vertex 3\r"
+                               "property float x\rproperty float y\rproperty float z\r"
+                               "element face 1\rproperty list uchar uchar vertex_indices\r"
+                               "end_header\r";
+    const float positions[9] = {0, 0, 0, 4, 0, 0, 0, 2, 0};
+    unsigned char bytes[512];
+    (void)state;
+    memcpy(bytes, head, sizeof head - 1);
+    memcpy(bytes + sizeof head - 1, positions, sizeof positions);
+    bytes[sizeof head - 1] = '\n';
+    memcpy(bytes + sizeof head - 1 + sizeof positions, "\3\0\1\2", 4);
+    cs_scene scene = import_load(test_bytes("mac.ply", bytes, sizeof head + 3 + sizeof positions));
+    assert_true(fabs(import_area(&scene) - 4.0) < 1e-6);
+    cs_scene_free(&scene);
+}
+
 /* C1's control characters are letters in UTF-8, and terminals obey them. */
 static void controls_do_not_reach_terminals(void **state)
 {
@@ -355,6 +418,8 @@ int main(void)
         cmocka_unit_test(textures_of_ply_faces),
         cmocka_unit_test(texture_coordinates_of_ply),
         cmocka_unit_test(long_names_of_materials),
+        cmocka_unit_test(long_remarks_of_ply),
+        cmocka_unit_test(ply_with_returns_alone),
         cmocka_unit_test(controls_do_not_reach_terminals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -201,7 +201,7 @@ static clshear_status pass_element(cs_ply_reader *reader, const cs_ply_element *
     return status;
 }
 
-/* Reads what lies before the vertices after them. */
+/* Reads what lies before the vertices after them; leaves the cursor behind the last item. */
 static clshear_status read_in_turn(cs_ply_reader *reader)
 {
     clshear_status status = CLSHEAR_OK;
@@ -216,10 +216,12 @@ static clshear_status read_in_turn(cs_ply_reader *reader)
                             : read_element(reader, &elements[i], &vertices);
         if (status != CLSHEAR_OK) return status;
     }
+    const char *behind = reader->cursor.at;
     for (size_t i = 0; i < before && status == CLSHEAR_OK; i++) {
         reader->cursor.at = starts[i];
         status = read_element(reader, &elements[i], &vertices);
     }
+    reader->cursor.at = behind;
     return status;
 }
 
@@ -264,6 +266,18 @@ static clshear_status check(const cs_ply_reader *reader)
     return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: there are no faces in it", path);
 }
 
+/* Tells of what lies behind the last item that the head counts, but for blanks and zeros. */
+static void report_rest(const cs_ply_reader *reader)
+{
+    const char *at = reader->cursor.at, *end = reader->cursor.end;
+    while (at != end && (unsigned char)*at <= ' ')
+        at++;
+    if (at != end)
+        cs_warn(reader->model->log,
+                "%s: goes on behind the last item that its head counts; %zu bytes are left out",
+                reader->model->path, (size_t)(end - at));
+}
+
 static clshear_status read_elements(cs_ply_reader *reader, cs_bytes *bytes)
 {
     clshear_status status = CLSHEAR_OK;
@@ -300,6 +314,7 @@ static clshear_status read_elements(cs_ply_reader *reader, cs_bytes *bytes)
                 reader->model->path);
     CS_TRY(add_materials(reader));
     CS_TRY(check(reader));
+    report_rest(reader);
 done:
     return status;
 }

@@ -25,6 +25,9 @@ static const struct {
     {"y", CS_PLY_Y},
     {"z", CS_PLY_Z},
     {"nx", CS_PLY_NX},
+    {"normal_x", CS_PLY_NX},
+    {"normal_y", CS_PLY_NY},
+    {"normal_z", CS_PLY_NZ},
     {"ny", CS_PLY_NY},
     {"nz", CS_PLY_NZ},
     {"s", CS_PLY_S},
@@ -51,6 +54,9 @@ static const struct {
     {"r", CS_PLY_RED},
     {"g", CS_PLY_GREEN},
     {"b", CS_PLY_BLUE},
+    {"diffuse_r", CS_PLY_RED},
+    {"diffuse_g", CS_PLY_GREEN},
+    {"diffuse_b", CS_PLY_BLUE},
     {"diffuse_red", CS_PLY_RED},
     {"diffuse_green", CS_PLY_GREEN},
     {"diffuse_blue", CS_PLY_BLUE},
@@ -162,6 +168,22 @@ static const char *line_end(const char *at, const char *end, const char **next)
     return at;
 }
 
+/* Whether a line says nothing of the numbers, however long it is. */
+static int is_remark(const char *line)
+{
+    return strncmp(line, "comment", 7) == 0 || strncmp(line, "obj_info", 8) == 0;
+}
+
+/* Where the numbers begin: behind the line end that the first line of the head has, too. Behind a
+ * return alone, a line feed is a number's first byte. */
+static size_t size_of_head(const cs_bytes *bytes, const char *stop)
+{
+    const char *first = memchr(bytes->data, '\r', bytes->size);
+    const int is_return_alone = first != NULL && first < stop && first[1] != '\n';
+    const int is_pair = !is_return_alone && stop[0] == '\r' && stop[1] == '\n';
+    return (size_t)(stop - bytes->data) + 1 + (size_t)is_pair;
+}
+
 clshear_status cs_ply_read_head(const cs_bytes *bytes, const char *path, cs_ply_head *head,
                                 cs_error *error)
 {
@@ -170,7 +192,9 @@ clshear_status cs_ply_read_head(const cs_bytes *bytes, const char *path, cs_ply_
     for (size_t number = 1; at != end; number++, at = next) {
         char line[512];
         const char *stop = line_end(at, end, &next);
-        if ((size_t)(stop - at) >= sizeof line)
+        const int is_long = (size_t)(stop - at) >= sizeof line;
+        if (is_long && is_remark(at)) continue;
+        if (is_long)
             return cs_fail(error, CLSHEAR_BAD_FILE,
                            "%s:%zu: the head has a line of more than 511 bytes", path, number);
         memcpy(line, at, (size_t)(stop - at));
@@ -178,7 +202,7 @@ clshear_status cs_ply_read_head(const cs_bytes *bytes, const char *path, cs_ply_
         char *text = cs_rest_of_line(line);
         if (number == 1) continue; /* "ply" */
         if (strcmp(text, "end_header") == 0 && next != at) {
-            head->size = (size_t)(next - bytes->data);
+            head->size = stop == end ? bytes->size : size_of_head(bytes, stop);
             if (has_format) return CLSHEAR_OK;
             return cs_fail(error, CLSHEAR_BAD_FILE, "%s:%zu: the head names no format", path,
                            number);

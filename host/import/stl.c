@@ -1,4 +1,5 @@
 /* STL, as text and as bytes. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -48,16 +49,35 @@ static int has_binary_size(const cs_bytes *bytes)
            bytes->size == HEAD + (size_t)FACET * word_at(bytes->data + HEAD - 4);
 }
 
+/* Whether a word is in the text, in small letters or capitals. */
+static int has_word(const char *at, const char *end, const char *word)
+{
+    const size_t length = strlen(word);
+    for (; (size_t)(end - at) >= length; at++)
+        if (strncasecmp(at, word, length) == 0) return 1;
+    return 0;
+}
+
+enum {
+    LOOKED_AT = 512 /* bytes that tell text from bytes */
+};
+
+/* Whether there is no zero, as the count of a binary file has. Zeros at the end fill blocks. */
+static int has_letters(const cs_bytes *bytes)
+{
+    size_t size = bytes->size;
+    if (has_binary_size(bytes)) return 0;
+    while (size > 0 && bytes->data[size - 1] == '\0')
+        size--;
+    return size > 0 && memchr(bytes->data, '\0', size < LOOKED_AT ? size : LOOKED_AT) == NULL;
+}
+
 /* Whether it begins with "solid", or has a facet soon, and goes on as text. */
 static int is_text(const cs_bytes *bytes)
 {
-    int has_facet = 0;
-    if (has_binary_size(bytes)) return 0;
-    for (size_t i = 0; i < bytes->size && i < 512; i++) {
-        if (bytes->data[i] == '\0') return 0;
-        has_facet |= bytes->size - i >= 5 && strncasecmp(bytes->data + i, "facet", 5) == 0;
-    }
-    return has_facet || begins_with_solid(bytes);
+    const size_t size = bytes->size < LOOKED_AT ? bytes->size : LOOKED_AT;
+    return has_letters(bytes) &&
+           (begins_with_solid(bytes) || has_word(bytes->data, bytes->data + size, "facet"));
 }
 
 int cs_is_stl(const cs_bytes *bytes, const char *path)
@@ -123,42 +143,71 @@ static clshear_status read_vertex(stl_reader *reader, char **at, size_t *line, c
     return add_corner(reader, position, NO_COLOUR, corner);
 }
 
-/* Goes past the name of a solid, which may hold any word: to the end of its line, or, where the
- * file has but one line, no further. */
+/* Goes past the name of a solid, which may hold any word, to the end of its line; not where facets
+ * are on that line. */
 static void pass_name(char **at)
 {
     const size_t length = strcspn(*at, "\r\n");
-    const size_t blanks = strspn(*at + length, " \t\r\n");
-    if ((*at)[length + blanks] != '\0') *at += length;
+    if (!has_word(*at, *at + length, "normal")) *at += length;
 }
 
-/* A facet is what lies between "facet" or "loop" and "endloop" or "endfacet": files lack either. */
+/* The facet that is being read. */
+typedef struct open_facet {
+    int is_open;
+    size_t count; /* corners */
+    cs_corner corners[3];
+} open_facet;
+
+static clshear_status close_facet(stl_reader *reader, open_facet *facet, size_t line)
+{
+    if (!facet->is_open) return CLSHEAR_OK;
+    if (facet->count != 3) return complain(reader, line, "a facet has fewer than three vertices");
+    facet->is_open = 0;
+    return cs_model_add_polygon(reader->model, facet->corners, 3, CS_NO_INDEX, 0, reader->error);
+}
+
+/* Reads on from a word. A facet begins with "facet" or "loop", and ends with "endloop", "endfacet",
+ * or what cannot be inside it: files lack any of these. */
+static clshear_status read_word(stl_reader *reader, const char *word, const char *end, char **at,
+                                size_t *line, open_facet *facet)
+{
+    clshear_status status = CLSHEAR_OK;
+    if (is_word(word, end, "endloop") || is_word(word, end, "endfacet"))
+        return close_facet(reader, facet, *line);
+    if (is_word(word, end, "endsolid") || is_word(word, end, "solid")) {
+        status = close_facet(reader, facet, *line);
+        pass_name(at);
+    } else if (is_word(word, end, "facet") || (is_word(word, end, "loop") && !facet->is_open)) {
+        status = close_facet(reader, facet, *line);
+        *facet = (open_facet){.is_open = 1};
+    } else if (facet->is_open && is_word(word, end, "vertex")) {
+        if (facet->count == 3)
+            return complain(reader, *line, "a facet has more than three vertices");
+        status = read_vertex(reader, at, line, &facet->corners[facet->count++]);
+    }
+    return status;
+}
+
 static clshear_status read_text(stl_reader *reader, cs_bytes *bytes)
 {
     char *at = bytes->data;
-    size_t line = 1, count = 0;
-    cs_corner corners[3];
-    int inside = 0;
+    size_t line = 1;
+    open_facet facet = {0};
     clshear_status status = CLSHEAR_OK;
     while (status == CLSHEAR_OK) {
-        const char *token = next_token(&at, &line);
-        if (token == at) break;
-        if (is_word(token, at, "solid") || is_word(token, at, "endsolid")) {
-            pass_name(&at);
-        } else if (is_word(token, at, "facet") || is_word(token, at, "loop")) {
-            inside = 1;
-            count = 0;
-        } else if (is_word(token, at, "vertex")) {
-            if (!inside) continue; /* a word of the solid's name */
-            if (count == 3) return complain(reader, line, "a facet has more than three vertices");
-            status = read_vertex(reader, &at, &line, &corners[count++]);
-        } else if (inside && (is_word(token, at, "endloop") || is_word(token, at, "endfacet"))) {
-            if (count != 3) return complain(reader, line, "a facet has fewer than three vertices");
-            status = cs_model_add_polygon(reader->model, corners, 3, CS_NO_INDEX, 0, reader->error);
-            inside = 0;
+        char words[16];
+        const char *word = next_token(&at, &line), *end = at;
+        if (word == end) break;
+        if (is_word(word, end, "end")) { /* some write "end facet" */
+            const char *second = next_token(&at, &line);
+            snprintf(words, sizeof words, "end%.*s", (int)(at - second < 9 ? at - second : 9),
+                     second);
+            word = words;
+            end = words + strlen(words);
         }
+        status = read_word(reader, word, end, &at, &line, &facet);
     }
-    if (status == CLSHEAR_OK && inside)
+    if (status == CLSHEAR_OK && facet.is_open)
         return complain(reader, line, "the file ends in a facet; it was cut");
     return status;
 }
@@ -271,6 +320,9 @@ clshear_status cs_read_stl(cs_bytes *bytes, cs_model *model, cs_error *error)
     model->z_up = 1;
     if (bytes->size > 0 && (unsigned char)bytes->data[0] >= 0xef && !has_binary_size(bytes))
         status = cs_bytes_to_utf8(bytes, model->path, error);
+    if (status == CLSHEAR_OK && has_letters(bytes) && !is_text(bytes))
+        status = cs_fail(error, CLSHEAR_BAD_FILE, "%s: is text without facets; is it an STL file?",
+                         model->path);
     if (status == CLSHEAR_OK)
         status = is_text(bytes) ? read_text(&reader, bytes) : read_binary(&reader, bytes);
     if (status == CLSHEAR_OK && model->triangles.count == 0)
