@@ -98,6 +98,7 @@ spares sky.exr --environment -- "$cornell" $small --environment ./sky.exr --out 
 spares sky.exr --environment -- "$cornell" $small --environment sky.exr --out other.exr --gain sky.exr
 spares iris.png --aperture -- "$cornell" $small --aperture=iris.png --out iris.png
 spares sky.exr --extend -- "$cornell" $small --extend sky.exr --checkpoint sky.exr --out other.exr
+spares sky.exr --extend -- "$cornell" $small --extend sky.exr --preview sky.exr --out other.exr
 spares sky.exr --reference -- converge "$cornell" $small --reference sky.exr --map sky.exr
 echo 'spp 2' >two.exr
 spares two.exr "the settings" -- "$cornell" $small --settings two.exr --out two.exr

@@ -64,10 +64,11 @@ int render_check_files(const render_job *job)
     for (size_t i = 0; i < others.count; i++)
         outputs_add(&all, others.flags[i], &others.paths[i], 1);
     if (code == EXIT_DONE) code = check_outputs(&job->options, &all);
-    /* A picture may go on with itself, and the last preview is the picture. */
+    /* The last preview is the picture, and may have its name. A picture may go on with itself; of
+     * previews in its place, a killed render would leave one without the samples so far. */
+    add_setting(job, CLSHEAR_PREVIEW, "preview", preview, &others);
     if (code == EXIT_DONE)
         code = outputs_spare(&others, "--extend", files->extend.items, files->extend.count);
-    add_setting(job, CLSHEAR_PREVIEW, "preview", preview, &others);
     return code == EXIT_DONE ? check_outputs(&job->options, &others) : code;
 }
 
