@@ -7,10 +7,6 @@
 #include "commands/render_job.h"
 #include "report/failure.h"
 
-enum {
-    PATH_SIZE = 4096
-};
-
 /* Whether the formats of the outputs hold a picture of this size. */
 static int check_formats(const render_job *job)
 {
@@ -31,28 +27,19 @@ static int check_formats(const render_job *job)
     return EXIT_DONE;
 }
 
-/* The file that a setting names; "" if it is not set. */
-static void file_of(const render_job *job, clshear_setting setting, char path[PATH_SIZE])
-{
-    const clshear_settings *settings = job->options.settings;
-    *path = '\0';
-    if (clshear_settings_is_set(settings, setting))
-        clshear_settings_get_text(settings, setting, path, PATH_SIZE);
-}
-
 /* Adds the file that a setting names, if it is set; `path` has room for it. */
 static void add_setting(const render_job *job, clshear_setting setting, const char *flag,
-                        char path[PATH_SIZE], output_files *outputs)
+                        char path[SETTING_TEXT], output_files *outputs)
 {
     const char *const paths[] = {path};
-    file_of(job, setting, path);
-    if (*path != '\0') outputs_add(outputs, flag, paths, 1);
+    if (setting_text(job->options.settings, setting, path) != NULL)
+        outputs_add(outputs, flag, paths, 1);
 }
 
 int render_check_files(const render_job *job)
 {
     const film_files *files = &job->files;
-    char checkpoint[PATH_SIZE], record[PATH_SIZE], preview[PATH_SIZE];
+    char checkpoint[SETTING_TEXT], record[SETTING_TEXT], preview[SETTING_TEXT];
     output_files pictures = {0}, others = {0}, all;
     outputs_add(&pictures, "out", files->out.items, files->out.count);
     int code = outputs_check(&pictures);
