@@ -96,8 +96,10 @@ spares scene.exr "the scene" -- scene.exr $small --out other.png --out scene.exr
 expect 0 "" -- "$cornell" $small --quiet --out sky.exr --out iris.png
 spares sky.exr --environment -- "$cornell" $small --environment ./sky.exr --out sky.exr
 spares sky.exr --environment -- "$cornell" $small --environment sky.exr --out other.exr --gain sky.exr
+spares scene.exr --to -- "$cornell" $small --to scene.exr --out other.exr --record scene.exr
 spares iris.png --aperture -- "$cornell" $small --aperture=iris.png --out iris.png
 spares sky.exr --extend -- "$cornell" $small --extend sky.exr --checkpoint sky.exr --out other.exr
+spares sky.exr --extend -- "$cornell" $small --extend sky.exr --preview sky.exr --out other.exr
 spares sky.exr --reference -- converge "$cornell" $small --reference sky.exr --map sky.exr
 echo 'spp 2' >two.exr
 spares two.exr "the settings" -- "$cornell" $small --settings two.exr --out two.exr

@@ -10,10 +10,12 @@
     "<param name='X' type='float'/><param name='Y' type='float'/><param name='Z' type='float'/>" \
     "</accessor></technique_common></source>"
 
-/* A triangle with a colour. */
+/* A triangle with a colour, and an image that nothing uses. */
 #define COLLADA(head, colour)                                                                      \
     head "<COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'>"          \
          "<asset><up_axis>Y_UP</up_axis></asset>"                                                  \
+         "<library_images><image id='i'><init_from>\n none.png\n</init_from></image>"              \
+         "</library_images>"                                                                       \
          "<library_effects><effect id='e'><profile_COMMON><technique sid='t'><lambert><diffuse>"   \
          "<color>" colour "</color></diffuse></lambert></technique></profile_COMMON></effect>"     \
          "</library_effects><library_materials><material id='m'><instance_effect url='#e'/>"       \
@@ -32,7 +34,7 @@
                                        "</library_visual_scenes><scene><instance_visual_scene "    \
                                        "url='#w'/></scene></COLLADA>\n"
 
-static void expect_triangle(const char *path, float red)
+static void expect_triangle(const char *path, float red, float green, float blue)
 {
     const cs_import_options options = {.smooth_degrees = -1.0};
     const cs_log log = {.warn = import_collect};
@@ -42,7 +44,7 @@ static void expect_triangle(const char *path, float red)
     if (cs_scene_import(path, &options, &scene, &log, &error) != CLSHEAR_OK)
         fail_msg("%s", error.message);
     assert_int_equal(scene.triangle_flags.count, 1);
-    expect_close(import_material(&scene, 0)->diffuse, red, 0.25f, 0);
+    expect_close(import_material(&scene, 0)->diffuse, red, green, blue);
     cs_scene_free(&scene);
 }
 
@@ -50,9 +52,21 @@ static void expect_triangle(const char *path, float red)
 static void colours_behind_blanks(void **state)
 {
     (void)state;
-    expect_triangle(test_file("plain.dae", COLLADA("", "0.5 0.25 0 1")), 0.5f);
-    expect_triangle(test_file("blank.dae", COLLADA("", " 0.75 0.25 0 1")), 0.75f);
-    expect_triangle(test_file("line.dae", COLLADA("", "\r\n\t0.125 0.25\n0 1\n")), 0.125f);
+    expect_triangle(test_file("plain.dae", COLLADA("", "0.5 0.25 0 1")), 0.5f, 0.25f, 0);
+    expect_triangle(test_file("blank.dae", COLLADA("", " 0.75 0.25 0 1")), 0.75f, 0.25f, 0);
+    expect_triangle(test_file("line.dae", COLLADA("", "\r\n\t0.125 0.25\n0 1\n")), 0.125f, 0.25f,
+                    0);
+}
+
+/* The name of an image on a line of its own. */
+static void names_between_lines(void **state)
+{
+    (void)state;
+    expect_triangle(
+        test_file("image.dae",
+                  COLLADA("", "1 1 1 1</color><texture texture='i' texcoord='U'/><color>1 1 1 1")),
+        0.5f, 0.5f, 0.5f);
+    import_warned("texture none.png is not there");
 }
 
 /* UTF-16 with a byte order mark, of both orders. */
@@ -69,7 +83,7 @@ static void utf_16(void **state)
             bytes[2 * i + 2 + (size_t)big] = (unsigned char)text[i];
             bytes[2 * i + 2 + (size_t)!big] = 0;
         }
-        expect_triangle(test_bytes("wide.dae", bytes, 2 * sizeof text), 0.75f);
+        expect_triangle(test_bytes("wide.dae", bytes, 2 * sizeof text), 0.75f, 0.25f, 0);
     }
     free(bytes);
 }
@@ -136,6 +150,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(colours_behind_blanks),
+        cmocka_unit_test(names_between_lines),
         cmocka_unit_test(utf_16),
         cmocka_unit_test(cameras_show_what_they_say),
     };

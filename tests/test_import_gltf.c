@@ -167,10 +167,12 @@ static const char *triangle(const char *accessor, const char *primitive, const c
              "{\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
              "{\"POSITION\":0}%s}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,"
              "\"count\":3,\"type\":\"VEC3\"}%s],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},"
-             "{\"buffer\":1,\"byteLength\":3},{\"buffer\":1,\"byteOffset\":1,\"byteLength\":2}],"
+             "{\"buffer\":1,\"byteLength\":3},{\"buffer\":1,\"byteOffset\":1,\"byteLength\":2},{"
+             "\"buffer\":2,\"byteLength\":12}],"
              "\"buffers\":[{\"byteLength\":36,\"uri\":"
              "\"data:;base64,AACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/\"},"
-             "{\"byteLength\":3,\"uri\":\"data:,%%00%%01%%02\"}]%s}",
+             "{\"byteLength\":3,\"uri\":\"data:,%%00%%01%%02\"},{\"byteLength\":12,\"uri\":\"data:;"
+             "base64,AAAAAAEAAAACAAAA\"}]%s}",
              primitive, accessor, more);
     return text;
 }
@@ -198,13 +200,18 @@ static void sparse_indices(void **state)
 /* Indices of which an exporter says that they have a sign. */
 static void signed_indices(void)
 {
-    cs_scene scene = import_text(
-        "signed.gltf",
-        triangle(",{\"bufferView\":1,\"componentType\":5120,\"count\":3,\"type\":\"SCALAR\"}",
-                 ",\"indices\":1", ",\"asset\":{\"version\":\"2.0\"}"));
-    assert_int_equal(scene.indices.count, 1);
-    assert_string_equal(import_warnings, "");
-    cs_scene_free(&scene);
+    static const char *const files[] = {
+        ",{\"bufferView\":1,\"componentType\":5120,\"count\":3,\"type\":\"SCALAR\"}",
+        ",{\"bufferView\":3,\"componentType\":5124,\"count\":3,\"type\":\"SCALAR\"}"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        cs_scene scene = import_text("signed.gltf", triangle(files[i], ",\"indices\":1",
+                                                             ",\"asset\":{\"version\":\"2.0\"}"));
+        assert_int_equal(scene.indices.count, 1);
+        expect_close(import_position(&scene, 0, 0), 1, 0, 0);
+        expect_close(import_position(&scene, 0, 2), 0, 0, 1);
+        assert_string_equal(import_warnings, "");
+        cs_scene_free(&scene);
+    }
 }
 
 /* The version is a number here, also where the program's locale has decimal commas, if such a one

@@ -20,6 +20,8 @@ clshear_status cs_collada_tidy(cs_bytes *bytes, const char *path, cs_error *erro
     size_t kept = 0;
     if (status != CLSHEAR_OK) return status;
     for (size_t i = 0; i < bytes->size; i++) {
+        while (bytes->data[i] == '<' && kept > 0 && is_blank(bytes->data[kept - 1]))
+            kept--;
         const int is_behind_tag = kept > 0 && bytes->data[kept - 1] == '>';
         if (!is_behind_tag || !is_blank(bytes->data[i])) bytes->data[kept++] = bytes->data[i];
     }

@@ -200,7 +200,7 @@ static clshear_status open_accessor(gltf_reader *reader, long long index, const 
     const long long type = gltf_index(*json, "componentType"), count = gltf_index(*json, "count");
     *span = (gltf_span){.components = components_of(gltf_text(*json, "type", ""))};
     span->normalised = json_is_true(json_object_get(*json, "normalized"));
-    if (type < 5120 || type > 5126 || type == 5124 || span->components == 0)
+    if (type < 5120 || type > 5126 || span->components == 0)
         return gltf_complain(reader, "accessors", index, "its type or componentType is not known");
     span->type = (int)type;
     const int is_there = gltf_index(*json, "bufferView") != -1;
@@ -218,7 +218,7 @@ static clshear_status open_accessor(gltf_reader *reader, long long index, const 
  */
 static int unsigned_type(int type)
 {
-    return type == 5120 || type == 5122 ? type + 1 : type;
+    return type == 5120 || type == 5122 || type == 5124 ? type + 1 : type;
 }
 
 static double component_at(const unsigned char *at, const gltf_span *span)
@@ -242,6 +242,10 @@ static double component_at(const unsigned char *at, const gltf_span *span)
         break;
     case 5123:
         most = 65535.0;
+        break;
+    case 5124: /* glTF has no such type; its meaning is plain */
+        value = (double)(int32_t)word;
+        most = 2147483647.0;
         break;
     case 5125:
         most = 4294967295.0;

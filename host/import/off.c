@@ -21,6 +21,7 @@ typedef struct off_reader {
     int dimension; /* of the vertices, 3 at least; 0: stands before the counts */
     size_t vertices, faces;
     int is_dense;     /* vertices, or faces, share lines: there is nothing behind them */
+    int is_short;     /* fewer lines than vertices and faces: they share lines, or it was cut */
     int has_more;     /* some line has numbers that mean nothing */
     cs_array corners; /* cs_corner, of the current face */
 } off_reader;
@@ -59,10 +60,18 @@ int cs_is_off(const cs_bytes *bytes, const char *path)
     return cs_has_suffix(path, ".off");
 }
 
+static clshear_status complain_of_end(const off_reader *reader)
+{
+    return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s:%zu: the file ends here; it was cut",
+                   reader->model->path, reader->lines.number);
+}
+
+/* In a file that is short, a wrong number may as well be one of what is behind an item. */
 static clshear_status complain(const off_reader *reader, const char *what)
 {
-    return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s:%zu: %s", reader->model->path,
-                   reader->lines.number, what);
+    return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s:%zu: %s%s", reader->model->path,
+                   reader->lines.number, what,
+                   reader->is_short ? "; or lines are missing: the file was cut" : "");
 }
 
 /* Moves to the next word, over lines and comments; 0 at the end of the file. */
@@ -95,7 +104,7 @@ static int next_in_line(off_reader *reader, double *value)
 /* The next number of the file. */
 static clshear_status next_number(off_reader *reader, double *value)
 {
-    if (!find_word(reader)) return complain(reader, "the file ends here; it was cut");
+    if (!find_word(reader)) return complain_of_end(reader);
     if (!next_in_line(reader, value)) return complain(reader, "this is not a number");
     return CLSHEAR_OK;
 }
@@ -111,14 +120,27 @@ static clshear_status next_count(off_reader *reader, size_t *count)
     return CLSHEAR_OK;
 }
 
+/* Whether the next line with words has only one. */
+static int has_word_alone(const off_reader *reader)
+{
+    const char *at = reader->lines.at, *end = reader->lines.end;
+    while (at != end && (unsigned char)*at <= ' ')
+        at++;
+    while (at != end && (unsigned char)*at > ' ')
+        at++;
+    while (at != end && (*at == ' ' || *at == '\t'))
+        at++;
+    return at != end && (*at == '\n' || *at == '\r');
+}
+
 /* The mark, which files leave out or write together with the counts; then the counts, of which that
- * of edges is not used and may be missing. */
+ * of edges is not used and may be missing. It has a line of its own where the others do. */
 static clshear_status read_head(off_reader *reader)
 {
     clshear_status status = CLSHEAR_OK;
     double edges;
     size_t dimension = 3;
-    if (!find_word(reader)) return complain(reader, "the file ends here; it was cut");
+    if (!find_word(reader)) return complain_of_end(reader);
     const char *behind = read_mark(reader);
     if (behind != NULL) reader->at += behind - reader->at;
     const char *word = reader->at + strspn(reader->at, " \t");
@@ -131,8 +153,11 @@ static clshear_status read_head(off_reader *reader)
     if (status == CLSHEAR_OK && (dimension < 3 || dimension > 4))
         return complain(reader, "vertices must have 3 or 4 coordinates");
     if (status == CLSHEAR_OK) status = next_count(reader, &reader->vertices);
+    const size_t line = reader->lines.number;
     if (status == CLSHEAR_OK) status = next_count(reader, &reader->faces);
-    if (status == CLSHEAR_OK) next_in_line(reader, &edges);
+    if (status == CLSHEAR_OK && !next_in_line(reader, &edges) && reader->lines.number > line &&
+        has_word_alone(reader))
+        status = next_number(reader, &edges);
     return status;
 }
 
@@ -195,7 +220,8 @@ static clshear_status add_vertex(off_reader *reader, const double *numbers, int 
 }
 
 /* x y z, w, a normal, a colour, texture coordinates, as far as the mark says. What is behind them
- * in the line may be the colour and the alpha that the mark does not say. */
+ * in the line may be the colour and the alpha that the mark does not say, or the alpha of a colour.
+ */
 static clshear_status read_vertex(off_reader *reader)
 {
     double numbers[2 * MOST] = {0};
@@ -208,7 +234,9 @@ static clshear_status read_vertex(off_reader *reader)
         if (status != CLSHEAR_OK) return status;
     }
     const int behind = read_behind(reader, numbers + count);
-    const int is_known = behind <= 4 + coordinates;
+    const int colour = behind - (reader->is_dense ? 0 : coordinates);
+    const int is_colour = reader->has_colours ? colour == 1 : colour == 3 || colour == 4;
+    const int is_known = behind == 0 || colour == 0 || is_colour;
     reader->has_more |= !is_known;
     return add_vertex(reader, numbers, places, marked, count + (is_known ? behind : 0));
 }
@@ -261,6 +289,28 @@ static clshear_status read_face(off_reader *reader)
                                 CS_NO_INDEX, 0, reader->error);
 }
 
+/* All items are read: nothing may be left. */
+static clshear_status read_end(off_reader *reader)
+{
+    const cs_model *model = reader->model;
+    const int is_left = find_word(reader);
+    if (reader->is_short && (is_left || reader->has_more))
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE,
+                       "%s: has fewer lines than vertices and faces, but more numbers; it was cut, "
+                       "or its counts are wrong",
+                       model->path);
+    if (is_left)
+        cs_warn(model->log, "%s:%zu: what is behind the faces that the head counts is left out",
+                model->path, reader->lines.number);
+    if (reader->has_more)
+        cs_warn(model->log, "%s: has lines with more numbers than its kind of OFF has; left out",
+                model->path);
+    if (model->triangles.count == 0)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: there are no faces in it",
+                       model->path);
+    return CLSHEAR_OK;
+}
+
 clshear_status cs_read_off(cs_bytes *bytes, cs_model *model, cs_error *error)
 {
     off_reader reader = {.model = model, .error = error};
@@ -269,17 +319,14 @@ clshear_status cs_read_off(cs_bytes *bytes, cs_model *model, cs_error *error)
     clshear_status status = cs_bytes_to_utf8(bytes, model->path, error);
     reader.lines = cs_lines_of(bytes);
     if (status == CLSHEAR_OK) status = read_head(&reader);
-    reader.is_dense = shares_lines(&reader, reader.vertices + reader.faces);
+    reader.is_short = reader.is_dense = shares_lines(&reader, reader.vertices + reader.faces);
     for (size_t i = 0; i < reader.vertices && status == CLSHEAR_OK; i++)
         status = read_vertex(&reader);
     reader.is_dense = shares_lines(&reader, reader.faces);
+    reader.is_short |= reader.is_dense;
     for (size_t i = 0; i < reader.faces && status == CLSHEAR_OK; i++)
         status = read_face(&reader);
-    if (status == CLSHEAR_OK && reader.has_more)
-        cs_warn(model->log, "%s: has lines with more numbers than its kind of OFF has; left out",
-                model->path);
-    if (status == CLSHEAR_OK && model->triangles.count == 0)
-        status = cs_fail(error, CLSHEAR_BAD_FILE, "%s: there are no faces in it", model->path);
+    if (status == CLSHEAR_OK) status = read_end(&reader);
     cs_array_free(&reader.corners);
     return status;
 }

@@ -19,18 +19,25 @@ const char *value_on_line(const program_options *options, const char *name)
     return value;
 }
 
+const char *setting_text(const clshear_settings *settings, clshear_setting setting,
+                         char text[SETTING_TEXT])
+{
+    *text = '\0';
+    if (clshear_settings_is_set(settings, setting))
+        clshear_settings_get_text(settings, setting, text, SETTING_TEXT);
+    return *text != '\0' ? text : NULL;
+}
+
 int check_outputs(const program_options *options, const output_files *files)
 {
-    char sky[4096] = "";
-    const clshear_settings *settings = options->settings;
-    if (clshear_settings_is_set(settings, CLSHEAR_ENVIRONMENT))
-        clshear_settings_get_text(settings, CLSHEAR_ENVIRONMENT, sky, sizeof sky);
+    char sky[SETTING_TEXT], end[SETTING_TEXT];
     const struct {
         const char *owner;
         const char *path;
     } inputs[] = {{"the scene", options->scene},
                   {"the settings", options->file},
-                  {"--environment", *sky != '\0' ? sky : NULL},
+                  {"--environment", setting_text(options->settings, CLSHEAR_ENVIRONMENT, sky)},
+                  {"--to", setting_text(options->settings, CLSHEAR_TO, end)},
                   {"--aperture", value_on_line(options, "aperture")}};
     int code = outputs_check(files);
     for (size_t i = 0; i < sizeof inputs / sizeof *inputs && code == EXIT_DONE; i++)

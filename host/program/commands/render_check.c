@@ -7,10 +7,6 @@
 #include "commands/render_job.h"
 #include "report/failure.h"
 
-enum {
-    PATH_SIZE = 4096
-};
-
 /* Whether the formats of the outputs hold a picture of this size. */
 static int check_formats(const render_job *job)
 {
@@ -31,28 +27,19 @@ static int check_formats(const render_job *job)
     return exit_status_of(status);
 }
 
-/* The file that a setting names; "" if it is not set. */
-static void file_of(const render_job *job, clshear_setting setting, char path[PATH_SIZE])
-{
-    const clshear_settings *settings = job->options.settings;
-    *path = '\0';
-    if (clshear_settings_is_set(settings, setting))
-        clshear_settings_get_text(settings, setting, path, PATH_SIZE);
-}
-
 /* Adds the file that a setting names, if it is set; `path` has room for it. */
 static void add_setting(const render_job *job, clshear_setting setting, const char *flag,
-                        char path[PATH_SIZE], output_files *outputs)
+                        char path[SETTING_TEXT], output_files *outputs)
 {
     const char *const paths[] = {path};
-    file_of(job, setting, path);
-    if (*path != '\0') outputs_add(outputs, flag, paths, 1);
+    if (setting_text(job->options.settings, setting, path) != NULL)
+        outputs_add(outputs, flag, paths, 1);
 }
 
 int render_check_files(const render_job *job)
 {
     const film_files *files = &job->files;
-    char checkpoint[PATH_SIZE], record[PATH_SIZE], preview[PATH_SIZE];
+    char checkpoint[SETTING_TEXT], record[SETTING_TEXT], preview[SETTING_TEXT];
     output_files pictures = {0}, others = {0}, all;
     outputs_add(&pictures, "out", files->out.items, files->out.count);
     int code = outputs_check(&pictures);
@@ -64,10 +51,11 @@ int render_check_files(const render_job *job)
     for (size_t i = 0; i < others.count; i++)
         outputs_add(&all, others.flags[i], &others.paths[i], 1);
     if (code == EXIT_DONE) code = check_outputs(&job->options, &all);
-    /* A picture may go on with itself, and the last preview is the picture. */
+    /* The last preview is the picture, and may have its name. A picture may go on with itself; of
+     * previews in its place, a killed render would leave one without the samples so far. */
+    add_setting(job, CLSHEAR_PREVIEW, "preview", preview, &others);
     if (code == EXIT_DONE)
         code = outputs_spare(&others, "--extend", files->extend.items, files->extend.count);
-    add_setting(job, CLSHEAR_PREVIEW, "preview", preview, &others);
     return code == EXIT_DONE ? check_outputs(&job->options, &others) : code;
 }
 
