@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "render/objects.h"
+
 static clshear_context *context;
 
 static int open_context(void **state)
@@ -298,6 +300,30 @@ static void what_stands_on_z_is_told(void **state)
     expect_hint(-1.0, -1.0, NULL, 0); /* on neither */
 }
 
+/* A quarter of a turn takes +X to -Z where +Y is up, and to +Y where +Z is. */
+static void turntable_turns_about_what_is_up(void **state)
+{
+    static const float expected[2][3] = {{0, 0, -1}, {0, 1, 0}};
+    const char *path = test_file("turned.obj", "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\n"
+                                               "v 0 0 -1\nf 1 3 5\nf 2 4 6\n");
+    (void)state;
+    for (int z_up = 0; z_up < 2; z_up++) {
+        clshear_settings *settings = NULL;
+        test_ok(clshear_settings_create(&settings));
+        test_ok(clshear_settings_set_number(settings, CLSHEAR_TURNTABLE, 90.0));
+        test_set_number(settings, CLSHEAR_Z_UP, z_up);
+        clshear_scene *scene = load(path, settings);
+        const float(*from)[3] = scene->scene.positions.items;
+        const float(*to)[3] = scene->scene.positions_to.items;
+        assert_int_equal(scene->scene.positions_to.count, 6);
+        for (size_t i = 0; i < 6; i++)
+            for (int axis = 0; axis < 3 && from[i][0] == 1.0f; axis++)
+                assert_near(to[i][axis], expected[z_up][axis], 1e-6);
+        clshear_scene_free(scene);
+        clshear_settings_free(settings);
+    }
+}
+
 /* Two planes that meet at 90 degrees: beside their edge, the smooth normal faces the light. */
 static void smoothness_is_a_setting(void **state)
 {
@@ -353,6 +379,7 @@ int main(void)
         cmocka_unit_test(far_scenes_look_alike),
         cmocka_unit_test(cameras_are_chosen),
         cmocka_unit_test(up_is_z_in_3ds),
+        cmocka_unit_test(turntable_turns_about_what_is_up),
         cmocka_unit_test(smoothness_is_a_setting),
         cmocka_unit_test(what_stands_on_z_is_told),
         cmocka_unit_test(settings_of_loading_are_compared),

@@ -77,8 +77,9 @@ static uint32_t number_of_position(smoothing *work, uint32_t vertex)
     return cs_index_map_add(&work->places, key);
 }
 
-/* In a group, only triangles that share a vertex of the file are smooth across it, as in Blender:
- * the two sides of a leaf that lie on each other would leave each other without a direction. */
+/* Finds the place of every corner, and its normal and angle; 0 without memory. In a group, only
+ * triangles that share a vertex of the file are smooth across it, as in Blender: the two sides of a
+ * leaf that lie on each other would leave each other without a direction. */
 static int find_places(smoothing *work, int by_angle)
 {
     const cs_model *model = work->model;

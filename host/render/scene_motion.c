@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "clshear/device/constants.h"
+#include "render/camera_choice.h"
 
 int cs_shutter_times(const clshear_settings *settings, double times_s[2])
 {
@@ -76,10 +77,11 @@ static void drop_rest(cs_scene *scene)
     scene->positions_to.count = scene->normals_to.count = 0;
 }
 
-/* Turns about the vertical through the middle of the bounds, against the clock from above. */
-static clshear_status turn(cs_scene *scene, double degrees, cs_error *error)
+/* Turns about the vertical, +Z or else +Y, through the middle of the bounds, against the clock from
+ * above. */
+static clshear_status turn(cs_scene *scene, double degrees, int z_up, cs_error *error)
 {
-    const int across = scene->z_up ? 0 : 2, along = scene->z_up ? 1 : 0;
+    const int across = z_up ? 0 : 2, along = z_up ? 1 : 0;
     const double angle = degrees * (double)CS_PI / 180.0, c = cos(angle), s = sin(angle);
     double middle[3];
     if (!cs_scene_start_moving(scene))
@@ -134,7 +136,8 @@ clshear_status cs_scene_read_motion(clshear_scene *scene, const char *path,
         CS_TRY(join(&scene->scene, &closing, file, error));
     }
     if (settings != NULL && cs_is_set(settings, TURNTABLE) && cs_number(settings, TURNTABLE) != 0.0)
-        CS_TRY(turn(&scene->scene, cs_number(settings, TURNTABLE), error));
+        CS_TRY(turn(&scene->scene, cs_number(settings, TURNTABLE),
+                    cs_z_is_up(&scene->scene, settings), error));
     drop_rest(&scene->scene);
     if (at_end.is_played && !anything_moves(&scene->scene))
         cs_warn(&scene->context->log, "%s: nothing in it moves from %g to %g s", path, times_s[0],
