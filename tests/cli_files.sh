@@ -117,7 +117,7 @@ expect 0 "" -- .hidden $small --quiet
 # Each frame has its files.
 expect 0 "" -- "$root/scenes/wheel.gltf" $small --quiet --frames 1,2 --gain gain.png --out frame.png
 [ -e frame.0002.png ] && [ -e gain.0001.png ] && [ -e gain.0002.png ] || wrong "files of frames: $(ls)"
-refuse 1 "$cornell: not an image that can be read" -- "$cornell" --quiet --extend "$cornell"
+refuse 1 "$cornell: is no EXR file, as clshear writes them" -- "$cornell" --quiet --extend "$cornell"
 refuse 2 "resume: needs a checkpoint" -- "$cornell" --quiet --resume
 refuse 1 "--checkpoint no/such/state: folder no/such/ cannot be written" -- "$cornell" --quiet --checkpoint no/such/state
 echo "not a checkpoint" >state

@@ -182,7 +182,7 @@
     X(ENVIRONMENT, 62, "environment", "", TEXT, 1, 1, "", 0, 0, none, RECIPE, "FILE", \
       "lat-long image, R,G,B or gradient:ZENITH,HORIZON") \
     X(ENVIRONMENT_ROTATION, 63, "environment-rotation", "", NUMBER, 1, 1, "0", -1e6, 1e6, none, \
-      RECIPE, "DEG", "turn it about what is up, from above against the clock") \
+      RECIPE, "DEG", "turn about what is up, from above against the clock") \
     X(ENVIRONMENT_STRENGTH, 64, "environment-strength", "", NUMBER, 1, 1, "1", 0, 1e12, none, \
       RECIPE, "S", "its radiance is multiplied by this") \
     X(BOUNCES, 66, "bounces", "", INTEGER, 1, 1, "4", 0, 64, none, RECIPE, "N", \
