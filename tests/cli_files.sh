@@ -140,8 +140,12 @@ ln -s linked/new.exr dangling.exr
 expect 0 "" -- "$cornell" $small --quiet --out dangling.exr
 [ -L dangling.exr ] && [ -s linked/new.exr ] || wrong "a dangling link is not written through"
 
-# What nohup starts goes on after a hangup.
-nohup "$program" "$cornell" --spp 4000 --width 64 --height 64 --quiet --out nohup.exr 2>h.txt &
+# What nohup starts goes on after a hangup. The driver has the kernels by then, so that the hangup
+# comes while samples are drawn.
+long="--spp 4000 --width 64 --height 64 --quiet"
+expect 0 "" -- "$cornell" $long --out nohup.exr
+rm nohup.exr
+nohup "$program" "$cornell" $long --out nohup.exr 2>h.txt &
 child=$!
 sleep 1
 kill -HUP $child
