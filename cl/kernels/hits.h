@@ -196,8 +196,8 @@ static inline void cs_finish_material(CS_GLOBAL const cs_material *material, cs_
 }
 #endif
 
-/* What the vertices of the triangle that the lanes in `mine` hit say of the surface there: normal,
- * textures, colour. square: of the length of the shape's normal. */
+/* Interpolates normal, textures and colour between a triangle's vertices, in the lanes of `mine`.
+ * They all hit that triangle, at surface->point. square: squared length of shape->normal. */
 static inline void cs_apply_vertices(const cs_scene_buffers *scene,
                                      CS_GLOBAL const cs_triangle *triangle, const cs_shape *shape,
                                      cs_shape_number square, cs_vint mine, cs_surface *surface)

@@ -12,8 +12,8 @@ typedef struct cs_depth {
     cs_f32 median;   /* median depth along the lens rays */
     cs_f32 far;      /* largest depth along the lens rays */
     cs_f32 misses;   /* fraction of the lens rays without a hit, 0 to 1 */
-    cs_f32 front_px; /* mean shear, in pixels, of the depths before the first gap among those of the
-                        lens rays (`cs_front_shear`); infinite without a gap */
+    cs_f32 front_px; /* mean shear of the depths before the first gap (cs_front_shear), in pixels;
+                        infinite without a gap */
 } cs_depth;
 
 #endif

@@ -3,9 +3,8 @@
 #include <locale.h>
 #include <stdio.h>
 
-/* Replaces control characters by '?', since names in a message come from files and command lines,
- * and may hold line ends and codes that terminals obey: those of ASCII, and U+0080 to U+009F, which
- * UTF-8 writes as c2 and one byte more. */
+/* Replaces control characters by '?': those of ASCII, and U+0080 to U+009F, which UTF-8 writes as
+ * c2 and one byte more. Messages hold names out of files, and terminals obey such characters. */
 static void make_printable(char *line)
 {
     for (unsigned char *at = (unsigned char *)line; *at != '\0'; at++) {

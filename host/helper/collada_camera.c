@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/pi.h"
+
 static const char parallel_tag[] = "<orthographic>", parallel_end[] = "</orthographic>";
 static const char spread_tag[] = "<perspective>", spread_end[] = "</perspective>";
 
@@ -22,7 +24,7 @@ static void cut(char *from, const char *to)
     memmove(from, to, strlen(to) + 1);
 }
 
-/* Writes a text over what is there; returns the place behind it, where no 0 is written. */
+/* Copies a text to `at`, without its final 0. Returns the place behind the copy. */
 static char *put(char *at, const char *text)
 {
     while (*text != '\0')
@@ -114,7 +116,7 @@ clshear_status cs_collada_edit_cameras(cs_bytes *bytes, cs_error *error)
 void cs_collada_extent(const struct aiCamera *source, double scale, cs_model_camera *camera)
 {
     const double aspect = source->mAspect > 0.0f ? (double)source->mAspect : 1.0;
-    const double degrees = (double)source->mHorizontalFOV * 180.0 / 3.14159265358979323846;
+    const double degrees = (double)source->mHorizontalFOV * 180.0 / CS_PI_DOUBLE;
     if (degrees >= 0.0) return;
     camera->height = -2.0 * degrees * scale / aspect;
     camera->fov = 1.0; /* any angle that a camera can have */

@@ -8,10 +8,10 @@
 #include "import/model.h"
 #include "import/text.h"
 
-/* Edits the cameras in the text, which becomes shorter. Assimp 5.2 takes an angle that is given
- * downwards alone for none, makes a wrong aspect of two angles, and does not know parallel lines of
- * sight: what is downwards becomes what is across, without an aspect, and the size of parallel
- * cameras a negative angle. */
+/* Edits the cameras in the text so that Assimp 5.2 reads them. The text does not become longer.
+ * Assimp ignores a yfov without an xfov, and derives a wrong aspect from both: a yfov replaces the
+ * xfov, and the aspect is removed. Assimp has no parallel cameras in Collada: their xmag or ymag is
+ * written as a negative xfov, which cs_collada_extent recognises. */
 clshear_status cs_collada_edit_cameras(cs_bytes *bytes, cs_error *error);
 
 /* Sets the height that a camera shows if it is a parallel one. `scale` is that of its node. */

@@ -271,8 +271,8 @@ static void turn_back(const struct aiScene *file, cs_model *model)
     file->mRootNode->mTransformation = back;
 }
 
-/* By Assimp; `file` is NULL for what it cannot read. None of its own steps, which trust the
- * indices: triangles are made from what was checked. */
+/* Opens a file with Assimp. `file` becomes NULL where Assimp cannot read it. No step of Assimp's
+ * post-processing runs, since these trust the indices of the file, which are checked later. */
 static clshear_status open_file(cs_bytes *bytes, const char *path, const struct aiScene **file,
                                 cs_error *error)
 {

@@ -8,10 +8,10 @@
  * the first three count, or the first one, which is grey. */
 void picture_channels(const ImageSpec &spec, int order[4]);
 
-/* The number of the part that is the picture, by the names of its layers and its own, as among the
- * layers of one part: the first of those alike, and 0 where none has named colours. Only EXR files
- * have parts; in other formats they are pages. `image` has read a head, and has that of the part
- * then. */
+/* The number, from 0, of the EXR part that holds the picture. It is chosen by the names of parts
+ * and layers, as a layer is chosen within a part; the first of equals counts. 0 where no part has
+ * named colours, and in other formats, whose parts are pages. `image` must have read a head; it has
+ * that of the chosen part afterwards. */
 int picture_part(ImageBuf &image, const std::string &path, const ImageSpec *config,
                  OIIO::Filesystem::IOProxy *memory);
 
