@@ -1,5 +1,6 @@
 #include "report/progress.h"
 
+#include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -31,12 +32,23 @@ static void catch_wishes(void)
     sigaction(SIGUSR1, &action, NULL);
 }
 
+/* In this thread and in those it starts. To ignore is not enough: LLVM puts its handler in place
+ * of that while an OpenCL driver compiles, and deletes the files it is writing at a signal. */
+static void block_hangups(void)
+{
+    sigset_t hangup;
+    sigemptyset(&hangup);
+    sigaddset(&hangup, SIGHUP);
+    pthread_sigmask(SIG_BLOCK, &hangup, NULL);
+}
+
 void progress_note_signals(void)
 {
     struct sigaction given;
     catch_wishes();
     signal(SIGXFSZ, SIG_IGN); /* so that who writes a file beyond the limit can say so */
     hangup_ignored = sigaction(SIGHUP, NULL, &given) == 0 && given.sa_handler == SIG_IGN;
+    if (hangup_ignored) block_hangups();
 }
 
 static void catch_interrupts(void)
