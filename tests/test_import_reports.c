@@ -239,6 +239,8 @@ static clshear_status read_some(cs_bytes *bytes, cs_model *model, cs_error *erro
     return cs_model_add_polygon(model, corners, 3, CS_NO_INDEX, 0, error);
 }
 
+static const cs_import_modules some_modules = {.other = read_some};
+
 /* Negative colours are black, not the white of positions that have none. */
 static void colours_below_0(void **state)
 {
@@ -249,7 +251,8 @@ static void colours_below_0(void **state)
     (void)state;
     cs_scene_init(&scene);
     const char *path = test_file("some.dae", "<COLLADA/>");
-    assert_int_equal(cs_import_here(path, &options, read_some, &scene, &log, &error), CLSHEAR_OK);
+    assert_int_equal(cs_import_here(path, &options, &some_modules, &scene, &log, &error),
+                     CLSHEAR_OK);
     expect_close(import_colour(&scene, 0, 0), 0, 0, 0.25f);
     expect_close(import_colour(&scene, 0, 1), 0.25f, 0.5f, 2);
     expect_close(import_colour(&scene, 0, 2), 1, 1, 1);
@@ -284,7 +287,7 @@ static void packed_files(void **state)
         cs_scene_init(&scene);
         const char *path = test_file(files[i].name, files[i].first);
         const clshear_status status =
-            cs_import_here(path, &options, read_some, &scene, &log, &error);
+            cs_import_here(path, &options, &some_modules, &scene, &log, &error);
         assert_int_equal(status, *files[i].words == '\0' ? CLSHEAR_OK : CLSHEAR_BAD_FILE);
         if (strstr(error.message, files[i].words) == NULL)
             fail_msg("%s: \"%s\"", files[i].name, error.message);

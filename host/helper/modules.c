@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "helper/limits.h"
 #include "image/image_io.h"
 #include "import/find_file.h"
 
@@ -22,13 +23,53 @@ static void *find(const char *module, const char *function, cs_error *error)
     return address;
 }
 
-clshear_status cs_read_by_module(cs_bytes *bytes, cs_model *model, cs_error *error)
+/* The scene file that is read. */
+static const char *limiting_path;
+
+/* ISO C knows no cast from the address of data to that of a function, so all of these copy it. */
+static clshear_status read_other(cs_bytes *bytes, cs_model *model, cs_error *error)
 {
     cs_other_reader read;
     void *address = find("clshear-import-other.so", "cs_read_other", error);
     if (address == NULL) return CLSHEAR_BAD_FILE;
-    memcpy(&read, &address, sizeof read); /* ISO C knows no cast to a function */
-    return read(bytes, model, error);
+    memcpy(&read, &address, sizeof read);
+    const cs_limits limits = cs_limits_lower(limiting_path);
+    const clshear_status status = read(bytes, model, error);
+    cs_limits_restore(&limits);
+    return status;
+}
+
+static clshear_status unpack_draco(const void *bytes, size_t size, cs_packed_mesh *mesh,
+                                   cs_error *error)
+{
+    cs_draco_reader read;
+    void *address = find("clshear-import-unpack.so", "cs_unpack_draco", error);
+    if (address == NULL) return CLSHEAR_BAD_FILE;
+    memcpy(&read, &address, sizeof read);
+    const cs_limits limits = cs_limits_lower(limiting_path);
+    const clshear_status status = read(bytes, size, mesh, error);
+    cs_limits_restore(&limits);
+    return status;
+}
+
+static clshear_status unpack_meshopt(const void *bytes, size_t size, const cs_packed_view *view,
+                                     unsigned char **unpacked, cs_error *error)
+{
+    cs_meshopt_reader read;
+    void *address = find("clshear-import-unpack.so", "cs_unpack_meshopt", error);
+    if (address == NULL) return CLSHEAR_BAD_FILE;
+    memcpy(&read, &address, sizeof read);
+    const cs_limits limits = cs_limits_lower(limiting_path);
+    const clshear_status status = read(bytes, size, view, unpacked, error);
+    cs_limits_restore(&limits);
+    return status;
+}
+
+const cs_import_modules *cs_modules_for(const char *path)
+{
+    static const cs_import_modules modules = {read_other, unpack_draco, unpack_meshopt};
+    limiting_path = path;
+    return &modules;
 }
 
 /* In the place of texels.cpp, which is in the module. */

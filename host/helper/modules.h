@@ -4,7 +4,8 @@
 
 #include "import/import.h"
 
-/* cs_read_other of the module clshear-import-other.so, beside this program. */
-clshear_status cs_read_by_module(cs_bytes *bytes, cs_model *model, cs_error *error);
+/* What the modules beside this program do for the scene file `path`, one file for each process, by
+ * libraries of others. They have tighter limits on memory and time there than our readers. */
+const cs_import_modules *cs_modules_for(const char *path);
 
 #endif

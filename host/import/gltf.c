@@ -10,7 +10,8 @@
 
 static const char *const supported[] = {"KHR_lights_punctual", "KHR_texture_transform",
                                         "KHR_mesh_quantization", "EXT_texture_webp",
-                                        "KHR_node_visibility",
+                                        "KHR_node_visibility", "EXT_mesh_gpu_instancing",
+                                        "EXT_meshopt_compression", "KHR_draco_mesh_compression",
                                         /* a centre that all is relative to; shown without */
                                         "CESIUM_RTC",
                                         /* tells who made what */
@@ -52,7 +53,6 @@ void gltf_tell(const gltf_reader *reader)
 {
     static const char *const words[GLTF_REMARKS] = {
         [GLTF_DOUBLED] = "in the scene more than once, or a child there, too; shown once",
-        [GLTF_INSTANCED] = "EXT_mesh_gpu_instancing is not supported; one instance is read",
         [GLTF_MORE_JOINTS] =
             "more than four joints of a vertex are not supported; the first four move it",
         [GLTF_BASISU] = "no image that can be read (extension KHR_texture_basisu)",
@@ -295,6 +295,36 @@ static clshear_status check(const gltf_reader *reader)
                                                    : "there are no triangles in its scene");
 }
 
+/* Room for what is found of each buffer, buffer view and accessor. */
+static clshear_status reserve(gltf_reader *reader)
+{
+    reader->buffer_count = gltf_count(reader, "buffers");
+    reader->view_count = gltf_count(reader, "bufferViews");
+    reader->accessor_count = gltf_count(reader, "accessors");
+    reader->buffers = calloc(reader->buffer_count + 1, sizeof *reader->buffers);
+    reader->views = calloc(reader->view_count + 1, sizeof *reader->views);
+    reader->unpacked = calloc(reader->accessor_count + 1, sizeof *reader->unpacked);
+    if (reader->buffers != NULL && reader->views != NULL && reader->unpacked != NULL)
+        return CLSHEAR_OK;
+    return cs_model_full(reader->model, reader->error);
+}
+
+static void free_reader(gltf_reader *reader)
+{
+    for (size_t i = 0; i < reader->buffer_count && reader->buffers != NULL; i++)
+        free(reader->buffers[i].owned);
+    for (size_t i = 0; i < reader->view_count && reader->views != NULL; i++)
+        free(reader->views[i].owned);
+    for (size_t i = 0; i < reader->accessor_count && reader->unpacked != NULL; i++)
+        free(reader->unpacked[i].values);
+    free(reader->buffers);
+    free(reader->views);
+    free(reader->unpacked);
+    free(reader->nodes);
+    json_decref(reader->root);
+    free(reader);
+}
+
 static clshear_status read_all(gltf_reader *reader, cs_bytes *bytes)
 {
     clshear_status status = CLSHEAR_OK;
@@ -312,9 +342,7 @@ static clshear_status read_all(gltf_reader *reader, cs_bytes *bytes)
     CS_TRY(parse(reader, text, size));
     CS_TRY(check_required(reader));
     report_lights(reader);
-    reader->buffer_count = gltf_count(reader, "buffers");
-    reader->buffers = calloc(reader->buffer_count + 1, sizeof *reader->buffers);
-    if (reader->buffers == NULL) return cs_model_full(reader->model, error);
+    CS_TRY(reserve(reader));
     CS_TRY(gltf_materials(reader));
     CS_TRY(gltf_animate(reader));
     CS_TRY(gltf_nodes(reader));
@@ -331,11 +359,6 @@ clshear_status cs_read_gltf(cs_bytes *bytes, cs_model *model, cs_error *error)
     *reader = (gltf_reader){.model = model, .error = error, .default_material = -1};
     cs_folder_of(model->path, reader->folder, sizeof reader->folder);
     const clshear_status status = read_all(reader, bytes);
-    for (size_t i = 0; i < reader->buffer_count && reader->buffers != NULL; i++)
-        free(reader->buffers[i].owned);
-    free(reader->buffers);
-    free(reader->nodes);
-    json_decref(reader->root);
-    free(reader);
+    free_reader(reader);
     return status;
 }

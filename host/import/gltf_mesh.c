@@ -252,16 +252,14 @@ static clshear_status add_primitive(gltf_primitive *primitive, const json_t *jso
     const double mode = gltf_number(json, "mode", 4.0);
     const long long position = gltf_index(attributes, "POSITION");
     char set[16];
+    int is_list = 0;
     primitive->first_normal = primitive->first_texture = CS_NO_INDEX;
-    if (gltf_extension(json, "KHR_draco_mesh_compression") != NULL &&
-        !gltf_has_bytes(reader, position))
-        return gltf_complain(reader, primitive->place, -1,
-                             "needs KHR_draco_mesh_compression, which is not supported");
     if (position == -1) return CLSHEAR_OK;
     if (mode < 4.0 || mode > 6.0) {
         reader->model->without_area++;
         return CLSHEAR_OK;
     }
+    CS_TRY(gltf_unpack_primitive(reader, primitive->place, json, &is_list));
     CS_TRY(find_material(primitive, json));
     CS_TRY(bind_skin(primitive, attributes, position));
     CS_TRY(add_positions(primitive, position));
@@ -277,7 +275,7 @@ static clshear_status add_primitive(gltf_primitive *primitive, const json_t *jso
     }
     const long long colour = gltf_index(attributes, "COLOR_0");
     if (colour >= 0) CS_TRY(add_colours(primitive, colour));
-    CS_TRY(add_indexed(primitive, json, (int)mode));
+    CS_TRY(add_indexed(primitive, json, is_list ? 4 : (int)mode));
 done:
     return status;
 }

@@ -31,7 +31,24 @@ void gltf_multiply(const double *a, const double *b, double *product)
         }
 }
 
-/* The node's own transformation: a matrix, or scale, rotation (a unit quaternion), translation. */
+void gltf_compose(const double *translation, const double *q, const double *s, double *m)
+{
+    const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    const double scale = length > 0.0 ? 1.0 / length : 1.0;
+    const double x = scale * q[0], y = scale * q[1], z = scale * q[2], w = scale * q[3];
+    const double rotation[3][3] = {
+        {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+        {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+        {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+    identity(m);
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++)
+            m[4 * column + row] = s[column] * rotation[column][row];
+    for (int axis = 0; axis < 3; axis++)
+        m[12 + axis] = translation[axis];
+}
+
+/* The node's own transformation. */
 static void local_matrix(const json_t *node, double *m)
 {
     double t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
@@ -43,17 +60,7 @@ static void local_matrix(const json_t *node, double *m)
     gltf_numbers(node, "translation", t, 3);
     gltf_numbers(node, "rotation", q, 4);
     gltf_numbers(node, "scale", s, 3);
-    const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    const double scale = length > 0.0 ? 1.0 / length : 1.0;
-    const double x = scale * q[0], y = scale * q[1], z = scale * q[2], w = scale * q[3];
-    const double rotation[3][3] = {
-        {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
-        {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
-        {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
-    for (int column = 0; column < 3; column++)
-        for (int row = 0; row < 3; row++)
-            m[4 * column + row] = s[column] * rotation[column][row];
-    memcpy(m + 12, t, sizeof t);
+    gltf_compose(t, q, s, m);
 }
 
 /* The node that an element of a list names, -1 if it is no index. */
@@ -248,12 +255,13 @@ static clshear_status visit_node(gltf_reader *reader, cs_array *waiting, const g
     gltf_multiply(visit->matrix, local, matrix);
     const long long camera = gltf_index(node, "camera");
     const json_t *light = gltf_extension(node, "KHR_lights_punctual");
-    if (gltf_index(node, "mesh") != -1 && !is_hidden) CS_TRY(gltf_mesh(reader, node, matrix));
+    const json_t *instances = gltf_extension(node, "EXT_mesh_gpu_instancing");
+    if (gltf_index(node, "mesh") != -1 && !is_hidden)
+        CS_TRY(instances == NULL ? gltf_mesh(reader, node, matrix)
+                                 : gltf_instances(reader, instances, node, matrix));
     if (camera != -1) CS_TRY(add_camera(reader, camera, node, matrix));
     if (light != NULL && !is_hidden)
         CS_TRY(add_light(reader, gltf_index(light, "light"), node, matrix));
-    if (gltf_extension(node, "EXT_mesh_gpu_instancing") != NULL && !is_hidden)
-        gltf_note(reader, GLTF_INSTANCED, "nodes", visit->node);
     CS_TRY(push_children(reader, waiting, node, matrix, is_hidden));
 done:
     return status;

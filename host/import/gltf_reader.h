@@ -13,10 +13,21 @@ typedef struct gltf_buffer {
     char *owned;
 } gltf_buffer;
 
+enum {
+    GLTF_UINT32 = 5125 /* a type of components */
+};
+
+/* The numbers of an accessor that a primitive has in compressed form. */
+typedef struct gltf_unpacked {
+    void *values;   /* those of all items, one behind the other; NULL: it has none; owned */
+    long long view; /* the buffer view that they were unpacked from */
+    int type;       /* of a component */
+    size_t count;   /* of items */
+} gltf_unpacked;
+
 /* What may be said of many places in a file. */
 typedef enum gltf_remark {
     GLTF_DOUBLED,       /* a node that the scene names where it is already */
-    GLTF_INSTANCED,     /* a node that asks for several instances */
     GLTF_MORE_JOINTS,   /* a primitive */
     GLTF_BASISU,        /* a texture that is compressed so */
     GLTF_WITHOUT_IMAGE, /* a texture */
@@ -43,6 +54,10 @@ typedef struct gltf_reader {
     size_t chunk_size;
     gltf_buffer *buffers;
     size_t buffer_count;
+    gltf_buffer *views; /* those that are compressed, once they were asked for */
+    size_t view_count;
+    gltf_unpacked *unpacked; /* of each accessor */
+    size_t accessor_count;
     gltf_node_place *nodes; /* of all nodes; NULL until a skin asks for one */
     char folder[4096];
     int default_material;             /* number of the one for primitives without; -1: none yet */
@@ -93,12 +108,20 @@ int gltf_is_data(const char *uri);
  * follows ? or # are no parts of its name. */
 int gltf_find_file(const gltf_reader *reader, const char *uri, char *found);
 
-/* The bytes of a buffer view. */
+/* The bytes of a buffer that `json`, or an extension of it, names: bufferViews[index]. */
+clshear_status gltf_range(gltf_reader *reader, const json_t *json, long long index,
+                          const unsigned char **data, size_t *size);
+
+/* The bytes of a buffer view; stride: 0 where items lie one behind the other. */
 clshear_status gltf_view(gltf_reader *reader, long long index, const unsigned char **data,
                          size_t *size, size_t *stride);
 
 /* Whether the numbers of an accessor are in the file, and not left to an extension. */
 int gltf_has_bytes(const gltf_reader *reader, long long index);
+
+/* The type of an accessor's components, and how many an item has; fails where there is no such. */
+clshear_status gltf_accessor_type(const gltf_reader *reader, long long index, int *type,
+                                  size_t *components);
 
 /* An accessor as floats: `most` components each at most, `*given` of them in the file. `*values` is
  * freed by the caller. */
@@ -111,6 +134,22 @@ clshear_status gltf_read_colours(gltf_reader *reader, long long index, float **v
                                  size_t *count, size_t *given);
 clshear_status gltf_read_indices(gltf_reader *reader, long long index, uint32_t **values,
                                  size_t *count);
+
+/* ----- Compressed data ----- */
+
+/* Whether meshoptimizer has compressed a buffer view (EXT_meshopt_compression). */
+int gltf_is_packed(const json_t *view);
+
+/* The bytes of one that is, unpacked: number `index`. */
+clshear_status gltf_packed_view(gltf_reader *reader, long long index, const json_t *view,
+                                const unsigned char **data, size_t *size);
+
+/* Unpacks the accessors of a primitive that Draco has compressed (KHR_draco_mesh_compression),
+ * unless the file has them as they are, too, and does without the extension. Others are left as
+ * they are. *is_list becomes 1 where its indices are those of single triangles, whatever its mode
+ * says. */
+clshear_status gltf_unpack_primitive(gltf_reader *reader, const char *place,
+                                     const json_t *primitive, int *is_list);
 
 /* ----- Content ----- */
 
@@ -159,5 +198,14 @@ clshear_status gltf_morph(gltf_reader *reader, const json_t *primitive, const js
 /* Adds the triangles of a node's mesh, moved by a matrix (4 columns of 4) or by the node's skin,
  * with the weights of its morph targets. */
 clshear_status gltf_mesh(gltf_reader *reader, const json_t *node, const double *matrix);
+
+/* The same once for each of the node's instances (EXT_mesh_gpu_instancing). `instances` is the
+ * extension. */
+clshear_status gltf_instances(gltf_reader *reader, const json_t *instances, const json_t *node,
+                              const double *matrix);
+
+/* The matrix (4 columns of 4) that moves, turns (a unit quaternion) and scales. */
+void gltf_compose(const double *translation, const double *rotation, const double *scale,
+                  double *matrix);
 
 #endif

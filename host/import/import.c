@@ -83,31 +83,33 @@ static const char *flaw_of(const cs_bytes *bytes, const char *path)
     return flaw != NULL ? flaw : find_mark(bytes, archives);
 }
 
-static cs_other_reader reader_for(const cs_bytes *bytes, const char *path, cs_other_reader other)
+static cs_other_reader reader_for(const cs_bytes *bytes, const char *path,
+                                  const cs_import_modules *modules)
 {
     if (cs_is_gltf(bytes, path)) return cs_read_gltf;
     if (cs_is_ply(bytes, path)) return cs_read_ply;
     if (cs_is_obj(bytes, path)) return cs_read_obj;
     if (cs_is_stl(bytes, path)) return cs_read_stl;
     if (cs_is_off(bytes, path)) return cs_read_off;
-    return other != NULL ? other : refuse;
+    return modules != NULL && modules->other != NULL ? modules->other : refuse;
 }
 
 clshear_status cs_import_here(const char *path, const cs_import_options *options,
-                              cs_other_reader other, cs_scene *scene, const cs_log *log,
+                              const cs_import_modules *modules, cs_scene *scene, const cs_log *log,
                               cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     cs_bytes bytes = {0};
     cs_model model;
     cs_model_init(&model, path, log);
+    model.modules = modules;
     model.is_played = options->is_played;
     model.time_s = options->time_s;
     CS_TRY(cs_bytes_read(path, &bytes, error));
     CS_REQUIRE(bytes.size > 0, CLSHEAR_BAD_FILE, "%s: is empty", path);
     const char *flaw = flaw_of(&bytes, path), *packing = find_mark(&bytes, packings);
     CS_REQUIRE(flaw == NULL, CLSHEAR_BAD_FILE, "%s: %s", path, flaw);
-    status = reader_for(&bytes, path, other)(&bytes, &model, error);
+    status = reader_for(&bytes, path, modules)(&bytes, &model, error);
     CS_REQUIRE(status != CLSHEAR_BAD_FILE || packing == NULL, status, "%s: %s", path, packing);
     CS_TRY(status);
     scene->z_up = model.z_up;

@@ -2,7 +2,7 @@
 #ifndef CS_IMPORT_IMPORT_H
 #define CS_IMPORT_IMPORT_H
 
-#include "import/model.h"
+#include "import/readers.h"
 #include "import/text.h"
 
 typedef struct cs_import_options {
@@ -17,12 +17,9 @@ typedef struct cs_import_options {
 clshear_status cs_scene_import(const char *path, const cs_import_options *options, cs_scene *scene,
                                const cs_log *log, cs_error *error);
 
-/* A reader of the formats that have none of their own. */
-typedef clshear_status (*cs_other_reader)(cs_bytes *bytes, cs_model *model, cs_error *error);
-
-/* The same in this process. `other` NULL: other formats are refused. */
+/* The same in this process. */
 clshear_status cs_import_here(const char *path, const cs_import_options *options,
-                              cs_other_reader other, cs_scene *scene, const cs_log *log,
+                              const cs_import_modules *modules, cs_scene *scene, const cs_log *log,
                               cs_error *error);
 
 #endif

@@ -65,12 +65,15 @@ typedef struct cs_model_camera {
                       counts */
 } cs_model_camera;
 
+struct cs_import_modules;
+
 typedef struct cs_model {
     const char *path; /* of the file, for messages */
     const cs_log *log;
-    int is_played;       /* whether the animation is */
-    double time_s;       /* of the animation */
-    cs_array positions;  /* double[3] */
+    const struct cs_import_modules *modules; /* NULL: none */
+    int is_played;                           /* whether the animation is */
+    double time_s;                           /* of the animation */
+    cs_array positions;                      /* double[3] */
     cs_array colours;    /* float[3], linear, one for each position; or none at all */
     cs_array normals;    /* float[3] */
     cs_array textures;   /* float[2] */

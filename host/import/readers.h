@@ -4,7 +4,18 @@
 #define CS_IMPORT_READERS_H
 
 #include "import/model.h"
+#include "import/packed.h"
 #include "import/text.h"
+
+/* A reader of the formats that have none of their own here. */
+typedef clshear_status (*cs_other_reader)(cs_bytes *bytes, cs_model *model, cs_error *error);
+
+/* What clshear-import loads when a file needs it. NULL: such files are refused. */
+typedef struct cs_import_modules {
+    cs_other_reader other;
+    cs_draco_reader draco;
+    cs_meshopt_reader meshopt;
+} cs_import_modules;
 
 clshear_status cs_read_obj(cs_bytes *bytes, cs_model *model, cs_error *error);
 clshear_status cs_read_ply(cs_bytes *bytes, cs_model *model, cs_error *error);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "helper/unpack.h"
 #include "image/image_io.h"
 #include "import/import.h"
 #include "import/transfer.h"
@@ -27,11 +28,12 @@ clshear_status __wrap_cs_image_read_texels(const char *path, const char *label, 
 static void read_scene(const char *path, size_t size)
 {
     const cs_import_options options = {.smooth_degrees = size % 2 == 0 ? -1.0 : 40.0};
+    const cs_import_modules modules = {.draco = cs_unpack_draco, .meshopt = cs_unpack_meshopt};
     const cs_log log = {0};
     cs_scene scene;
     cs_error error;
     cs_scene_init(&scene);
-    if (cs_import_here(path, &options, NULL, &scene, &log, &error) == CLSHEAR_OK &&
+    if (cs_import_here(path, &options, &modules, &scene, &log, &error) == CLSHEAR_OK &&
         !cs_scene_is_sound(&scene))
         abort();
     cs_scene_free(&scene);
