@@ -67,8 +67,9 @@ clshear_status gltf_accessor_type(const gltf_reader *reader, long long index, in
 static void point_at_unpacked(const gltf_unpacked *unpacked, gltf_span *span)
 {
     span->type = unpacked->type;
+    span->components = unpacked->components;
     span->data = unpacked->values;
-    span->stride = span->components * size_of(unpacked->type);
+    span->stride = unpacked->components * size_of(unpacked->type);
     span->count = unpacked->count;
 }
 

@@ -83,10 +83,10 @@ static int is_required(const gltf_reader *reader)
 }
 
 /* Gives an accessor the numbers that were unpacked for it, in the place of those it has. */
-static void take_over(gltf_unpacked *accessor, long long view, void *values, int type, size_t count)
+static void take_over(gltf_unpacked *accessor, const gltf_unpacked *made)
 {
     free(accessor->values);
-    *accessor = (gltf_unpacked){.values = values, .view = view, .type = type, .count = count};
+    *accessor = *made;
 }
 
 /* Notes what the accessors of a primitive want of its mesh. `wanted` has room for all of them, and
@@ -148,11 +148,13 @@ static clshear_status unpack_mesh(gltf_reader *reader, const char *place, const 
     if (status != CLSHEAR_OK) return status;
     for (size_t i = 0; i < mesh->attribute_count; i++) {
         cs_packed_attribute *from = &mesh->attributes[i];
-        take_over(&reader->unpacked[accessors[i]], view, from->values, from->type,
-                  mesh->vertex_count);
+        take_over(
+            &reader->unpacked[accessors[i]],
+            &(gltf_unpacked){from->values, view, from->type, from->components, mesh->vertex_count});
         from->values = NULL;
     }
-    take_over(&reader->unpacked[indices], view, mesh->indices, GLTF_UINT32, mesh->index_count);
+    take_over(&reader->unpacked[indices],
+              &(gltf_unpacked){mesh->indices, view, GLTF_UINT32, 1, mesh->index_count});
     mesh->indices = NULL;
     return CLSHEAR_OK;
 }

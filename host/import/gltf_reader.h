@@ -19,10 +19,11 @@ enum {
 
 /* The numbers of an accessor that a primitive has in compressed form. */
 typedef struct gltf_unpacked {
-    void *values;   /* those of all items, one behind the other; NULL: it has none; owned */
-    long long view; /* the buffer view that they were unpacked from */
-    int type;       /* of a component */
-    size_t count;   /* of items */
+    void *values;      /* those of all items, one behind the other; NULL: it has none; owned */
+    long long view;    /* the buffer view that they were unpacked from */
+    int type;          /* of a component */
+    size_t components; /* of an item */
+    size_t count;      /* of items */
 } gltf_unpacked;
 
 /* What may be said of many places in a file. */
