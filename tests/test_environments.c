@@ -91,7 +91,7 @@ static float density_of(const cs_lat_long *image, const float *direction)
 {
     float x, y;
     cs_lat_long_place(image, direction, &x, &y);
-    return cs_lat_long_density(image, x, y);
+    return cs_lat_long_density(image, 0, x, y);
 }
 
 static void texels_are_where_they_should_be(void **state)
@@ -147,7 +147,7 @@ static void count_in_boxes(const cs_lat_long *image, double *seen)
     for (cs_u32 i = 0; i < DRAWS; i++) {
         float direction[3], x, y, drawn_x = (float)(cs_key(1, i) >> 8) * 0x1p-24f;
         float drawn_y = (float)(cs_key(2, i) >> 8) * 0x1p-24f;
-        const float density = cs_lat_long_draw(image, &drawn_x, &drawn_y, direction);
+        const float density = cs_lat_long_draw(image, 0, &drawn_x, &drawn_y, direction);
         cs_lat_long_place(image, direction, &x, &y);
         assert_near(drawn_x, x, 1e-4);
         assert_near(drawn_y, y, 1e-4);

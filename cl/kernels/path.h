@@ -52,6 +52,9 @@ static inline void cs_path_begin(cs_paths *paths, int p, const cs_ray *ray, cs_p
     path->index = draws->index;
     path->density = (cs_vfloat)(0.0f);
     path->cosine = (cs_vfloat)(0.0f);
+#if CS_HAS(LIGHTS)
+    path->facing = (cs_vint)(0);
+#endif
 #if CS_HAS(MATERIALS)
     path->squeezed = (cs_vfloat)(1.0f);
 #endif
@@ -101,6 +104,9 @@ static inline void cs_path_advance(const cs_scene_buffers *scene, cs_paths *path
     }
     if (last && !cs_any(seen & ~alone)) return;
     cs_path_scatter(paths, &view, origin, &numbers, path);
+#if CS_HAS(LIGHTS)
+    path->facing = cs_environment_facing(scene, launch->lights, &surface);
+#endif
     path->alive = path->alive & ~alone;
     paths->rays += path->alive ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
 }

@@ -53,7 +53,7 @@ static inline void cs_add_escaped(const cs_scene_buffers *scene, cs_u32 lights, 
         cs_vint sees = active & (hit->triangle == (cs_vint)(CS_NO_HIT));
         cs_escaped found;
         if (light->kind == CS_LIGHT_ENVIRONMENT) {
-            found = cs_escape_to_environment(scene, light, ray, (cs_vfloat)(0.0f), 0);
+            found = cs_escape_to_environment(scene, light, ray, (cs_vfloat)(0.0f), (cs_vint)(0), 0);
         } else if (cs_is_shape(light)) {
             sees = hit->triangle == (cs_vint)(cs_shape_hit(i));
             found = cs_escape_to_shape(light, ray);

@@ -10,6 +10,7 @@
 #include "base/pi.h"
 #include "base/vec.h"
 #include "image/image_io.h"
+#include "scene/environment_tables.h"
 #include "scene/scene.h"
 
 enum {
@@ -53,64 +54,6 @@ static void copy_texels(const float *texels, size_t count, float *copy)
         copy[i] = radiance_of(texels[i]);
 }
 
-static double luminance_at(const float *texels, size_t width, size_t x, size_t y)
-{
-    const float *texel = texels + 3 * (y * width + x);
-    return cs_luminance_double((double)radiance_of(texel[0]), (double)radiance_of(texel[1]),
-                               (double)radiance_of(texel[2]));
-}
-
-/* Mean luminance of the bilinear image over a texel. Over the half of a texel that is nearer to one
- * neighbour the interpolation gives it 1/8 of the whole, so the weights along an axis are 1/8, 3/4,
- * 1/8: no direction that shines has density 0. */
-static double mean_luminance(const float *texels, size_t width, size_t height, size_t x, size_t y)
-{
-    static const double weights[3] = {0.125, 0.75, 0.125};
-    double sum = 0.0;
-    for (size_t j = 0; j < 3; j++)
-        for (size_t i = 0; i < 3; i++) {
-            size_t row = y + j > 0 ? y + j - 1 : 0;
-            if (row >= height) row = height - 1;
-            sum += weights[i] * weights[j] *
-                   luminance_at(texels, width, (x + width + i - 1) % width, row);
-        }
-    return sum;
-}
-
-/* Makes cumulative probabilities of weights; returns their sum. All 0: even. */
-static double accumulate(const double *weights, size_t count, float *cumulative)
-{
-    double total = 0.0, below = 0.0;
-    for (size_t i = 0; i < count; i++)
-        total += weights[i];
-    for (size_t i = 0; i < count; i++) {
-        below += weights[i];
-        cumulative[i] = (float)(total > 0.0 ? below / total : ((double)i + 1.0) / (double)count);
-    }
-    cumulative[count - 1] = 1.0f;
-    return total;
-}
-
-/* The tables behind the texels: rows of cells, then the cells of each row. */
-static void tabulate(const float *texels, size_t width, size_t height, size_t across, size_t down,
-                     double *row_weights, double *weights, float *tables)
-{
-    const size_t step_x = width / across, step_y = height / down;
-    for (size_t row = 0; row < down; row++) {
-        for (size_t column = 0; column < across; column++) {
-            weights[column] = 0.0;
-            for (size_t y = row * step_y; y < (row + 1) * step_y; y++)
-                for (size_t x = column * step_x; x < (column + 1) * step_x; x++)
-                    weights[column] += mean_luminance(texels, width, height, x, y);
-        }
-        const double top = cos(CS_PI_DOUBLE * (double)row / (double)down);
-        const double bottom = cos(CS_PI_DOUBLE * (double)(row + 1) / (double)down);
-        row_weights[row] = accumulate(weights, across, tables + down + row * across);
-        row_weights[row] *= top - bottom;
-    }
-    accumulate(row_weights, down, tables);
-}
-
 /* Whether directions that a diffuse surface draws serve better than cells. Over all ways that a
  * surface can face, the second moment of radiance times cosine by density is pi / 4 times the
  * integral of the squared radiance if directions are drawn by the cosine, and a sixth of the square
@@ -123,7 +66,9 @@ static int is_even(const float *texels, size_t width, size_t height)
         const double below = cos(CS_PI_DOUBLE * (double)(y + 1) / (double)height);
         const double part = (above - below) * 2.0 * CS_PI_DOUBLE / (double)width; /* sr */
         for (size_t x = 0; x < width; x++) {
-            const double luminance = luminance_at(texels, width, x, y);
+            const float *texel = texels + 3 * (y * width + x);
+            const double luminance =
+                cs_luminance_double((double)texel[0], (double)texel[1], (double)texel[2]);
             whole += luminance * part;
             square += luminance * luminance * part;
         }
@@ -147,26 +92,25 @@ clshear_status cs_environment_make(const float *texels, size_t width, size_t hei
     const float white[3] = {1.0f, 1.0f, 1.0f};
     if (width == 0 || height == 0)
         return cs_fail(error, CLSHEAR_BAD_FILE, "environment: an image without texels");
-    const int even = is_even(texels, width, height);
-    const size_t across = cells_of(width, MOST_CELLS), down = cells_of(height, MOST_CELLS / 2);
-    double *weights = malloc((across + down) * sizeof *weights);
     environment->image = (cs_array){.item_size = sizeof(cs_f32)};
-    /* One number at least behind the texels, which are read four at a time. */
-    float *buffer = cs_array_extend(&environment->image,
-                                    3 * width * height + (even ? 1 : down + down * across));
-    CS_REQUIRE(weights != NULL && buffer != NULL, CLSHEAR_OUT_OF_MEMORY,
+    float *copy = cs_array_extend(&environment->image, 3 * width * height);
+    CS_REQUIRE(copy != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory for an environment of %zu x %zu texels", width, height);
+    copy_texels(texels, width * height, copy);
     describe(white, &environment->light);
     environment->light.count = (cs_u32)width;
     environment->light.parameters[0] = (float)height;
-    environment->light.parameters[1] = even ? 0.0f : (float)across;
-    environment->light.parameters[2] = even ? 0.0f : (float)down;
-    copy_texels(texels, width * height, buffer);
-    if (!even)
-        tabulate(buffer, width, height, across, down, weights, weights + down,
-                 buffer + 3 * width * height);
+    if (is_even(copy, width, height)) {
+        /* One number at least behind the texels, which are read four at a time. */
+        CS_REQUIRE(cs_array_extend(&environment->image, 1) != NULL, CLSHEAR_OUT_OF_MEMORY,
+                   "out of memory for an environment");
+    } else {
+        const size_t across = cells_of(width, MOST_CELLS), down = cells_of(height, MOST_CELLS / 2);
+        environment->light.parameters[1] = (float)across;
+        environment->light.parameters[2] = (float)down;
+        CS_TRY(cs_environment_tabulate(width, height, across, down, &environment->image, error));
+    }
 done:
-    free(weights);
     return status;
 }
 

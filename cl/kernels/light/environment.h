@@ -2,6 +2,7 @@
 #ifndef CS_LIGHT_ENVIRONMENT_H
 #define CS_LIGHT_ENVIRONMENT_H
 
+#include "kernels/bsdf/bsdf.h"
 #include "kernels/light/cone.h"
 #include "kernels/light/lat_long.h"
 
@@ -36,13 +37,35 @@ static inline void cs_draw_around(const cs_vfloat *normal, cs_pair pair, cs_ligh
     sample->weight = (cs_vfloat)(CS_PI);
 }
 
-/* Directions by the cells of an image; pair becomes their place in it. */
-static inline void cs_draw_texels(const cs_lat_long *image, const cs_vfloat *normal, cs_pair *pair,
-                                  cs_light_sample *sample)
+/* Which tables of an image serve the surfaces. */
+static inline cs_vint cs_facing_of(const cs_lat_long *image, const cs_surface *surface)
 {
-    sample->density = cs_lat_long_draw(image, &pair->x, &pair->y, sample->towards);
-    sample->weight = sample->density > 0.0f ? cs_dot(normal, sample->towards) / sample->density
-                                            : (cs_vfloat)(0.0f);
+    return cs_lets_through(surface) ? (cs_vint)(CS_FACING_ANY)
+                                    : cs_lat_long_facing(image, surface->normal);
+}
+
+/* The same for the environment among `lights` lights; where its image has no tables, any number. */
+static inline cs_vint cs_environment_facing(const cs_scene_buffers *scene, cs_u32 lights,
+                                            const cs_surface *surface)
+{
+    for (cs_u32 i = 0u; i < lights; i++) {
+        CS_GLOBAL const cs_light *light = scene->lights + i;
+        if (light->kind != CS_LIGHT_ENVIRONMENT || light->count == 0u) continue;
+        cs_lat_long image = cs_lat_long_of(light, scene->environment);
+        if (image.cells_x > 0u) return cs_facing_of(&image, surface);
+    }
+    return (cs_vint)(0);
+}
+
+/* Directions by the cells of an image; pair becomes their place in it. */
+static inline void cs_draw_texels(const cs_lat_long *image, const cs_surface *surface,
+                                  cs_pair *pair, cs_light_sample *sample)
+{
+    cs_vint facing = cs_facing_of(image, surface);
+    sample->density = cs_lat_long_draw(image, facing, &pair->x, &pair->y, sample->towards);
+    sample->weight = sample->density > 0.0f
+                         ? cs_dot(surface->normal, sample->towards) / sample->density
+                         : (cs_vfloat)(0.0f);
 }
 
 /* colour: radiance, times the image's if there is one (light->count above 0, see cs_lat_long_of).
@@ -57,7 +80,7 @@ static inline cs_light_sample cs_sample_light_environment(const cs_scene_buffers
     for (int i = 0; i < 3; i++)
         sample.colour[i] = (cs_vfloat)(light->colour[i]);
     if (image.cells_x > 0u)
-        cs_draw_texels(&image, surface->normal, &pair, &sample);
+        cs_draw_texels(&image, surface, &pair, &sample);
     else
         cs_draw_around(surface->normal, pair, &sample);
     if (image.width == 0u) return sample;

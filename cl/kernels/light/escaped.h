@@ -66,10 +66,12 @@ static inline cs_escaped cs_escape_to_shape(CS_GLOBAL const cs_light *light, con
     return found;
 }
 
-/* cosine: at the surface that the ray left. weighed: whether the density is wanted. */
+/* cosine, facing (cs_environment_facing): at the surface that the ray left. weighed: whether the
+ * density is wanted. */
 static inline cs_escaped cs_escape_to_environment(const cs_scene_buffers *scene,
                                                   CS_GLOBAL const cs_light *light,
-                                                  const cs_ray *ray, cs_vfloat cosine, int weighed)
+                                                  const cs_ray *ray, cs_vfloat cosine,
+                                                  cs_vint facing, int weighed)
 {
     cs_escaped found;
     for (int i = 0; i < 3; i++)
@@ -80,7 +82,7 @@ static inline cs_escaped cs_escape_to_environment(const cs_scene_buffers *scene,
     cs_vfloat x, y, radiance[3];
     cs_lat_long_place(&image, ray->direction, &x, &y);
     cs_lat_long_radiance(&image, x, y, radiance);
-    if (weighed && image.cells_x > 0u) found.density = cs_lat_long_density(&image, x, y);
+    if (weighed && image.cells_x > 0u) found.density = cs_lat_long_density(&image, facing, x, y);
     for (int c = 0; c < 3; c++)
         found.colour[c] *= radiance[c];
     return found;

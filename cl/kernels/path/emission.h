@@ -53,8 +53,8 @@ static inline void cs_path_add_escaped(const cs_scene_buffers *scene, cs_paths *
             if (!cs_any(escaped)) continue;
             found = cs_escape_to_shape(light, &path->ray);
         } else if (light->kind == CS_LIGHT_ENVIRONMENT)
-            found =
-                cs_escape_to_environment(scene, light, &path->ray, path->cosine, paths->depth > 0u);
+            found = cs_escape_to_environment(scene, light, &path->ray, path->cosine, path->facing,
+                                             paths->depth > 0u);
         else if (light->kind == CS_LIGHT_SUN && paths->depth > 0u)
             found = cs_escape_to_sun(light, &path->ray);
         else

@@ -20,6 +20,9 @@ typedef struct cs_path {
     cs_vfloat throughput[3]; /* radiance at the lens for one at the end of the ray */
     cs_vfloat density;       /* with which the BSDF drew the ray; of camera rays it is not used */
     cs_vfloat cosine;        /* of the ray at the surface that it left; negative behind it */
+#if CS_HAS(LIGHTS)
+    cs_vint facing; /* of that surface, see cs_environment_facing */
+#endif
 #if CS_HAS(EMITTERS)
     cs_vantage left; /* the surface behind the path's end */
 #endif
