@@ -53,16 +53,18 @@ def panel(corner, edge, other, radiance):
                                  "emitter": {"type": "area", "radiance": rgb(radiance)}}
 
 
-def environment(folder):
+def environment(folder, brightest=1.0):
     """Radiance that is linear in the angle from the pole, where Mitsuba's rows are elsewhere, and
-    random in longitude. The middle of clshear's image is the edge of Mitsuba's."""
+    random in longitude. The middle of clshear's image is the edge of Mitsuba's. brightest: by how
+    much one of its columns is brighter: an image that is even has no tables in clshear."""
     width, height = 32, 256
     across = np.random.default_rng(7).uniform(0.2, 2.0, (1, width, 3))
+    across[0, 9] *= brightest
 
     def image(places):
         return (across * (2.0 - 1.5 * places[:, None, None])).astype(np.float32)
 
-    path = folder / "environment.exr"
+    path = folder / f"environment{brightest:g}.exr"
     mi.Bitmap(image((np.arange(height) + 0.5) / height)).write(str(path))
     theirs = np.roll(image(np.arange(height) / (height - 1)), -width // 2, axis=1)
     return ["--environment", str(path)], {"type": "envmap", "bitmap": mi.Bitmap(

@@ -8,6 +8,7 @@ from surfaces import (black_coat, black_dielectric, diffuse, foil, glass, shinin
 def scenes(folder):
     """Name: parts (geometry, surface), lights, bounces."""
     grey, sky = (ground(), diffuse(0.5, 0.4, 0.3)), environment(folder)
+    uneven = environment(folder, 60.0)
     lit = point([2.0, 4.0, 1.0], [30.0, 25.0, 20.0])
     solid = [grey, (ball(), diffuse(0.8, 0.2, 0.4))]
 
@@ -24,16 +25,20 @@ def scenes(folder):
         "panel": (solid, [panel([-1.0, 3.0, -1.0], [2.0, 0.5, 0.0], [0.0, 0.0, 2.0],
                                 [8.0, 6.0, 4.0])], 1),
         "environment": (solid, [sky], 1),
+        "environment-uneven": (solid, [uneven], 1),
         "four-bounces": ([*solid, (card(2.2, 2.0), diffuse(0.9, 0.9, 0.9))],
                          [point([2.0, 0.4, 1.5], [8.0, 8.0, 8.0])], 4),
         "metal-polished": (with_ball(white_metal(0.25)), [sky], 2),
         "metal-rough": (with_ball(white_metal(0.7)), [sky, lit], 2),
         "metal-tinted": (with_ball(tinted_metal(0.5, 0.9, 0.5, 0.2)), [sky, lit], 2),
+        "metal-uneven": (with_ball(white_metal(0.4)), [uneven], 2),
         "dielectric-facets": (with_ball(black_dielectric(0.4)), [sky, lit], 2),
         "coat-facets": (with_ball(black_coat(0.3)), [sky, lit], 2),
         "glass-smooth": (with_ball(glass(0.0)), [sky], 12),
         "glass-rough": (with_ball(glass(0.5)), [sky], 12),
+        "glass-uneven": (with_ball(glass(0.5)), [uneven], 6),
         "foil": ([grey, (card(), foil(0.9, 0.5, 0.2))], [sky], 8),
+        "foil-uneven": ([grey, (card(), foil(0.9, 0.5, 0.2))], [uneven], 4),
         "alpha": ([grey, (card(), textured(open_texels=True))], [sky], 8),
         "texture-transform": ([(ground(2.0), textured(([2.5, 1.5], [0.3, 0.1])))], [lit], 0),
     }
