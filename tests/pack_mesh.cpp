@@ -14,7 +14,7 @@ void add(draco::Mesh *to, GeometryAttribute::Type kind, draco::DataType type, in
          std::size_t item_size, const void *values)
 {
     GeometryAttribute attribute;
-    attribute.Init(kind, nullptr, static_cast<std::int8_t>(components), type,
+    attribute.Init(kind, nullptr, static_cast<std::uint8_t>(components), type,
                    type == draco::DT_UINT8, static_cast<std::int64_t>(item_size), 0);
     const int id = to->AddAttribute(attribute, true, to->num_points());
     for (std::uint32_t i = 0; i < to->num_points(); i++)

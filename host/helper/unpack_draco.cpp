@@ -46,6 +46,8 @@ clshear_status copy_attribute(const draco::Mesh &mesh, cs_packed_attribute *to, 
         return copy_values<std::int16_t>(mesh, *from, to, error);
     case 5123:
         return copy_values<std::uint16_t>(mesh, *from, to, error);
+    case 5124: /* glTF has no such type; its meaning is plain */
+        return copy_values<std::int32_t>(mesh, *from, to, error);
     case 5125:
         return copy_values<std::uint32_t>(mesh, *from, to, error);
     default:

@@ -55,6 +55,9 @@ clshear_status gltf_instances(gltf_reader *reader, const json_t *instances, cons
     clshear_status status = CLSHEAR_OK;
     for (size_t i = 0; i < PLACINGS && status == CLSHEAR_OK; i++)
         status = read_placing(reader, attributes, &placings[i], &count);
+    const int is_placed = placings[TRANSLATION].values != NULL ||
+                          placings[ROTATION].values != NULL || placings[SCALE].values != NULL;
+    if (!is_placed && status == CLSHEAR_OK) status = gltf_mesh(reader, node, matrix);
     for (size_t i = 0; i < count && status == CLSHEAR_OK; i++) {
         double t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1}, own[16], placed[16];
         copy(&placings[TRANSLATION], i, t);

@@ -41,10 +41,14 @@ static clshear_status unpack_view(gltf_reader *reader, long long index, const js
                                  .stride = (size_t)stride,
                                  .mode = gltf_text(json, "mode", ""),
                                  .filter = gltf_text(json, "filter", "NONE")};
-    status = read(data, size, &view, (unsigned char **)&made->owned, &why);
-    if (status != CLSHEAR_OK)
+    unsigned char *items = NULL;
+    status = read(data, size, &view, &items, &why);
+    if (status != CLSHEAR_OK) {
+        free(items);
         return gltf_complain(reader, "bufferViews", index, "%s: %s", meshopt_name, why.message);
-    made->data = (const unsigned char *)made->owned;
+    }
+    made->owned = (char *)items;
+    made->data = items;
     made->size = view.count * view.stride;
     return CLSHEAR_OK;
 }
@@ -159,6 +163,28 @@ static clshear_status unpack_mesh(gltf_reader *reader, const char *place, const 
     return CLSHEAR_OK;
 }
 
+static int came_from(const gltf_reader *reader, long long accessor, long long view)
+{
+    if (accessor < 0 || (size_t)accessor >= reader->accessor_count) return 0;
+    const gltf_unpacked *unpacked = &reader->unpacked[accessor];
+    return unpacked->values != NULL && unpacked->view == view;
+}
+
+/* Whether all that the primitive has in the buffer view is in its accessors already. */
+static int is_unpacked(const gltf_reader *reader, const json_t *primitive, long long view)
+{
+    const json_t *attributes = json_object_get(primitive, "attributes");
+    const char *name;
+    json_t *ignored;
+    json_object_foreach(json_object_get(gltf_extension(primitive, draco_name), "attributes"), name,
+                        ignored)
+    {
+        const long long accessor = gltf_index(attributes, name);
+        if (accessor != -1 && !came_from(reader, accessor, view)) return 0;
+    }
+    return came_from(reader, gltf_index(primitive, "indices"), view);
+}
+
 clshear_status gltf_unpack_primitive(gltf_reader *reader, const char *place,
                                      const json_t *primitive, int *is_list)
 {
@@ -169,8 +195,7 @@ clshear_status gltf_unpack_primitive(gltf_reader *reader, const char *place,
     if (gltf_at(reader, "accessors", position) == NULL) return CLSHEAR_BAD_FILE;
     if (!is_required(reader) && gltf_has_bytes(reader, position)) return CLSHEAR_OK;
     *is_list = 1;
-    if (reader->unpacked[position].values != NULL && reader->unpacked[position].view == view)
-        return CLSHEAR_OK;
+    if (is_unpacked(reader, primitive, view)) return CLSHEAR_OK;
     const size_t most = json_object_size(json_object_get(packed, "attributes")) + 1;
     cs_packed_mesh mesh = {.attributes = calloc(most, sizeof *mesh.attributes)};
     long long *accessors = calloc(most, sizeof *accessors);

@@ -18,7 +18,7 @@ enum {
 static const double by_mean = 0.75, by_most = 0.25;
 
 /* Between a normal that faces a way and the nearest of those that stand for it, at most. */
-static const double between_normals_rad = 0.086;
+static const double between_normals_rad = 0.089;
 
 /* An image, and what is made of it. */
 typedef struct table_maker {
@@ -132,8 +132,9 @@ static void decode_octahedron(double x, double y, double *vector)
 static void find_normals(int facing, double normals[NORMALS * NORMALS][3])
 {
     for (int i = 0; i < NORMALS * NORMALS; i++) {
-        const double x = facing % CS_FACINGS_ACROSS + i % NORMALS / (NORMALS - 1.0);
-        const double y = facing / CS_FACINGS_ACROSS + i / NORMALS / (NORMALS - 1.0);
+        const int column = facing % CS_FACINGS_ACROSS, row = facing / CS_FACINGS_ACROSS;
+        const int across = i % NORMALS, down = i / NORMALS;
+        const double x = column + across / (NORMALS - 1.0), y = row + down / (NORMALS - 1.0);
         decode_octahedron(2.0 * x / CS_FACINGS_ACROSS - 1.0, 2.0 * y / CS_FACINGS_ACROSS - 1.0,
                           normals[i]);
     }

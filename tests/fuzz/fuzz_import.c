@@ -1,5 +1,6 @@
 /* The bytes as a scene file of one format, read in this process. Images and meshes that Draco has
- * compressed are left to their libraries, which are behind the wall: their places have stand-ins. */
+ * compressed are left to their libraries, which are behind the wall: their places have stand-ins.
+ */
 #include <stdlib.h>
 #include <string.h>
 
