@@ -93,7 +93,7 @@ const char *sheet_write(const char *name, const sheet_parts *data, const sheet_c
     return test_file(name, text);
 }
 
-const char *sheet_write_plain(const char *name, const char *of_primitive)
+const char *sheet_write_plain(const char *name, const char *of_primitive, const char *required)
 {
     static sheet_parts data;
     char views[1024] = "";
@@ -105,8 +105,9 @@ const char *sheet_write_plain(const char *name, const char *of_primitive)
                                  "%s{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu}",
                                  i > 0 ? "," : "", data.begin[i], data.size[i]);
     }
-    return sheet_write(name, &data,
-                       &(sheet_contents){.views = views, .of_primitive = of_primitive});
+    return sheet_write(
+        name, &data,
+        &(sheet_contents){.views = views, .of_primitive = of_primitive, .required = required});
 }
 
 /* ----- Scenes ----- */

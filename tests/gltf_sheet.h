@@ -48,8 +48,9 @@ typedef struct sheet_contents {
 /* Writes a file and returns its path. */
 const char *sheet_write(const char *name, const sheet_parts *data, const sheet_contents *what);
 
-/* The same without compression; of_primitive: more members of the primitive. */
-const char *sheet_write_plain(const char *name, const char *of_primitive);
+/* The same without compression. of_primitive: more members of the primitive; required: an
+ * extension, or NULL. */
+const char *sheet_write_plain(const char *name, const char *of_primitive, const char *required);
 
 /* Reads a file behind the wall, as the program does. Warnings fail the test. The caller frees the
  * scene. */

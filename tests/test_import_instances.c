@@ -3,6 +3,27 @@
 
 #include <stdio.h>
 
+/* Writes a sheet with an accessor that has no items; of_node: more members of the node. */
+static const char *write_instances(const char *of_node)
+{
+    static sheet_parts data;
+    char views[1024] = "";
+    size_t used = 0;
+    sheet_make();
+    data.used = 0;
+    for (int i = 0; i < 5; i++) {
+        sheet_append(&data, i, sheet_items[i], sheet_counts[i] * sheet_strides[i]);
+        used += (size_t)snprintf(views + used, sizeof views - used,
+                                 "%s{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu}",
+                                 i > 0 ? "," : "", data.begin[i], data.size[i]);
+    }
+    return sheet_write("placed.gltf", &data,
+                       &(sheet_contents){.views = views,
+                                         .accessors = ",{\"count\":0,\"componentType\":5126,"
+                                                      "\"type\":\"VEC3\"}",
+                                         .of_node = of_node});
+}
+
 /* Three of them: moved, turned by a right angle about Z in signed bytes, and scaled. */
 static void instances_of_a_node(void **state)
 {
@@ -54,10 +75,40 @@ static void instances_of_a_node(void **state)
     cs_scene_free(&scene);
 }
 
+/* Attributes of other numbers of instances, none among them, and one that places nothing. The
+ * accessors 0 and 1 have an item for each vertex, 5 has none. */
+static void attributes_that_do_not_fit(void **state)
+{
+    static const struct {
+        const char *attributes;
+        const char *words; /* NULL: it is read */
+        size_t instances;
+    } files[] = {{"\"TRANSLATION\":5,\"SCALE\":1", "81 instances, but 0 have another attribute", 0},
+                 {"\"TRANSLATION\":2", "is no VEC3 for the TRANSLATION of instances", 0},
+                 {"\"TRANSLATION\":0,\"SCALE\":1", NULL, SHEET_VERTICES},
+                 {"\"_ID\":5", NULL, 1}};
+    (void)state;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        char node[256];
+        snprintf(node, sizeof node,
+                 ",\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{%s}}}",
+                 files[i].attributes);
+        const char *path = write_instances(node);
+        if (files[i].words != NULL) {
+            sheet_refused(path, files[i].words);
+            continue;
+        }
+        cs_scene scene = sheet_load(path);
+        assert_int_equal(scene.indices.count, files[i].instances * SHEET_TRIANGLES);
+        cs_scene_free(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(instances_of_a_node),
+        cmocka_unit_test(attributes_that_do_not_fit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

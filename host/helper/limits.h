@@ -12,8 +12,8 @@ typedef struct cs_limits {
     struct rlimit time;
 } cs_limits;
 
-/* Lowers the limits, for as long as code of others works on the scene file `path`, to what that may
- * take from now on. Returns what they were. */
+/* Lowers both limits to what a library of others may take, from now on, to read the scene file
+ * `path`. Returns what they were before. */
 cs_limits cs_limits_lower(const char *path);
 void cs_limits_restore(const cs_limits *limits);
 

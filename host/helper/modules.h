@@ -4,8 +4,9 @@
 
 #include "import/import.h"
 
-/* What the modules beside this program do for the scene file `path`, one file for each process, by
- * libraries of others. They have tighter limits on memory and time there than our readers. */
+/* The functions of the modules, which are files beside this program. `path` is the scene file that
+ * they read; a process reads one. While they run, memory and processor time have lower limits than
+ * our readers have (limits.h). */
 const cs_import_modules *cs_modules_for(const char *path);
 
 #endif

@@ -1,5 +1,6 @@
-/* Buffer views that meshoptimizer has compressed. It asserts what its arguments must be, so they
- * are looked at first. Source: EXT_meshopt_compression, "Specifying compressed views". */
+/* Buffer views that meshoptimizer has compressed. The library ends the program by an assertion
+ * where its arguments do not fit, so they are checked here before. Source: EXT_meshopt_compression,
+ * "Specifying compressed views". */
 #include <meshoptimizer.h>
 
 #include <stdlib.h>
@@ -16,11 +17,11 @@ static clshear_status refuse(cs_error *error)
     return cs_fail(error, CLSHEAR_BAD_FILE, "its mode, filter, count and byteStride do not fit");
 }
 
-/* The filter that takes back what was done before compression, with the strides it knows. */
+/* A filter: it makes numbers of the decoded items, in place. */
 typedef struct meshopt_filter {
     const char *name;
     void (*apply)(void *items, size_t count, size_t stride);
-    size_t strides[2]; /* 0, 0: any multiple of 4 */
+    size_t strides[2]; /* bytes of an item that it takes; 0, 0: any multiple of 4 */
 } meshopt_filter;
 
 static const meshopt_filter filters[] = {

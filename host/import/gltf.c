@@ -295,7 +295,7 @@ static clshear_status check(const gltf_reader *reader)
                                                    : "there are no triangles in its scene");
 }
 
-/* Room for what is found of each buffer, buffer view and accessor. */
+/* Allocates an entry for each buffer, buffer view and accessor of the file; all begin empty. */
 static clshear_status reserve(gltf_reader *reader)
 {
     reader->buffer_count = gltf_count(reader, "buffers");

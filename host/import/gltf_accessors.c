@@ -63,7 +63,7 @@ clshear_status gltf_accessor_type(const gltf_reader *reader, long long index, in
     return CLSHEAR_OK;
 }
 
-/* Points at what was unpacked for the accessor. */
+/* Makes `span` that of numbers which were unpacked. */
 static void point_at_unpacked(const gltf_unpacked *unpacked, gltf_span *span)
 {
     span->type = unpacked->type;

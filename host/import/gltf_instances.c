@@ -18,6 +18,10 @@ enum {
     PLACINGS
 };
 
+/* What *count is before an attribute says it. */
+#define NOT_GIVEN SIZE_MAX
+
+/* *count: the number of instances; all attributes have as many. */
 static clshear_status read_placing(gltf_reader *reader, const json_t *attributes,
                                    gltf_placing *placing, size_t *count)
 {
@@ -30,10 +34,9 @@ static clshear_status read_placing(gltf_reader *reader, const json_t *attributes
     if (given != placing->components)
         return gltf_complain(reader, "accessors", accessor, "is no VEC%zu for the %s of instances",
                              placing->components, placing->name);
-    if (*count > 0 && placing->count != *count)
+    if (*count != NOT_GIVEN && placing->count != *count)
         return gltf_complain(reader, "accessors", accessor,
-                             "is the %s of %zu instances, but %zu "
-                             "have another attribute",
+                             "is the %s of %zu instances, but %zu have another attribute",
                              placing->name, placing->count, *count);
     *count = placing->count;
     return CLSHEAR_OK;
@@ -51,13 +54,11 @@ clshear_status gltf_instances(gltf_reader *reader, const json_t *instances, cons
     gltf_placing placings[PLACINGS] = {
         {"TRANSLATION", 3, NULL, 0}, {"ROTATION", 4, NULL, 0}, {"SCALE", 3, NULL, 0}};
     const json_t *attributes = json_object_get(instances, "attributes");
-    size_t count = 0;
+    size_t count = NOT_GIVEN;
     clshear_status status = CLSHEAR_OK;
     for (size_t i = 0; i < PLACINGS && status == CLSHEAR_OK; i++)
         status = read_placing(reader, attributes, &placings[i], &count);
-    const int is_placed = placings[TRANSLATION].values != NULL ||
-                          placings[ROTATION].values != NULL || placings[SCALE].values != NULL;
-    if (!is_placed && status == CLSHEAR_OK) status = gltf_mesh(reader, node, matrix);
+    if (count == NOT_GIVEN) count = 1; /* what else an instance may have does not place it */
     for (size_t i = 0; i < count && status == CLSHEAR_OK; i++) {
         double t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1}, own[16], placed[16];
         copy(&placings[TRANSLATION], i, t);

@@ -45,6 +45,7 @@ static clshear_status unpack_view(gltf_reader *reader, long long index, const js
     status = read(data, size, &view, &items, &why);
     if (status != CLSHEAR_OK) {
         free(items);
+        if (status == CLSHEAR_OUT_OF_MEMORY) return cs_model_full(reader->model, reader->error);
         return gltf_complain(reader, "bufferViews", index, "%s: %s", meshopt_name, why.message);
     }
     made->owned = (char *)items;
@@ -146,7 +147,9 @@ static clshear_status unpack_mesh(gltf_reader *reader, const char *place, const 
     if (status != CLSHEAR_OK) return status;
     if (gltf_at(reader, "accessors", indices) == NULL) return CLSHEAR_BAD_FILE;
     if (read == NULL) return without_module(reader, place, -1, draco_name);
-    if (read(data, size, mesh, &why) != CLSHEAR_OK)
+    status = read(data, size, mesh, &why);
+    if (status == CLSHEAR_OUT_OF_MEMORY) return cs_model_full(reader->model, reader->error);
+    if (status != CLSHEAR_OK)
         return gltf_complain(reader, place, -1, "%s: %s", draco_name, why.message);
     status = check_counts(reader, place, mesh, accessors);
     if (status != CLSHEAR_OK) return status;

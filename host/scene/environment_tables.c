@@ -9,7 +9,7 @@
 #include "scene/scene.h"
 
 enum {
-    PARTS = 2,  /* of a block each way, that are looked at as one direction */
+    PARTS = 2,  /* of a block each way, that are looked at as one direction; 1 or 2 */
     NORMALS = 3 /* that stand for a way to face, each way */
 };
 
@@ -72,16 +72,20 @@ static void find_light(table_maker *maker)
     }
 }
 
-/* Adds up the light of the cells of each part. */
+/* Adds up the light of the cells of each part. The edge of a part may halve cells, so each cell is
+ * four quarters. */
 static void find_light_of_parts(table_maker *maker)
 {
     const size_t all_x = maker->blocks_x * maker->parts_x, all_y = maker->blocks_y * maker->parts_y;
     for (size_t i = 0; i < all_x * all_y; i++)
         maker->of_parts[i] = 0.0;
-    for (size_t row = 0; row < maker->down; row++)
-        for (size_t column = 0; column < maker->across; column++)
-            maker->of_parts[row * all_y / maker->down * all_x + column * all_x / maker->across] +=
-                maker->light[row * maker->across + column];
+    for (size_t y = 0; y < 2 * maker->down; y++)
+        for (size_t x = 0; x < 2 * maker->across; x++) {
+            const size_t row = y * all_y / (2 * maker->down),
+                         column = x * all_x / (2 * maker->across);
+            maker->of_parts[row * all_x + column] +=
+                0.25 * maker->light[y / 2 * maker->across + x / 2];
+        }
 }
 
 /* Makes cumulative probabilities of weights; returns their sum. All 0: even. */

@@ -90,7 +90,8 @@ static inline void cs_lat_long_turn(const cs_lat_long *image, const cs_vfloat *v
     *ahead = -image->cosine * back - image->sine * vector[0];
 }
 
-/* The number, of `count`, of a texel or cell from its place; an end for what is none. */
+/* The texel or cell that a place is in, 0 to `count` - 1. Places beyond the ends, and those that
+ * are no numbers, get the one at an end. */
 static inline cs_vint cs_cell_at(cs_vfloat place, cs_u32 count)
 {
     return cs_whole(cs_clamp(place, (cs_vfloat)(0.0f), (cs_vfloat)((cs_f32)(count - 1u))));
