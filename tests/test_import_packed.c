@@ -138,6 +138,12 @@ static void draco_is_the_same(void **state)
         expect_same(&plain, &packed, is_short ? 3e-4 : 0.0);
         cs_scene_free(&packed);
     }
+    /* A strip is unpacked to single triangles, too. */
+    char strip[512];
+    snprintf(strip, sizeof strip, "%s,\"mode\":5", draco);
+    cs_scene packed = sheet_load(write_draco("draco.gltf", 0, 0, strip));
+    expect_same(&plain, &packed, 0.0);
+    cs_scene_free(&packed);
     cs_scene_free(&plain);
 }
 
