@@ -301,7 +301,7 @@ static void unsound_materials_are_found(void **state)
     ((cs_vertex *)scene.vertices.items)->texture[1] = NAN;
     assert_false(cs_scene_is_sound(&scene));
     ((cs_vertex *)scene.vertices.items)->texture[1] = 0.0f;
-    ((cs_texture *)scene.textures.items)->wrap = 3;
+    ((cs_texture *)scene.textures.items)->lookup = 3;
     assert_false(cs_scene_is_sound(&scene));
     cs_scene_free(&scene);
 }

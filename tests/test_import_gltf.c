@@ -21,7 +21,7 @@ static void attributes_of_gltf(void **state)
     expect_close(import_colour(&scene, 0, 0), 1, 0, 0.2f);
     const cs_texture *texture = scene.textures.items;
     texture += import_material(&scene, 0)->texture;
-    assert_int_equal(texture->wrap, CS_TEXTURE_CLAMP | CS_TEXTURE_MIRROR << CS_TEXTURE_WRAP_BITS);
+    assert_int_equal(texture->lookup, CS_TEXTURE_CLAMP | CS_TEXTURE_MIRROR << CS_TEXTURE_WRAP_BITS);
     assert_string_equal(import_warnings, "");
     cs_scene_free(&scene);
     /* The second set, turned by a right angle, doubled and moved. */
@@ -58,7 +58,10 @@ static void extensions_of_gltf(void **state)
     scene = import_load(import_gltf_square(
         ",\"TEXCOORD_0\":1", "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}",
         "{\"mesh\":0}", ",\"samplers\":[{\"magFilter\":9728}]"));
-    import_warned("not supported, left out: texels with edges");
+    const cs_texture *texture = scene.textures.items;
+    texture += import_material(&scene, 0)->texture;
+    assert_int_equal(texture->lookup, CS_TEXTURE_REPEAT | CS_TEXTURE_NEAREST);
+    assert_string_equal(import_warnings, "");
     cs_scene_free(&scene);
 }
 

@@ -80,7 +80,7 @@ static void map_options_are_obeyed(void **state)
     cs_scene scene = import_text("options.obj", "mtllib options.mtl\n" TEXTURED);
     const cs_texture *texture = scene.textures.items;
     texture += import_material(&scene, 0)->texture;
-    assert_int_equal(texture->wrap, CS_TEXTURE_CLAMP | CS_TEXTURE_CLAMP << CS_TEXTURE_WRAP_BITS);
+    assert_int_equal(texture->lookup, CS_TEXTURE_CLAMP | CS_TEXTURE_CLAMP << CS_TEXTURE_WRAP_BITS);
     expect_st(&scene, 0, 0.5f, 0.25f);
     expect_st(&scene, 2, 2.5f, 3.25f);
     const uint16_t *texel = (const uint16_t *)scene.texels.items + 4 * texture->first;
@@ -110,7 +110,8 @@ static void words_of_map_options(void **state)
         assert_string_equal(import_warnings, "");
         const cs_texture *texture = scene.textures.items;
         texture += import_material(&scene, 0)->texture;
-        assert_int_equal(texture->wrap & CS_TEXTURE_CLAMP, lines[i].clamps ? CS_TEXTURE_CLAMP : 0);
+        assert_int_equal(texture->lookup & CS_TEXTURE_CLAMP,
+                         lines[i].clamps ? CS_TEXTURE_CLAMP : 0);
         cs_scene_free(&scene);
     }
 }

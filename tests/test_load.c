@@ -69,14 +69,24 @@ static clshear_scene *load(const char *path, const clshear_settings *settings)
     return scene;
 }
 
-/* A square with the image wrap.ppm, three times each way, wrapped by the sampler's `wrap`. */
-static clshear_scene *load_wrapped(const char *wrap)
+/* Red and green over blue and white: wrap.ppm. */
+static void write_wrap_picture(void)
+{
+    static const unsigned char picture[] = {'P', '6', '\n', '2', ' ', '2', '\n', '2',
+                                            '5', '5', '\n', 255, 0,   0,   0,    255,
+                                            0,   0,   0,    255, 255, 255, 255};
+    test_bytes("wrap.ppm", picture, sizeof picture);
+}
+
+/* A square with the image wrap.ppm, three times each way, wrapped by the sampler's `wrap`. filter:
+ * of a texel that is magnified. */
+static clshear_scene *load_wrapped(const char *wrap, const char *filter)
 {
     char text[2048];
     snprintf(text, sizeof text,
              "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0,\"scale\":[3,3,1]}],"
              "\"images\":[{\"uri\":\"wrap.ppm\"}],\"textures\":[{\"source\":0,\"sampler\":0}],"
-             "\"samplers\":[{\"wrapS\":%s,\"wrapT\":%s}],\"materials\":[{"
+             "\"samplers\":[{\"wrapS\":%s,\"wrapT\":%s,\"magFilter\":%s}],\"materials\":[{"
              "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"extensions\":{"
              "\"KHR_texture_transform\":{\"scale\":[3,3],\"offset\":[-1,-1]}}}}}],"
              "\"meshes\":[{\"primitives\":[{\"mode\":5,\"material\":0,\"attributes\":"
@@ -87,7 +97,7 @@ static clshear_scene *load_wrapped(const char *wrap)
              /* corners 00, 10, 01, 11, as bytes; t grows downwards */
              "\"buffers\":[{\"byteLength\":32,\"uri\":\"data:;base64,"
              "AAAAAAEAAAAAAQAAAQEAAAABAAABAQAAAAAAAAEAAAA=\"}]}",
-             wrap, wrap);
+             wrap, wrap, filter);
     return load(test_file("wrap.gltf", text), NULL);
 }
 
@@ -95,12 +105,9 @@ static clshear_scene *load_wrapped(const char *wrap)
  * white, is in the middle. */
 static void maps_beyond_their_edges(void **state)
 {
-    static const unsigned char picture[] = {'P', '6', '\n', '2', ' ', '2', '\n', '2',
-                                            '5', '5', '\n', 255, 0,   0,   0,    255,
-                                            0,   0,   0,    255, 255, 255, 255};
     static const char *const wraps[2] = {"10497", "33648"};
     (void)state;
-    test_bytes("wrap.ppm", picture, sizeof picture);
+    write_wrap_picture();
     test_file("wrap.mtl", "newmtl t\nKd 1 1 1\nmap_Kd -clamp on wrap.ppm\n");
     clshear_scene *scene = load(test_file("wrap.obj", "mtllib wrap.mtl\nv 0 0 0\nv 3 0 0\nv 3 3 0\n"
                                                       "v 0 3 0\nvt -1 -1\nvt 2 -1\nvt 2 2\n"
@@ -113,7 +120,7 @@ static void maps_beyond_their_edges(void **state)
     expect_colour(scene, 2.3, 1.5, 0, 0.5f, 1, 0.5f); /* between green and white */
     clshear_scene_free(scene);
     for (int mirror = 0; mirror < 2; mirror++) {
-        scene = load_wrapped(wraps[mirror]);
+        scene = load_wrapped(wraps[mirror], "9729");
         expect_colour(scene, 1.25, 1.25, 0, 0, 0, 1);
         if (mirror)
             expect_colour(scene, 0.25, 1.25, 0, 1, 1, 1);
@@ -123,6 +130,26 @@ static void maps_beyond_their_edges(void **state)
             expect_colour(scene, 1.25, 2.25, 0, 1, 0, 0);
         else
             expect_colour(scene, 1.25, 2.25, 0, 0, 0, 1);
+        clshear_scene_free(scene);
+    }
+}
+
+/* Texels that do not blend end halfway between their centres, whatever the wrap. */
+static void texels_have_edges(void **state)
+{
+    static const char *const wraps[3] = {"10497", "33648", "33071"};
+    (void)state;
+    write_wrap_picture();
+    for (size_t i = 0; i < sizeof wraps / sizeof *wraps; i++) {
+        clshear_scene *scene = load_wrapped(wraps[i], "9728");
+        expect_colour(scene, 1.48, 1.02, 0, 0, 0, 1);
+        expect_colour(scene, 1.52, 1.48, 0, 1, 1, 1);
+        expect_colour(scene, 1.48, 1.52, 0, 1, 0, 0);
+        expect_colour(scene, 1.52, 1.98, 0, 0, 1, 0);
+        if (i < 2)
+            expect_colour(scene, 0.52, 1.02, 0, i == 0, i == 0, 1);
+        else
+            expect_colour(scene, 0.02, 2.98, 0, 1, 0, 0);
         clshear_scene_free(scene);
     }
 }
@@ -375,6 +402,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(maps_beyond_their_edges),
+        cmocka_unit_test(texels_have_edges),
         cmocka_unit_test(vertices_have_colours),
         cmocka_unit_test(far_scenes_look_alike),
         cmocka_unit_test(cameras_are_chosen),

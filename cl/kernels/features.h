@@ -10,7 +10,7 @@
 #define CS_FEATURE_LIGHTS 2     /* lights besides points, directions and emissive triangles */
 #define CS_FEATURE_MATERIALS 4  /* surfaces besides Lambert's; needs PATHS */
 #define CS_FEATURE_TEXTURES 8   /* images on surfaces */
-#define CS_FEATURE_WRAPS 16     /* that do not all repeat; needs TEXTURES */
+#define CS_FEATURE_LOOKUPS 16   /* of which some end, mirror or do not blend; needs TEXTURES */
 #define CS_FEATURE_COLOURS 32   /* colours of vertices */
 #define CS_FEATURE_AOVS 64      /* channels besides the radiance */
 #define CS_FEATURE_MOTION 128   /* samples have times; the camera moves */

@@ -193,15 +193,17 @@ enum {
     CS_TEXTURE_REPEAT = 0,
     CS_TEXTURE_CLAMP = 1,
     CS_TEXTURE_MIRROR = 2,
-    CS_TEXTURE_WRAP_BITS = 2, /* of each of the two in cs_texture.wrap */
-    CS_TEXTURE_WRAP_MASK = 3
+    CS_TEXTURE_WRAP_BITS = 2, /* of each of the two in cs_texture.lookup */
+    CS_TEXTURE_WRAP_MASK = 3,
+    CS_TEXTURE_NEAREST = 16 /* in cs_texture.lookup: the texel at a place, not a blend of four */
 };
 
 typedef struct cs_texture {
     cs_u32 first; /* index of its top left texel; texels are 4 halves, linear Rec.709 */
     cs_u32 width;
     cs_u32 height;
-    cs_u32 wrap; /* CS_TEXTURE_ kind across, and shifted by CS_TEXTURE_WRAP_BITS the one up */
+    /* CS_TEXTURE_ kind across, the one up shifted by CS_TEXTURE_WRAP_BITS; CS_TEXTURE_NEAREST */
+    cs_u32 lookup;
 } cs_texture;
 CS_SHARED_WORDS(cs_texture, 4);
 

@@ -1,4 +1,4 @@
-/* Bilinear lookup in the scene's textures. Device only. */
+/* Lookup in the scene's textures. Device only. */
 #ifndef CS_TEXTURE_H
 #define CS_TEXTURE_H
 
@@ -29,7 +29,7 @@ static inline cs_texel_pair cs_texels_at(cs_vfloat place, cs_u32 size)
     return pair;
 }
 
-#if CS_HAS(WRAPS)
+#if CS_HAS(LOOKUPS)
 /* The same for coordinates that do not repeat: beyond its edges the image has the colour of its
  * border, or is seen in a mirror. */
 static inline cs_texel_pair cs_texels_within(cs_vfloat place, cs_u32 size, cs_u32 wrap)
@@ -48,20 +48,25 @@ static inline cs_texel_pair cs_texels_within(cs_vfloat place, cs_u32 size, cs_u3
 }
 #endif
 
-/* Bilinear, at the texture coordinates (s, t) of the lanes that are `wanted`; (0, 0) is the lower
- * left corner of the image. With the feature MATERIALS there is a fourth channel. */
+/* The texture at the coordinates (s, t) of the lanes that are `wanted`, bilinear but for
+ * CS_TEXTURE_NEAREST; (0, 0) is the lower left corner of the image. With the feature MATERIALS
+ * there is a fourth channel. */
 static inline void cs_texels(const cs_scene_buffers *scene, cs_u32 texture, cs_vfloat s,
                              cs_vfloat t, cs_int_lanes wanted, cs_float_lanes *colour)
 {
     CS_GLOBAL const cs_texture *image = scene->textures + texture;
-#if CS_HAS(WRAPS)
-    cs_u32 wrap_s = image->wrap & CS_TEXTURE_WRAP_MASK;
-    cs_u32 wrap_t = image->wrap >> CS_TEXTURE_WRAP_BITS;
+#if CS_HAS(LOOKUPS)
+    cs_u32 wrap_s = image->lookup & CS_TEXTURE_WRAP_MASK;
+    cs_u32 wrap_t = image->lookup >> CS_TEXTURE_WRAP_BITS & CS_TEXTURE_WRAP_MASK;
     cs_texel_pair x = wrap_s == CS_TEXTURE_REPEAT ? cs_texels_at(s, image->width)
                                                   : cs_texels_within(s, image->width, wrap_s);
     cs_texel_pair y = wrap_t == CS_TEXTURE_REPEAT
                           ? cs_texels_at(1.0f - (t - floor(t)), image->height)
                           : cs_texels_within(1.0f - t, image->height, wrap_t);
+    if (image->lookup & CS_TEXTURE_NEAREST) {
+        x.part.all = x.part.all < 0.5f ? (cs_vfloat)(0.0f) : (cs_vfloat)(1.0f);
+        y.part.all = y.part.all < 0.5f ? (cs_vfloat)(0.0f) : (cs_vfloat)(1.0f);
+    }
 #else
     cs_texel_pair x = cs_texels_at(s, image->width);
     cs_texel_pair y = cs_texels_at(1.0f - (t - floor(t)), image->height);

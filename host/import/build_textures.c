@@ -88,7 +88,14 @@ static clshear_status read_texture(const cs_model *model, cs_scene *scene, known
     return status;
 }
 
-/* The texture of one map, or of two. The wraps are those of the first that is there. */
+/* How a map is looked up: cs_texture.lookup. */
+static cs_u32 lookup_of(const cs_map *map)
+{
+    return (cs_u32)map->wrap[0] | (cs_u32)map->wrap[1] << CS_TEXTURE_WRAP_BITS |
+           (map->is_nearest ? (cs_u32)CS_TEXTURE_NEAREST : 0u);
+}
+
+/* The texture of one map, or of two, looked up as the first that is there. */
 static clshear_status find_texture(const cs_model *model, cs_scene *scene, cs_array *known,
                                    const cs_map *maps[CS_TEXTURE_LAYERS],
                                    const layer_key keys[CS_TEXTURE_LAYERS], cs_i32 *texture,
@@ -112,8 +119,7 @@ static clshear_status find_texture(const cs_model *model, cs_scene *scene, cs_ar
     }
     *texture = one[i].texture;
     if (status != CLSHEAR_OK || *texture == CS_NO_TEXTURE) return status;
-    return cs_texture_wrapped(scene, (cs_u32)first->wrap[0], (cs_u32)first->wrap[1], texture,
-                              error);
+    return cs_texture_look_up(scene, lookup_of(first), texture, error);
 }
 
 /* Whether two maps are one image, read alike. */

@@ -121,7 +121,7 @@ static clshear_status read_map(gltf_reader *reader, const json_t *parent, const 
         if (sampler == NULL) return CLSHEAR_BAD_FILE;
         map->wrap[0] = wrap_of(sampler, "wrapS");
         map->wrap[1] = wrap_of(sampler, "wrapT");
-        map->is_blocky = gltf_index(sampler, "magFilter") == 9728;
+        map->is_nearest = gltf_index(sampler, "magFilter") == 9728;
     }
     const long long source = source_of(texture);
     if (source >= 0) return add_image(reader, source, &map->image);

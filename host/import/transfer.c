@@ -147,8 +147,8 @@ static int textures_are_sound(const cs_scene *scene)
     const cs_texture *textures = scene->textures.items;
     for (size_t i = 0; i < scene->textures.count; i++) {
         const uint64_t size = (uint64_t)textures[i].width * textures[i].height;
-        const cs_u32 across = textures[i].wrap & CS_TEXTURE_WRAP_MASK;
-        const cs_u32 up = textures[i].wrap >> CS_TEXTURE_WRAP_BITS;
+        const cs_u32 wraps = textures[i].lookup & ~(cs_u32)CS_TEXTURE_NEAREST;
+        const cs_u32 across = wraps & CS_TEXTURE_WRAP_MASK, up = wraps >> CS_TEXTURE_WRAP_BITS;
         if (size == 0 || textures[i].first > scene->texels.count ||
             size > scene->texels.count - textures[i].first || across > CS_TEXTURE_MIRROR ||
             up > CS_TEXTURE_MIRROR)

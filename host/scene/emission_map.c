@@ -74,7 +74,7 @@ double cs_emission_map_mean(const cs_emission_map *map, const float *low, const 
     const double whole = *sum_at(map, map->across, map->down);
     const double mean = whole / ((double)image->width * (double)image->height);
     size_t left, right, above, below;
-    if (image->wrap != CS_TEXTURE_REPEAT ||
+    if ((image->lookup & ~(cs_u32)CS_TEXTURE_NEAREST) != CS_TEXTURE_REPEAT ||
         !texels_between((double)low[0], (double)high[0], image->width, &left, &right) ||
         !texels_between(1.0 - (double)high[1], 1.0 - (double)low[1], image->height, &above, &below))
         return mean;

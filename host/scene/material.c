@@ -120,11 +120,7 @@ void cs_material_unsupported(const cs_material_description *d, char *text, size_
              (is_apart(d, &d->emissive_map) && shines),
          "texture coordinates that differ between its maps (those of the first count)"},
     };
-    const cs_map *maps[] = {&d->base_map,     &d->metallic_map, &d->roughness_map,
-                            &d->emissive_map, &d->normal_map,   &d->alpha_map};
     *text = '\0';
-    for (size_t i = 0; i < sizeof maps / sizeof *maps && *text == '\0'; i++)
-        if (maps[i]->is_blocky) append(text, size, "texels with edges (magFilter 9728; smoothed)");
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
         if (table[i].asked) append(text, size, table[i].word);
     if (d->other[0] != '\0') append(text, size, d->other);

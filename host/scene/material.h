@@ -23,7 +23,7 @@ typedef struct cs_map {
     int image;        /* index into the importer's images, or CS_NO_IMAGE */
     int missing;      /* 1: the file names an image that is not there */
     cs_wrap wrap[2];  /* across, up */
-    int is_blocky;    /* 1: each texel is to show its edges */
+    int is_nearest;   /* 1: texels do not blend: each shows its edges */
     int set;          /* of texture coordinates */
     double across[3]; /* coordinate s of the image = across . (s, t, 1) of the vertex */
     double up[3];     /* coordinate t of the image, which grows upwards */

@@ -139,7 +139,7 @@ static cs_u32 colouring_needs(const cs_scene *scene)
     cs_u32 features = scene->colours.count > 0 ? CS_FEATURE_COLOURS : 0;
     if (scene->textures.count > 0) features |= CS_FEATURE_TEXTURES;
     for (size_t i = 0; i < scene->textures.count; i++)
-        if (textures[i].wrap != CS_TEXTURE_REPEAT) features |= CS_FEATURE_WRAPS;
+        if (textures[i].lookup != CS_TEXTURE_REPEAT) features |= CS_FEATURE_LOOKUPS;
     return features;
 }
 

@@ -68,13 +68,11 @@ int cs_texture_covers(const cs_scene *scene, cs_i32 texture)
     return 1;
 }
 
-clshear_status cs_texture_wrapped(cs_scene *scene, cs_u32 wrap_s, cs_u32 wrap_t, cs_i32 *texture,
-                                  cs_error *error)
+clshear_status cs_texture_look_up(cs_scene *scene, cs_u32 lookup, cs_i32 *texture, cs_error *error)
 {
-    const cs_u32 wrap = wrap_s | wrap_t << CS_TEXTURE_WRAP_BITS;
     const cs_texture *textures = scene->textures.items;
     cs_texture wanted = textures[*texture];
-    wanted.wrap = wrap;
+    wanted.lookup = lookup;
     for (size_t i = 0; i < scene->textures.count; i++)
         if (memcmp(&textures[i], &wanted, sizeof wanted) == 0) {
             *texture = (cs_i32)i;

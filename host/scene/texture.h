@@ -21,9 +21,8 @@ typedef struct cs_texture_layer {
 clshear_status cs_texture_add(cs_scene *scene, const cs_texture_layer *layers, size_t count,
                               cs_i32 *texture, cs_error *error);
 
-/* The same texels with these wraps (CS_TEXTURE_): `texture`, where it has them, or another. */
-clshear_status cs_texture_wrapped(cs_scene *scene, cs_u32 wrap_s, cs_u32 wrap_t, cs_i32 *texture,
-                                  cs_error *error);
+/* The same texels with this cs_texture.lookup: `texture`, where it has that, or another. */
+clshear_status cs_texture_look_up(cs_scene *scene, cs_u32 lookup, cs_i32 *texture, cs_error *error);
 
 /* Whether alpha is 1 everywhere. */
 int cs_texture_covers(const cs_scene *scene, cs_i32 texture);

@@ -17,7 +17,7 @@ ARRAYS = ["positions", "vertices", "colours", "indices", "triangle_materials", "
           "materials", "textures", "texels", "lights", "cameras", "positions_to", "normals_to"]
 
 VERTEX = np.dtype([("normal", "<f4", 3), ("texture", "<f4", 2)])
-TEXTURE = np.dtype([("first", "<u4"), ("width", "<u4"), ("height", "<u4"), ("wrap", "<u4")])
+TEXTURE = np.dtype([("first", "<u4"), ("width", "<u4"), ("height", "<u4"), ("lookup", "<u4")])
 MATERIAL = np.dtype([
     ("diffuse", "<f4", 3), ("texture", "<i4"), ("emission", "<f4", 3), ("bsdf", "<u4"),
     ("roughness", "<f4"), ("metallic", "<f4"), ("f0", "<f4"), ("f90", "<f4"),
@@ -58,10 +58,10 @@ def images(arrays):
     texels = np.frombuffer(arrays["texels"], "<f2").reshape(-1, 4).astype(np.float32)
     for one in np.frombuffer(arrays["textures"], TEXTURE):
         first, width, height = int(one["first"]), int(one["width"]), int(one["height"])
-        if one["wrap"] & 3 not in WRAPS or one["wrap"] & 3 != one["wrap"] >> 2:
-            raise SystemExit("mirrored textures, or of two wraps, have no twin in Blender 3.4")
+        if one["lookup"] & 3 not in WRAPS or one["lookup"] & 3 != one["lookup"] >> 2:
+            raise SystemExit("mirrored textures, of two wraps or of nearest texels have no twin")
         rows = texels[first:first + width * height].reshape(height, width, 4)
-        yield rows[::-1], WRAPS[int(one["wrap"]) & 3]
+        yield rows[::-1], WRAPS[int(one["lookup"]) & 3]
 
 
 def check(path, arrays, materials):
