@@ -32,9 +32,11 @@ const char *material_mtl(const char *lines)
                                      "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
 }
 
-const char *material_gltf(const char *material)
+/* attributes: more of the primitive's. */
+static const char *write_gltf(const char *material, const char *attributes)
 {
-    static const float data[20] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, 0, 1, 1, 1, 1, 0, 0, 0};
+    static const float data[36] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, 0, 1, 1, 1, 1, 0,
+                                   0,  0,  1, 1, 1,  0, 1, 1, 1, 1,  1, 1, 1, 1, 1, 1, 1, 0};
     static const unsigned char indices[6] = {0, 1, 2, 0, 2, 3};
     unsigned char bytes[sizeof data + sizeof indices];
     char text[4096];
@@ -43,17 +45,28 @@ const char *material_gltf(const char *material)
     test_bytes("material.bin", bytes, sizeof bytes);
     snprintf(text, sizeof text,
              "{'asset':{'version':'2.0'},'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}],"
-             "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':1},'indices':2,"
+             "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':1%s},'indices':2,"
              "'material':0}]}],'materials':[%s],"
-             "'buffers':[{'uri':'material.bin','byteLength':86}],"
-             "'bufferViews':[{'buffer':0,'byteLength':86}],'accessors':["
+             "'buffers':[{'uri':'material.bin','byteLength':150}],"
+             "'bufferViews':[{'buffer':0,'byteLength':150}],'accessors':["
              "{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3'},"
              "{'bufferView':0,'byteOffset':48,'componentType':5126,'count':4,'type':'VEC2'},"
-             "{'bufferView':0,'byteOffset':80,'componentType':5121,'count':6,'type':'SCALAR'}],"
+             "{'bufferView':0,'byteOffset':144,'componentType':5121,'count':6,'type':'SCALAR'},"
+             "{'bufferView':0,'byteOffset':80,'componentType':5126,'count':4,'type':'VEC4'}],"
              "'textures':[{'source':0},{'source':1}],"
              "'images':[{'uri':'grey.tga'},{'uri':'tone.tga'}]}",
-             material);
+             attributes, material);
     for (char *at = text; *at != '\0'; at++)
         if (*at == '\'') *at = '"';
     return test_file("material.gltf", text);
+}
+
+const char *material_gltf(const char *material)
+{
+    return write_gltf(material, "");
+}
+
+const char *material_gltf_fading(const char *material)
+{
+    return write_gltf(material, ",'COLOR_0':3");
 }

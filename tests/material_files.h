@@ -14,4 +14,8 @@ void material_even_picture(const char *name, int red, int green, int blue, int a
 const char *material_mtl(const char *lines);
 const char *material_gltf(const char *material);
 
+/* The same; the colours of its vertices are white, with an alpha from 0 at the left to 1 at the
+ * right. */
+const char *material_gltf_fading(const char *material);
+
 #endif

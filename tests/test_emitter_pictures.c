@@ -172,13 +172,40 @@ static clshear_scene *floor_and_panel(clshear_context *context, const char *pane
     return scene;
 }
 
+/* The same floor and a panel of emission 2 whose vertices fade across, by their colours' alpha. */
+static clshear_scene *floor_and_fading_panel(clshear_context *context)
+{
+    clshear_scene *scene = NULL;
+    material_gltf_fading("{}"); /* its buffer */
+    const char *path = test_file(
+        "panel.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0,"
+        "\"rotation\":[-0.70710678,0,0,0.70710678],\"scale\":[9,9,9]},{\"mesh\":1,"
+        "\"rotation\":[-0.70710678,0,0,0.70710678],\"translation\":[0,1,0]}],\"meshes\":["
+        "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":0}]},"
+        "{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"COLOR_0\":2},\"indices\":1,"
+        "\"material\":1}]}],\"materials\":[{\"pbrMetallicRoughness\":{\"metallicFactor\":0}},"
+        "{\"alphaMode\":\"BLEND\",\"emissiveFactor\":[1,1,1],\"extensions\":{"
+        "\"KHR_materials_emissive_strength\":{\"emissiveStrength\":2}},\"pbrMetallicRoughness\":{"
+        "\"baseColorFactor\":[0,0,0,1]}}],\"buffers\":[{\"uri\":\"material.bin\","
+        "\"byteLength\":150}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":150}],\"accessors\":["
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
+        "{\"bufferView\":0,\"byteOffset\":144,\"componentType\":5121,\"count\":6,"
+        "\"type\":\"SCALAR\"},{\"bufferView\":0,\"byteOffset\":80,\"componentType\":5126,"
+        "\"count\":4,\"type\":\"VEC4\"}]}");
+    test_ok(clshear_scene_load(context, path, NULL, &scene));
+    return scene;
+}
+
 /* What varies over a panel, by an image or by alpha, lights the floor as rays alone find it; with
  * direct light it is sampled, and a plain lamp beside it changes nothing of that. */
 static void varying_emission_is_sampled(void **state)
 {
-    static const char *const panels[] = {"Ke 9 9 9\nmap_Ke grey.tga", "Ke 2 2 2\nd 0.25"};
-    for (size_t i = 0; i < 2; i++) {
-        clshear_scene *scene = floor_and_panel(*state, panels[i]);
+    static const char *const panels[] = {"Ke 9 9 9\nmap_Ke grey.tga", "Ke 2 2 2\nd 0.25",
+                                         "that fades"};
+    for (size_t i = 0; i < 3; i++) {
+        clshear_scene *scene =
+            i < 2 ? floor_and_panel(*state, panels[i]) : floor_and_fading_panel(*state);
         const test_estimate rays = mean_of_render(scene, view_of(CLSHEAR_EMITTERS_POWER, 1, 16384));
         const test_estimate both = mean_of_render(scene, view_of(CLSHEAR_EMITTERS_TREE, 1, 4096));
         const test_estimate direct = mean_of_render(scene, view_of(CLSHEAR_EMITTERS_TREE, 0, 4096));

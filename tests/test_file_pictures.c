@@ -18,20 +18,20 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* What the middle of the square shows from 4 before it. */
+/* What the square shows from 4 before it, at its middle or another place. */
 typedef struct shown {
     double red;
     double error; /* standard error; 240 degrees of freedom */
 } shown;
 
-static shown look(clshear_context *context, const char *path, clshear_setting light,
-                  const char *value)
+static shown look_at(clshear_context *context, const char *path, double x, clshear_setting light,
+                     const char *value)
 {
     shown found = {0.0, 0.0};
     clshear_scene *scene = NULL;
     clshear_settings *settings = test_settings(NULL, 4, 4, 512);
-    test_set(settings, CLSHEAR_EYE, "0,0,4");
-    test_set(settings, CLSHEAR_TARGET, "0,0,0");
+    test_set(settings, CLSHEAR_EYE, "%g,0,4", x);
+    test_set(settings, CLSHEAR_TARGET, "%g,0,0", x);
     test_set(settings, light, "%s", value);
     test_set_number(settings, CLSHEAR_FOV, 0.01);
     test_set_number(settings, CLSHEAR_LENS_RADIUS, 0.0);
@@ -51,6 +51,12 @@ static shown look(clshear_context *context, const char *path, clshear_setting li
     return found;
 }
 
+static shown look(clshear_context *context, const char *path, clshear_setting light,
+                  const char *value)
+{
+    return look_at(context, path, 0.0, light, value);
+}
+
 /* Alpha 0.2 of an image shows a fifth of its colour, (128 / 255) on the sRGB curve, and four fifths
  * of a sky of 1. 5 standard errors: false alarms 1e-6. */
 static void alpha_of_an_image(void **state)
@@ -68,6 +74,30 @@ static void alpha_of_an_image(void **state)
     assert_near(found.red, 3.0, 1e-5);
     found = look(*state, material_mtl("Kd 0 0 0\nmap_d grey.tga"), CLSHEAR_ENVIRONMENT, "1,1,1");
     assert_near(found.red, 0.8, 5.0 * found.error + 1e-3);
+}
+
+/* The alpha of vertices multiplies the material's: a black square of 0.8 that fades before a sky of
+ * 1 shows 1 - 0.8 (1 + x) / 2, and a mask is there from its cutoff on; an opaque one everywhere.
+ * 5 standard errors: false alarms 1e-6. */
+static void alpha_of_vertices(void **state)
+{
+    const char *blend = "{'alphaMode':'BLEND','extensions':{'KHR_materials_unlit':{}},"
+                        "'pbrMetallicRoughness':{'baseColorFactor':[0,0,0,0.8]}}";
+    const char *mask = "{'alphaMode':'MASK','alphaCutoff':0.6,'extensions':{'KHR_materials_unlit'"
+                       ":{}},'pbrMetallicRoughness':{'baseColorFactor':[0,0,0,0.8]}}";
+    const char *opaque = "{'extensions':{'KHR_materials_unlit':{}},"
+                         "'pbrMetallicRoughness':{'baseColorFactor':[0,0,0,0.8]}}";
+    for (int i = 0; i < 4; i++) {
+        const double x = 0.5 * (double)i - 0.75;
+        const char *path = material_gltf_fading(blend);
+        shown found = look_at(*state, path, x, CLSHEAR_ENVIRONMENT, "1,1,1");
+        print_message("at %5.2f: %.4f, error %.4f\n", x, found.red, found.error);
+        assert_near(found.red, 1.0 - 0.4 * (1.0 + x), 5.0 * found.error + 1e-3);
+        found = look_at(*state, material_gltf_fading(mask), x, CLSHEAR_ENVIRONMENT, "1,1,1");
+        assert_near(found.red, 0.4 * (1.0 + x) < 0.6, 1e-5);
+        found = look_at(*state, material_gltf_fading(opaque), x, CLSHEAR_ENVIRONMENT, "1,1,1");
+        assert_near(found.red, 0.0, 1e-5);
+    }
 }
 
 /* Factor times strength times texel, on a black surface. */
@@ -134,7 +164,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(alpha_of_an_image),      cmocka_unit_test(emission_of_an_image),
         cmocka_unit_test(facets_of_an_image),     cmocka_unit_test(normals_of_an_image),
-        cmocka_unit_test(no_energy_from_nothing),
+        cmocka_unit_test(no_energy_from_nothing), cmocka_unit_test(alpha_of_vertices),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

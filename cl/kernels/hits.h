@@ -25,7 +25,20 @@ static inline void cs_texture_place(const cs_scene_buffers *scene, CS_GLOBAL con
 #endif
 
 #if CS_HAS(COLOURS)
-/* Multiplies the albedo of the lanes in `mine` by the vertex colours at barycentrics (b1, b2). */
+#if CS_HAS(MATERIALS)
+/* The alpha of a face's vertices at barycentrics (b1, b2). */
+static inline cs_vfloat cs_vertex_alpha(const cs_scene_buffers *scene,
+                                        CS_GLOBAL const cs_face *face, cs_vfloat b1, cs_vfloat b2)
+{
+    cs_f32 a0 = scene->colours[face->vertex[0]].alpha;
+    cs_f32 a1 = scene->colours[face->vertex[1]].alpha;
+    cs_f32 a2 = scene->colours[face->vertex[2]].alpha;
+    return cs_clamp(a0 + b1 * (a1 - a0) + b2 * (a2 - a0), (cs_vfloat)(0.0f), (cs_vfloat)(1.0f));
+}
+#endif
+
+/* Multiplies the albedo of the lanes in `mine` by the vertex colours at barycentrics (b1, b2), and
+ * alpha by theirs. */
 static inline void cs_apply_colour(const cs_scene_buffers *scene, CS_GLOBAL const cs_face *face,
                                    cs_vfloat b1, cs_vfloat b2, cs_vint mine, cs_surface *surface)
 {
@@ -37,6 +50,10 @@ static inline void cs_apply_colour(const cs_scene_buffers *scene, CS_GLOBAL cons
         surface->albedo[c] =
             mine ? surface->albedo[c] * cs_max(colour, (cs_vfloat)(0.0f)) : surface->albedo[c];
     }
+#if CS_HAS(MATERIALS)
+    cs_vfloat alpha = surface->alpha * cs_vertex_alpha(scene, face, b1, b2);
+    surface->alpha = mine ? alpha : surface->alpha;
+#endif
 }
 #endif
 

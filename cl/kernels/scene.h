@@ -141,12 +141,13 @@ typedef struct cs_vertex {
 } cs_vertex;
 CS_SHARED_WORDS(cs_vertex, 5);
 
-/* Linear colour of a vertex, which multiplies the albedo. The buffer is empty where no vertex has
- * one. */
+/* Linear colour of a vertex, which multiplies the albedo, and its alpha, which multiplies the
+ * material's. The buffer is empty where no vertex has one. */
 typedef struct cs_colour {
     cs_f32 value[3];
+    cs_f32 alpha; /* 0 to 1 */
 } cs_colour;
-CS_SHARED_WORDS(cs_colour, 3);
+CS_SHARED_WORDS(cs_colour, 4);
 
 typedef struct cs_material {
     cs_f32 diffuse[3];  /* albedo, linear Rec.709; multiplies the texture if there is one */
@@ -236,8 +237,9 @@ typedef struct cs_emitter {
 CS_SHARED_WORDS(cs_emitter, 20);
 
 enum {
-    CS_EMITTER_COVERS = 1,  /* multiplied by alpha */
-    CS_EMITTER_TEXTURED = 2 /* multiplied by textures */
+    CS_EMITTER_COVERS = 1,   /* multiplied by alpha */
+    CS_EMITTER_TEXTURED = 2, /* multiplied by textures */
+    CS_EMITTER_COLOURED = 4  /* its vertices have an alpha */
 };
 
 enum {

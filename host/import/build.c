@@ -116,7 +116,7 @@ static int fill_vertex(const emission *work, const vertex_key *key)
     cs_scene *scene = work->scene;
     float *position = cs_array_extend(&scene->positions, 1);
     cs_vertex *vertex = cs_array_extend(&scene->vertices, 1);
-    float *colour = model->colours.count > 0 ? cs_array_extend(&scene->colours, 1) : NULL;
+    cs_colour *colour = model->colours.count > 0 ? cs_array_extend(&scene->colours, 1) : NULL;
     if (position == NULL || vertex == NULL || (model->colours.count > 0 && colour == NULL))
         return 0;
     const double *from = ((const double(*)[3])model->positions.items)[key->position];
@@ -134,8 +134,11 @@ static int fill_vertex(const emission *work, const vertex_key *key)
             usable_coordinate(map->across[0] * s + map->across[1] * t + map->across[2]);
         vertex->texture[1] = usable_coordinate(map->up[0] * s + map->up[1] * t + map->up[2]);
     }
-    if (colour != NULL)
-        copy_finite(((const float(*)[3])model->colours.items)[key->position], colour);
+    if (colour != NULL) {
+        const float *opacities = model->opacities.items;
+        copy_finite(((const float(*)[3])model->colours.items)[key->position], colour->value);
+        colour->alpha = key->position < model->opacities.count ? opacities[key->position] : 1.0f;
+    }
     return 1;
 }
 
@@ -220,7 +223,9 @@ static void report_colours(const cs_model *model)
                 "arrives; kept",
                 model->path, (double)most);
     if (model->fades)
-        cs_warn(model->log, "%s: the alpha of its vertices is not supported; they are opaque",
+        cs_warn(model->log,
+                "%s: the alpha of its vertices is not used: the format has no material that asks "
+                "for it",
                 model->path);
 }
 

@@ -127,9 +127,8 @@ static clshear_status add_colours(gltf_primitive *primitive, long long accessor)
     gltf_reader *reader = primitive->reader;
     float *values = NULL;
     size_t given = 0, count = 0;
-    const cs_material_description *material =
-        (const cs_material_description *)reader->model->materials.items + primitive->material;
-    const int is_opaque = material->alpha_mode == CS_ALPHA_OPAQUE;
+    cs_material_description *material =
+        (cs_material_description *)reader->model->materials.items + primitive->material;
     clshear_status status = gltf_read_colours(reader, accessor, &values, &count, &given);
     if (status != CLSHEAR_OK) return status;
     if (count != primitive->count) status = wrong_count(primitive, "colours", count);
@@ -137,9 +136,12 @@ static clshear_status add_colours(gltf_primitive *primitive, long long accessor)
         float *colour = values + 4 * i;
         for (size_t c = 0; c < 3; c++)
             if (!(colour[c] >= 0.0f && colour[c] <= 1e15f)) colour[c] = 0.0f;
-        reader->model->fades |= given == 4 && colour[3] < 1.0f && !is_opaque;
         status = cs_model_set_colour(reader->model, primitive->first_position + i, colour,
                                      reader->error);
+        if (given < 4 || colour[3] >= 1.0f || status != CLSHEAR_OK) continue;
+        material->fades = 1;
+        status = cs_model_set_opacity(reader->model, primitive->first_position + i,
+                                      colour[3] >= 0.0f ? colour[3] : 0.0f, reader->error);
     }
     free(values);
     return status;

@@ -11,6 +11,7 @@ void cs_model_init(cs_model *model, const char *path, const cs_log *log)
     *model = (cs_model){.path = path, .log = log, .cutting = 1e9};
     model->positions.item_size = 3 * sizeof(double);
     model->colours.item_size = 3 * sizeof(float);
+    model->opacities.item_size = sizeof(float);
     model->normals.item_size = 3 * sizeof(float);
     model->textures.item_size = 2 * sizeof(float);
     model->triangles.item_size = sizeof(cs_model_triangle);
@@ -28,9 +29,9 @@ void cs_model_free(cs_model *model)
         free(images[i].label);
         free(images[i].bytes);
     }
-    cs_array *arrays[] = {&model->positions, &model->colours,   &model->normals,
-                          &model->textures,  &model->triangles, &model->materials,
-                          &model->images,    &model->lights,    &model->cameras};
+    cs_array *arrays[] = {&model->positions, &model->colours,   &model->opacities, &model->normals,
+                          &model->textures,  &model->triangles, &model->materials, &model->images,
+                          &model->lights,    &model->cameras};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         cs_array_free(arrays[i]);
 }
@@ -64,6 +65,19 @@ clshear_status cs_model_set_colour(cs_model *model, size_t index, const float *c
     float *value = ((float(*)[3])model->colours.items)[index];
     for (int c = 0; c < 3; c++)
         value[c] = cs_colour_value((double)colour[c], 0);
+    return CLSHEAR_OK;
+}
+
+clshear_status cs_model_set_opacity(cs_model *model, size_t index, float opacity, cs_error *error)
+{
+    const size_t before = model->opacities.count;
+    if (index >= before) {
+        float *added = cs_model_extend(&model->opacities, index + 1 - before);
+        if (added == NULL) return cs_model_full(model, error);
+        for (size_t i = before; i < index; i++)
+            added[i - before] = 1.0f;
+    }
+    ((float *)model->opacities.items)[index] = opacity;
     return CLSHEAR_OK;
 }
 

@@ -75,6 +75,7 @@ typedef struct cs_model {
     double time_s;                           /* of the animation */
     cs_array positions;                      /* double[3] */
     cs_array colours;    /* float[3], linear, one for each position; or none at all */
+    cs_array opacities;  /* float, 0 to 1, of positions that have colours; of those beyond, 1 */
     cs_array normals;    /* float[3] */
     cs_array textures;   /* float[2] */
     cs_array triangles;  /* cs_model_triangle */
@@ -86,7 +87,7 @@ typedef struct cs_model {
     int up_is_open;      /* the format has no such convention, and +Y is a guess */
     double cutting;      /* points that may still be looked at to cut polygons */
     size_t without_area; /* faces with fewer than three corners: points and lines */
-    int fades;           /* some position has an alpha below 1, for which there is no place */
+    int fades;           /* some position has an alpha that the material does not use */
 } cs_model;
 
 void cs_model_init(cs_model *model, const char *path, const cs_log *log);
@@ -103,6 +104,9 @@ clshear_status cs_model_full(const cs_model *model, cs_error *error);
  * numbers become 0. Positions that get none are white. */
 clshear_status cs_model_set_colour(cs_model *model, size_t index, const float *colour,
                                    cs_error *error);
+
+/* Gives the position number `index` an opacity: 0 to 1. Positions that get none have 1. */
+clshear_status cs_model_set_opacity(cs_model *model, size_t index, float opacity, cs_error *error);
 
 /* A material of which no more is known than a name: mid-grey; white where positions have colours,
  * so that they show those and not half of them. */

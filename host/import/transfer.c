@@ -93,7 +93,7 @@ static int vertices_are_sound(const cs_scene *scene)
     const cs_vertex *vertices = scene->vertices.items;
     int good =
         are_within(scene->positions.items, 3 * scene->positions.count, -FLT_MAX, FLT_MAX) &&
-        are_within(scene->colours.items, 3 * scene->colours.count, -FLT_MAX, FLT_MAX) &&
+        are_within(scene->colours.items, 4 * scene->colours.count, -FLT_MAX, FLT_MAX) &&
         are_within(scene->positions_to.items, 3 * scene->positions_to.count, -FLT_MAX, FLT_MAX) &&
         are_within(scene->normals_to.items, 3 * scene->normals_to.count, -FLT_MAX, FLT_MAX);
     for (size_t i = 0; i < scene->vertices.count; i++)

@@ -43,7 +43,8 @@ static void describe(const cs_scene *scene, size_t triangle, double part, cs_emi
     emitter->face = (uint32_t)triangle;
     emitter->material = ((const uint32_t *)scene->triangle_materials.items)[triangle];
     const cs_material *look = (const cs_material *)scene->materials.items + emitter->material;
-    const int mapped = ((const uint8_t *)scene->triangle_flags.items)[triangle] & CS_FACE_TEXTURED;
+    const uint8_t flags = ((const uint8_t *)scene->triangle_flags.items)[triangle];
+    const int mapped = flags & CS_FACE_TEXTURED;
     memcpy(emitter->corner, positions[corner[0]], sizeof emitter->corner);
     memcpy(emitter->radiance, look->emission, sizeof emitter->radiance);
     cs_vec_subtract(positions[corner[1]], positions[corner[0]], emitter->edge1);
@@ -53,6 +54,7 @@ static void describe(const cs_scene *scene, size_t triangle, double part, cs_emi
     if (look->flags & (CS_MATERIAL_BLEND | CS_MATERIAL_MASK)) emitter->varies |= CS_EMITTER_COVERS;
     if (mapped && (look->emission_texture > 0 || emitter->varies))
         emitter->varies |= CS_EMITTER_TEXTURED;
+    if (emitter->varies && (flags & CS_FACE_COLOURED)) emitter->varies |= CS_EMITTER_COLOURED;
 }
 
 /* Appends a triangle if it shines. maps: of the scene's textures, made when they are wanted. */

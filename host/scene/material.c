@@ -171,7 +171,7 @@ static void set_alpha(const cs_material_description *d, int covers, cs_material 
 {
     made->alpha = part(d->base_colour[3]);
     made->cutoff = d->alpha_cutoff > 0.0f ? fminf(d->alpha_cutoff, 2.0f) : 0.0f;
-    if (covers &&
+    if (covers && !d->fades &&
         (d->alpha_mode == CS_ALPHA_BLEND ? made->alpha == 1.0f : made->alpha >= made->cutoff))
         return; /* everywhere there */
     if (d->alpha_mode == CS_ALPHA_BLEND) made->flags |= CS_MATERIAL_BLEND;

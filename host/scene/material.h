@@ -56,6 +56,7 @@ typedef struct cs_material_description {
     cs_alpha_mode alpha_mode;
     float alpha_cutoff;
     cs_map alpha_map;
+    int fades;          /* 1: some vertices have an alpha below 1 */
     float transmission; /* part of the base that is transparent; 0 to 1 */
     float thickness;    /* of the solid, world units; 0: a thin wall */
     float ior;          /* of the solid; 1 to 10 */

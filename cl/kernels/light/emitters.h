@@ -50,8 +50,8 @@ static inline cs_vfloat cs_emitters_density(const cs_scene_buffers *scene,
 }
 
 #if CS_HAS(MATERIALS)
-/* Applies what the materials of the emitters vary over them: a texture, and alpha. place: parts of
- * the edges. */
+/* Applies what varies over the emitters: a texture, and alpha, that of vertices too. place: parts
+ * of the edges. */
 static inline void cs_vary_emission(const cs_scene_buffers *scene, cs_int_lanes chosen,
                                     const cs_vfloat *place, cs_vfloat *colour)
 {
@@ -75,9 +75,12 @@ static inline void cs_vary_emission(const cs_scene_buffers *scene, cs_int_lanes 
             for (int c = 0; c < 3; c++)
                 colour[c] *= mine ? map[c].all : (cs_vfloat)(1.0f);
         }
-#else
-        (void)place;
 #endif
+#if CS_HAS(COLOURS)
+        if (emitter->varies & CS_EMITTER_COLOURED)
+            alpha *= cs_vertex_alpha(scene, scene->faces + emitter->face, place[0], place[1]);
+#endif
+        (void)place;
         cs_vfloat covers = cs_covering(material, alpha);
         for (int c = 0; c < 3; c++)
             colour[c] *= mine ? covers : (cs_vfloat)(1.0f);
