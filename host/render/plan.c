@@ -156,9 +156,7 @@ clshear_status cs_job_plan(cs_job *job, cs_error *error)
     cs_memory_check(job);
     CS_TRY(cs_wide_scene_make(job->scene, &job->features, error));
     job->memory = cs_memory_of(job);
-    /* What the scene's surfaces need is compiled by now, when the scene was completed. */
-    if (job->features != job->scene->device_scene.needs.features)
-        CS_TRY(cs_pass_warm_up(job->scene->context->device, job->features, error));
+    CS_TRY(cs_pass_warm_up(job->scene->context->device, job->features, error));
     if (job->planes != 0)
         CS_TRY(cs_pass_warm_up(job->scene->context->device, cs_aov_features(job), error));
     const double start_s = cs_now_s();

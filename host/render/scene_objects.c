@@ -8,7 +8,6 @@
 #include "context/self_test.h"
 #include "import/import.h"
 #include "render/objects.h"
-#include "render/pass.h"
 #include "render/scene_motion.h"
 #include "settings/settings.h"
 
@@ -100,8 +99,6 @@ clshear_status cs_scene_complete(clshear_scene *scene, cs_error *error)
     clshear_context *context = scene->context;
     clshear_scene_info *info = &scene->info;
     cs_flat_bvh bvh = {0};
-    const cs_u32 needs = cs_scene_material_needs(&scene->scene).features;
-    CS_TRY(cs_pass_warm_up(context->device, needs | cs_wide_feature(scene, needs), error));
     CS_TRY(cs_self_test(context, error));
     const double compiled_s = cs_now_s();
     CS_TRY(cs_accel_create(&scene->scene, context->threads, &scene->accel, error));
