@@ -115,12 +115,32 @@ static inline void cs_map_at(const cs_scene_buffers *scene, cs_u32 number, cs_vf
     if (number > 0u) cs_texels(scene, number - 1u, s, t, wanted, colour);
 }
 
-/* Bends the normal of the lanes in `mine` as a normal map says, whose axes are those of the texture
- * on the triangle (glTF 2.0, material.normalTexture). The normal stays on the viewer's side. */
-static inline void cs_apply_normal_map(const cs_scene_buffers *scene, const cs_shape *shape,
-                                       CS_GLOBAL const cs_face *face, const cs_float_lanes *map,
-                                       cs_f32 scale, cs_vint mine, cs_surface *surface)
+/* The first axis of a normal map, at barycentrics (b1, b2) of a smooth face: its vertices' tangents
+ * between them, or `flat`, that of the triangle itself, where they have none. mirrored: whether the
+ * texture is. Both are across the normal, of any length. */
+static inline void cs_smooth_tangent(const cs_scene_buffers *scene, CS_GLOBAL const cs_face *face,
+                                     cs_vfloat b1, cs_vfloat b2, cs_u32 mirrored, cs_vfloat *flat)
 {
+    CS_GLOBAL const cs_f32 *t0 = scene->tangents[2u * face->vertex[0] + mirrored].value;
+    CS_GLOBAL const cs_f32 *t1 = scene->tangents[2u * face->vertex[1] + mirrored].value;
+    CS_GLOBAL const cs_f32 *t2 = scene->tangents[2u * face->vertex[2] + mirrored].value;
+    cs_vfloat tangent[3];
+    for (int i = 0; i < 3; i++)
+        tangent[i] = t0[i] + b1 * (t1[i] - t0[i]) + b2 * (t2[i] - t0[i]);
+    cs_vint usable = cs_dot(tangent, tangent) > 1e-4f;
+    for (int i = 0; i < 3; i++)
+        flat[i] = usable ? tangent[i] : flat[i];
+}
+
+/* Bends the normal of the lanes in `mine` as a normal map says, whose axes are those of the texture
+ * on the triangle, at barycentrics (b1, b2) (glTF 2.0, material.normalTexture). The normal stays on
+ * the viewer's side. */
+static inline void cs_apply_normal_map(const cs_scene_buffers *scene, const cs_shape *shape,
+                                       CS_GLOBAL const cs_triangle *triangle, cs_vfloat b1,
+                                       cs_vfloat b2, const cs_float_lanes *map, cs_f32 scale,
+                                       cs_vint mine, cs_surface *surface)
+{
+    CS_GLOBAL const cs_face *face = scene->faces + triangle->face;
     CS_GLOBAL const cs_f32 *t0 = scene->vertices[face->vertex[0]].texture;
     CS_GLOBAL const cs_f32 *t1 = scene->vertices[face->vertex[1]].texture;
     CS_GLOBAL const cs_f32 *t2 = scene->vertices[face->vertex[2]].texture;
@@ -134,6 +154,13 @@ static inline void cs_apply_normal_map(const cs_scene_buffers *scene, const cs_s
     cs_vfloat off = cs_dot(along, n);
     for (int i = 0; i < 3; i++)
         along[i] -= off * n[i];
+#if !CS_HAS(MOVING) /* there the triangle's own, which moves with it */
+    if (triangle->flags & CS_FACE_SMOOTH)
+        cs_smooth_tangent(scene, face, b1, b2, sign < 0.0f ? 1u : 0u, along);
+#else
+    (void)b1;
+    (void)b2;
+#endif
     cs_vfloat square = cs_dot(along, along);
     cs_vint usable = mine & (square > 1e-30f);
     cs_vfloat inverse = 1.0f / sqrt(cs_max(square, (cs_vfloat)(1e-30f)));
@@ -155,13 +182,13 @@ static inline void cs_apply_normal_map(const cs_scene_buffers *scene, const cs_s
 
 /* Everything that the material's textures say of the lanes in `mine`. */
 static inline void cs_apply_textures(const cs_scene_buffers *scene,
-                                     CS_GLOBAL const cs_material *material, const cs_shape *shape,
-                                     CS_GLOBAL const cs_face *face, cs_vfloat b1, cs_vfloat b2,
-                                     cs_vint mine, cs_surface *surface)
+                                     CS_GLOBAL const cs_triangle *triangle, const cs_shape *shape,
+                                     cs_vfloat b1, cs_vfloat b2, cs_vint mine, cs_surface *surface)
 {
+    CS_GLOBAL const cs_material *material = scene->materials + triangle->material;
     cs_vfloat s, t;
     cs_float_lanes map[4];
-    cs_texture_place(scene, face, b1, b2, &s, &t);
+    cs_texture_place(scene, scene->faces + triangle->face, b1, b2, &s, &t);
     cs_map_at(scene, (cs_u32)(material->texture + 1), s, t, mine, map);
     for (int c = 0; c < 3; c++)
         surface->albedo[c] = mine ? surface->albedo[c] * map[c].all : surface->albedo[c];
@@ -178,7 +205,7 @@ static inline void cs_apply_textures(const cs_scene_buffers *scene,
         mine ? p[CS_PARAMETER_METALLIC] * map[2].all : p[CS_PARAMETER_METALLIC];
     if (material->normal_texture == 0u) return;
     cs_map_at(scene, material->normal_texture, s, t, mine, map);
-    cs_apply_normal_map(scene, shape, face, map, material->normal_scale, mine, surface);
+    cs_apply_normal_map(scene, shape, triangle, b1, b2, map, material->normal_scale, mine, surface);
 #else
     (void)shape;
 #endif
@@ -237,8 +264,7 @@ static inline void cs_apply_vertices(const cs_scene_buffers *scene,
         cs_apply_smooth_normal(scene, face, b1, b2, mine, surface);
 #if CS_HAS(TEXTURES)
     if (triangle->flags & CS_FACE_TEXTURED)
-        cs_apply_textures(scene, scene->materials + triangle->material, shape, face, b1, b2, mine,
-                          surface);
+        cs_apply_textures(scene, triangle, shape, b1, b2, mine, surface);
 #endif
 #if CS_HAS(COLOURS)
     if (triangle->flags & CS_FACE_COLOURED) cs_apply_colour(scene, face, b1, b2, mine, surface);

@@ -31,6 +31,7 @@ enum {
     X(FACES, faces, cs_face)                            \
     X(VERTICES, vertices, cs_vertex)                    \
     X(COLOURS, colours, cs_colour)                      \
+    X(TANGENTS, tangents, cs_tangent)                   \
     X(MATERIALS, materials, cs_material)                \
     X(TEXTURES, textures, cs_texture)                   \
     X(TEXELS, texels, half)                             \
@@ -148,6 +149,14 @@ typedef struct cs_colour {
     cs_f32 alpha; /* 0 to 1 */
 } cs_colour;
 CS_SHARED_WORDS(cs_colour, 4);
+
+/* Which way a texture's first coordinate grows at a vertex: a unit vector, or zeros. A vertex has
+ * two, the second for triangles on which the texture is mirrored. The buffer is empty without
+ * normal maps. */
+typedef struct cs_tangent {
+    cs_f32 value[3];
+} cs_tangent;
+CS_SHARED_WORDS(cs_tangent, 3);
 
 typedef struct cs_material {
     cs_f32 diffuse[3];  /* albedo, linear Rec.709; multiplies the texture if there is one */

@@ -3,6 +3,7 @@
 #include "render/objects.h"
 #include "scene/albedo.h"
 #include "scene/emitters.h"
+#include "scene/tangents.h"
 
 static clshear_status upload(cs_device_scene *world, cs_device *device, cs_scene_buffer which,
                              const cs_array *array, cs_error *error)
@@ -59,6 +60,20 @@ done:
     return status;
 }
 
+/* What normal maps need. */
+static clshear_status upload_tangents(cs_device_scene *world, cs_device *device,
+                                      const cs_scene *scene, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_array tangents = {.item_size = sizeof(cs_tangent)};
+    CS_TRY(cs_tangents_make(scene, &tangents, error));
+    CS_TRY(upload(world, device, CS_SCENE_TANGENTS, &tangents, error));
+    world->geometry_bytes += tangents.count * tangents.item_size;
+done:
+    cs_array_free(&tangents);
+    return status;
+}
+
 clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const cs_scene *scene,
                                const cs_flat_bvh *bvh, cs_error *error)
 {
@@ -85,6 +100,7 @@ clshear_status cs_scene_upload(cs_device_scene *world, cs_device *device, const 
     world->geometry_bytes = bvh->nodes.count * bvh->nodes.item_size +
                             bvh->triangles.count * bvh->triangles.item_size +
                             faces->count * faces->item_size + vertices->count * vertices->item_size;
+    CS_TRY(upload_tangents(world, device, scene, error));
 done:
     return status;
 }
