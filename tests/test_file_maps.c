@@ -123,6 +123,33 @@ static void write_png(const char *name, const unsigned char *gamma)
     test_bytes(name, picture, sizeof picture);
 }
 
+/* WebP's colours are not multiplied by alpha: one texel of (255, 128, 0) with the alpha 64. */
+static void alpha_of_webp(void **state)
+{
+    static const unsigned char picture[] = {0x52, 0x49, 0x46, 0x46, 0x1c, 0x00, 0x00, 0x00, 0x57,
+                                            0x45, 0x42, 0x50, 0x56, 0x50, 0x38, 0x4c, 0x10, 0x00,
+                                            0x00, 0x00, 0x2f, 0x00, 0x00, 0x00, 0x10, 0x07, 0x50,
+                                            0xc0, 0xfe, 0x47, 0x81, 0x02, 0x11, 0xd1, 0xff, 0x00};
+    /* OpenImageIO rounds 128 times 64 / 255 to a whole number, 32, which stands for 127.5. */
+    const double green = pow((127.5 / 255.0 + 0.055) / 1.055, 2.4);
+    (void)state;
+    test_bytes("grey.tga", picture, sizeof picture); /* found by its first bytes */
+    cs_scene scene =
+        material_scene_gltf("{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}");
+    expect_texel(&scene, base_of(&scene), 1, green, 0, 64.0 / 255.0);
+    cs_scene_free(&scene);
+}
+
+/* Portable pixmaps are on sRGB's curve, as all integers that do not say otherwise. */
+static void curve_of_pixmaps(void **state)
+{
+    (void)state;
+    test_file("grey.ppm", "P3\n1 1\n255\n128 255 0\n");
+    cs_scene scene = material_scene_mtl("map_Kd grey.ppm");
+    expect_texel(&scene, base_of(&scene), 0.2158, 1, 0, 1);
+    cs_scene_free(&scene);
+}
+
 /* MTL obeys the chunk: 1 / 2.2 stands for sRGB's curve, 1 is linear. glTF 2.0 has it
  * ignored. */
 static void gamma_of_png(void **state)
@@ -312,6 +339,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(maps_of_gltf),           cmocka_unit_test(maps_of_mtl),
+        cmocka_unit_test(alpha_of_webp),          cmocka_unit_test(curve_of_pixmaps),
         cmocka_unit_test(gamma_of_png),           cmocka_unit_test(texels_beyond_halves),
         cmocka_unit_test(heights_become_normals), cmocka_unit_test(windows_of_exr),
         cmocka_unit_test(layers_of_exr),          cmocka_unit_test(parts_of_exr),

@@ -26,11 +26,12 @@ enum class Curve {
 
 /* Converts colours from a curve to linear. space: OpenImageIO's name of the curve. gamma: its
  * power, if the name begins with "Gamma", as a PNG's gAMA chunk makes it. "Gamma2.2" stands for the
- * curve of sRGB, since PNGs on that curve say 2.2 (PNG specification, gAMA and sRGB). */
-ImageBuf linear_of(ImageBuf &&rgba, const std::string &space, float gamma)
+ * curve of sRGB, since PNGs on that curve say 2.2 (PNG specification, gAMA and sRGB). So does
+ * "Rec709", which all integers of PNM files are said to be: programs write those of sRGB. */
+ImageBuf linear_of(ImageBuf &&rgba, const std::string &space, float gamma, bool is_integer)
 {
     const float powers[4] = {gamma, gamma, gamma, 1.0f};
-    if (space == "sRGB" || space == "Gamma2.2")
+    if (space == "sRGB" || space == "Gamma2.2" || (space == "Rec709" && is_integer))
         return OIIO::ImageBufAlgo::colorconvert(rgba, "sRGB", "linear", false);
     if (space.compare(0, 5, "Gamma") != 0 || !(gamma > 0.0f)) return std::move(rgba);
     return OIIO::ImageBufAlgo::pow(rgba, OIIO::cspan<float>(powers, 4));
@@ -42,11 +43,12 @@ struct Stored {
     bool is_associated; /* alpha has multiplied the colours */
 };
 
+/* WebP files hold colours apart from alpha, but OpenImageIO multiplies them, on their curve. */
 Stored stored_in(const ImageBuf &source)
 {
     const std::string format(source.file_format_name());
     return {!source.nativespec().format.is_floating_point(),
-            (format == "openexr" || format == "tiff") &&
+            (format == "openexr" || format == "tiff" || format == "webp") &&
                 source.spec().get_int_attribute("oiio:UnassociatedAlpha") == 0};
 }
 
@@ -63,7 +65,8 @@ ImageBuf linear_rgba(const ImageBuf &source, const Stored &stored, Curve curve)
     std::string space = source.spec().get_string_attribute("oiio:ColorSpace");
     if (space.empty() || curve == Curve::srgb) space = stored.is_integer ? "sRGB" : "linear";
     if (curve == Curve::none) return rgba;
-    return linear_of(std::move(rgba), space, source.spec().get_float_attribute("oiio:Gamma", 2.2f));
+    const float gamma = source.spec().get_float_attribute("oiio:Gamma", 2.2f);
+    return linear_of(std::move(rgba), space, gamma, stored.is_integer);
 }
 
 /* An image to read: a file, or `size` bytes of one at `memory` if that is not null. */
@@ -74,22 +77,53 @@ struct Source {
     size_t size;
 };
 
-/* The usual extension for the first bytes of an image, since OpenImageIO goes by names. */
-const char *extension_for(const void *memory, size_t size)
+/* A kind of image, by the bytes that begin it, behind some that may be any. */
+struct Kind {
+    size_t offset;
+    std::string magic;
+    const char *extension; /* nullptr: cannot be read from memory */
+    const char *name;
+};
+
+/* The kind of an image in memory, or nullptr: OpenImageIO goes by names of files. */
+const Kind *kind_of(const void *memory, size_t size)
 {
-    static const struct {
-        const char *magic;
-        size_t length;
-        const char *extension;
-    } known[] = {{"\x89PNG", 4, "png"}, {"\xff\xd8\xff", 3, "jpg"},
-                 {"RIFF", 4, "webp"},   {"\x76\x2f\x31\x01", 4, "exr"},
-                 {"#?", 2, "hdr"},      {"GIF8", 4, "gif"},
-                 {"II*", 3, "tif"},     {"MM", 2, "tif"},
-                 {"BM", 2, "bmp"}};
-    for (const auto &entry : known)
-        if (size >= entry.length && std::memcmp(memory, entry.magic, entry.length) == 0)
-            return entry.extension;
-    return "png";
+    static const Kind known[] = {
+        {0, "\x89PNG", "png", "PNG"},      {0, "\xff\xd8\xff", "jpg", "JPEG"},
+        {0, "RIFF", "webp", "WebP"},       {0, "\x76\x2f\x31\x01", "exr", "EXR"},
+        {0, "#?", "hdr", "Radiance"},      {0, "GIF8", "gif", "GIF"},
+        {0, "II*", "tif", "TIFF"},         {0, "MM", "tif", "TIFF"},
+        {0, "BM", "bmp", "BMP"},           {0, "8BPS", "psd", "Photoshop"},
+        {0, "DDS ", "dds", "DDS"},         {0, "\xabKTX 20", nullptr, "KTX2"},
+        {0, "\xabKTX 11", nullptr, "KTX"}, {4, "ftypavif", nullptr, "AVIF"},
+        {4, "ftyphei", nullptr, "HEIC"},   {4, "jP  ", nullptr, "JPEG 2000"},
+        {0, "<svg", nullptr, "SVG"},       {0, "<?xml", nullptr, "SVG"}};
+    for (const Kind &kind : known)
+        if (size >= kind.offset + kind.magic.size() &&
+            std::memcmp(static_cast<const char *>(memory) + kind.offset, kind.magic.data(),
+                        kind.magic.size()) == 0)
+            return &kind;
+    static const Kind targa = {0, "TRUEVISION-XFILE.", "tga",
+                               "Targa"}; /* ends the file, with a 0 */
+    const size_t ends = targa.magic.size() + 1;
+    return size >= ends && std::memcmp(static_cast<const char *>(memory) + size - ends,
+                                       targa.magic.data(), targa.magic.size()) == 0
+               ? &targa
+               : nullptr;
+}
+
+/* The name that makes OpenImageIO read an image in memory by its kind. */
+clshear_status name_for(const Source &from, std::string &name, cs_error *error)
+{
+    if (from.size == 0) return cs_fail(error, CLSHEAR_BAD_FILE, "%s: has no bytes", from.label);
+    const Kind *kind = kind_of(from.memory, from.size);
+    if (kind == nullptr)
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: not an image that can be read", from.label);
+    if (kind->extension == nullptr)
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s images are not read from within a file",
+                       from.label, kind->name);
+    name = std::string("embedded.") + kind->extension;
+    return CLSHEAR_OK;
 }
 
 /* Texels in one image: more are a damaged head rather than a picture. */
@@ -137,13 +171,15 @@ clshear_status read_rgba(const Source &from, Curve curve, ImageBuf &rgba, cs_err
     const char *flaw = from.memory == nullptr ? cs_not_a_file(from.path) : nullptr;
     if (flaw != nullptr) return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label, flaw);
     std::string path = from.path;
+    clshear_status status = CLSHEAR_OK;
     if (from.memory != nullptr)
-        path = std::string("embedded.") + extension_for(from.memory, from.size);
+        status = name_for(from, path, error);
     else if (access(from.path, R_OK) != 0)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: cannot be opened: %s", from.label,
                        std::strerror(errno));
     else
         forget(from.path);
+    if (status != CLSHEAR_OK) return status;
     OIIO::Filesystem::IOMemReader reader(const_cast<void *>(from.memory), from.size);
     ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
@@ -154,7 +190,7 @@ clshear_status read_rgba(const Source &from, Curve curve, ImageBuf &rgba, cs_err
                        reason_of(source, path).c_str());
     const int part = picture_part(source, path, &config, memory);
     const ImageSpec &spec = source.spec();
-    clshear_status status = check_size(from.label, spec.width, spec.height, error);
+    status = check_size(from.label, spec.width, spec.height, error);
     if (status == CLSHEAR_OK)
         status = check_size(from.label, spec.full_width, spec.full_height, error);
     if (status != CLSHEAR_OK) return status;

@@ -14,6 +14,8 @@ static const char *const supported[] = {"KHR_lights_punctual", "KHR_texture_tran
                                         "EXT_meshopt_compression", "KHR_draco_mesh_compression",
                                         /* a centre that all is relative to; shown without */
                                         "CESIUM_RTC",
+                                        /* what the file has at rest stands */
+                                        "KHR_animation_pointer",
                                         /* tells who made what */
                                         "KHR_xmp_json_ld",
                                         /* chooses among materials; the primitive's own stands */
@@ -56,7 +58,9 @@ void gltf_tell(const gltf_reader *reader)
         [GLTF_MORE_JOINTS] =
             "more than four joints of a vertex are not supported; the first four move it",
         [GLTF_BASISU] = "no image that can be read (extension KHR_texture_basisu)",
-        [GLTF_WITHOUT_IMAGE] = "no image that can be read (extension not known)"};
+        [GLTF_WITHOUT_IMAGE] = "no image that can be read (extension not known)",
+        [GLTF_WITHOUT_AREA] = "points and lines are left out",
+        [GLTF_STANDS_STILL] = "moves no node, but something else, which stands still"};
     for (int i = 0; i < GLTF_REMARKS; i++) {
         const gltf_places *places = &reader->places[i];
         char more[32] = "";
@@ -346,8 +350,8 @@ static clshear_status read_all(gltf_reader *reader, cs_bytes *bytes)
     CS_TRY(gltf_materials(reader));
     CS_TRY(gltf_animate(reader));
     CS_TRY(gltf_nodes(reader));
-    gltf_tell(reader);
     CS_TRY(check(reader));
+    gltf_tell(reader);
 done:
     return status;
 }

@@ -98,6 +98,11 @@ static clshear_status read_curve(gltf_reader *reader, const json_t *sampler, con
                             &given));
     CS_TRY(gltf_read_floats(reader, gltf_index(sampler, "output"), components, &curve->values,
                             &items, &given));
+    if (given != components && curve->count > 0) {
+        status = gltf_complain(reader, "animations", 0, "a curve of %s has %zu numbers a key", path,
+                               given);
+        goto done;
+    }
     const size_t keys = curve->count * (curve->has_tangents ? 3 : 1);
     if (keys == 0 || items % keys != 0 || items == 0 || (components > 1 && items != keys)) {
         status = gltf_complain(reader, "animations", 0, "a curve of %s has %zu values for %zu keys",
@@ -109,18 +114,39 @@ done:
     return status;
 }
 
-static clshear_status play_channel(gltf_reader *reader, const json_t *animation,
-                                   const json_t *channel)
+/* What of a node a channel moves: *path is "" if it is something else. KHR_animation_pointer names
+ * it as "/nodes/0/scale". */
+static long long node_of(const json_t *target, const char **path)
 {
-    const json_t *target = json_object_get(channel, "target");
-    const char *path = gltf_text(target, "path", "");
-    const long long number = gltf_index(target, "node"), index = gltf_index(channel, "sampler");
+    static const char *const paths[] = {"translation", "rotation", "scale", "weights"};
+    static const char nodes[] = "/nodes/";
+    const json_t *extension = gltf_extension(target, "KHR_animation_pointer");
+    const char *given = gltf_text(target, "path", ""), *at = gltf_text(extension, "pointer", "");
+    long long node = gltf_index(target, "node");
+    if (strcmp(given, "pointer") == 0 && strncmp(at, nodes, strlen(nodes)) == 0) {
+        char *end;
+        node = strtoll(at + strlen(nodes), &end, 10);
+        given = *end == '/' && node >= 0 ? end + 1 : "";
+    }
+    *path = "";
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++)
+        if (strcmp(given, paths[i]) == 0) *path = paths[i];
+    return node;
+}
+
+static clshear_status play_channel(gltf_reader *reader, const json_t *animation, size_t place)
+{
+    const json_t *channel = json_array_get(json_object_get(animation, "channels"), place);
+    const char *path = "";
+    const long long number = node_of(json_object_get(channel, "target"), &path);
+    const long long index = gltf_index(channel, "sampler");
     const json_t *sampler =
         index >= 0 ? json_array_get(json_object_get(animation, "samplers"), (size_t)index) : NULL;
     gltf_curve curve = {0};
-    if (number == -1 || (strcmp(path, "translation") != 0 && strcmp(path, "rotation") != 0 &&
-                         strcmp(path, "scale") != 0 && strcmp(path, "weights") != 0))
-        return CLSHEAR_OK; /* of extensions */
+    if (number == -1 || *path == '\0') {
+        gltf_note(reader, GLTF_STANDS_STILL, "animations[0].channels", (long long)place);
+        return CLSHEAR_OK;
+    }
     json_t *node = gltf_at(reader, "nodes", number);
     if (node == NULL) return CLSHEAR_BAD_FILE;
     if (sampler == NULL)
@@ -137,8 +163,12 @@ clshear_status gltf_animate(gltf_reader *reader)
     const json_t *animation = json_array_get(json_object_get(reader->root, "animations"), 0);
     const json_t *channels = json_object_get(animation, "channels");
     clshear_status status = CLSHEAR_OK;
+    const size_t count = gltf_count(reader, "animations");
     if (!reader->model->is_played) return CLSHEAR_OK;
+    if (count > 1)
+        cs_warn(reader->model->log, "%s: %zu animations, of which the first is played",
+                reader->model->path, count);
     for (size_t i = 0; i < json_array_size(channels) && status == CLSHEAR_OK; i++)
-        status = play_channel(reader, animation, json_array_get(channels, i));
+        status = play_channel(reader, animation, i);
     return status;
 }

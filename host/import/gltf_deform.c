@@ -118,7 +118,7 @@ void gltf_skin_matrix(const gltf_skin *skin, size_t vertex, const double *of_nod
 }
 
 clshear_status gltf_morph(gltf_reader *reader, const json_t *primitive, const json_t *weights,
-                          const char *attribute, float *values, size_t count)
+                          const char *attribute, size_t components, float *values, size_t count)
 {
     const json_t *targets = json_object_get(primitive, "targets");
     for (size_t k = 0; k < json_array_size(targets) && k < json_array_size(weights); k++) {
@@ -127,11 +127,12 @@ clshear_status gltf_morph(gltf_reader *reader, const json_t *primitive, const js
         float *change = NULL;
         size_t changed = 0, given = 0;
         if (weight == 0.0f || accessor == -1) continue;
-        clshear_status status = gltf_read_floats(reader, accessor, 3, &change, &changed, &given);
+        clshear_status status =
+            gltf_read_floats(reader, accessor, components, &change, &changed, &given);
         if (status == CLSHEAR_OK && changed != count)
             status = gltf_complain(reader, "accessors", accessor,
                                    "a morph target has %zu items for %zu vertices", changed, count);
-        for (size_t i = 0; i < 3 * count && status == CLSHEAR_OK; i++)
+        for (size_t i = 0; i < components * count && status == CLSHEAR_OK; i++)
             values[i] += weight * change[i];
         free(change);
         if (status != CLSHEAR_OK) return status;

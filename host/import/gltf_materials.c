@@ -236,8 +236,9 @@ static clshear_status read_normals(gltf_reader *reader, const json_t *json,
     return read_map(reader, json, "normalTexture", &material->normal_map);
 }
 
-/* KHR_materials_pbrSpecularGlossiness. Its specular colour may be a metal's. */
-static clshear_status read_glossiness(gltf_reader *reader, const json_t *ext,
+/* KHR_materials_pbrSpecularGlossiness (`ext`) of the material `json`. Its specular colour may be a
+ * metal's. */
+static clshear_status read_glossiness(gltf_reader *reader, const json_t *json, const json_t *ext,
                                       cs_material_description *material)
 {
     float colour[3] = {1, 1, 1};
@@ -251,6 +252,7 @@ static clshear_status read_glossiness(gltf_reader *reader, const json_t *ext,
     }
     clshear_status status = read_map(reader, ext, "diffuseTexture", &material->base_map);
     cs_material_reflect(material, colour);
+    read_layers(json, material);
     return status;
 }
 
@@ -280,7 +282,7 @@ static clshear_status read_surface(gltf_reader *reader, const json_t *json,
     clshear_status status = CLSHEAR_OK;
     for (int c = 0; c < 3; c++)
         material->base_colour[c] = 1.0f;
-    if (old != NULL) return read_glossiness(reader, old, material);
+    if (old != NULL) return read_glossiness(reader, json, old, material);
     gltf_floats(pbr, "baseColorFactor", material->base_colour, 4);
     CS_TRY(read_map(reader, pbr, "baseColorTexture", &material->base_map));
     if (!asks_for_more(json)) return status;

@@ -35,7 +35,7 @@ static clshear_status add_positions(gltf_primitive *primitive, long long accesso
     clshear_status status =
         gltf_read_floats(reader, accessor, 3, &values, &primitive->count, &given);
     if (status != CLSHEAR_OK) return status;
-    status = gltf_morph(reader, primitive->json, primitive->weights, "POSITION", values,
+    status = gltf_morph(reader, primitive->json, primitive->weights, "POSITION", 3, values,
                         primitive->count);
     primitive->first_position = (uint32_t)pool->count;
     double(*added)[3] = cs_model_extend(pool, primitive->count);
@@ -84,7 +84,8 @@ static clshear_status add_normals(gltf_primitive *primitive, long long accessor)
     else if (added == NULL)
         status = cs_model_full(reader->model, reader->error);
     else
-        status = gltf_morph(reader, primitive->json, primitive->weights, "NORMAL", values, count);
+        status =
+            gltf_morph(reader, primitive->json, primitive->weights, "NORMAL", 3, values, count);
     for (size_t i = 0; status == CLSHEAR_OK && added != NULL && i < count; i++) {
         double turned[3], m[16];
         gltf_skin_matrix(primitive->skin, i, primitive->matrix, m);
@@ -102,7 +103,9 @@ static clshear_status add_normals(gltf_primitive *primitive, long long accessor)
     return status;
 }
 
-static clshear_status add_textures(gltf_primitive *primitive, long long accessor)
+/* attribute: TEXCOORD_n, whose numbers the accessor has. */
+static clshear_status add_textures(gltf_primitive *primitive, const char *attribute,
+                                   long long accessor)
 {
     gltf_reader *reader = primitive->reader;
     cs_array *pool = &reader->model->textures;
@@ -116,8 +119,10 @@ static clshear_status add_textures(gltf_primitive *primitive, long long accessor
         status = wrong_count(primitive, "texture coordinates", count);
     else if (added == NULL)
         status = cs_model_full(reader->model, reader->error);
-    else if (count > 0)
-        memcpy(added, values, count * pool->item_size);
+    else
+        status =
+            gltf_morph(reader, primitive->json, primitive->weights, attribute, 2, values, count);
+    if (status == CLSHEAR_OK && count > 0) memcpy(added, values, count * pool->item_size);
     free(values);
     return status;
 }
@@ -131,7 +136,11 @@ static clshear_status add_colours(gltf_primitive *primitive, long long accessor)
         (cs_material_description *)reader->model->materials.items + primitive->material;
     clshear_status status = gltf_read_colours(reader, accessor, &values, &count, &given);
     if (status != CLSHEAR_OK) return status;
-    if (count != primitive->count) status = wrong_count(primitive, "colours", count);
+    if (count != primitive->count)
+        status = wrong_count(primitive, "colours", count);
+    else
+        status =
+            gltf_morph(reader, primitive->json, primitive->weights, "COLOR_0", 4, values, count);
     for (size_t i = 0; i < count && status == CLSHEAR_OK; i++) {
         float *colour = values + 4 * i;
         for (size_t c = 0; c < 3; c++)
@@ -259,6 +268,7 @@ static clshear_status add_primitive(gltf_primitive *primitive, const json_t *jso
     if (position == -1) return CLSHEAR_OK;
     if (mode < 4.0 || mode > 6.0) {
         reader->model->without_area++;
+        gltf_note(reader, GLTF_WITHOUT_AREA, primitive->place, -1);
         return CLSHEAR_OK;
     }
     CS_TRY(gltf_unpack_primitive(reader, primitive->place, json, &is_list));
@@ -273,7 +283,7 @@ static clshear_status add_primitive(gltf_primitive *primitive, const json_t *jso
     if (placing != NULL) {
         snprintf(set, sizeof set, "TEXCOORD_%d", placing->set);
         const long long texture = gltf_index(attributes, set);
-        if (texture >= 0) CS_TRY(add_textures(primitive, texture));
+        if (texture >= 0) CS_TRY(add_textures(primitive, set, texture));
     }
     const long long colour = gltf_index(attributes, "COLOR_0");
     if (colour >= 0) CS_TRY(add_colours(primitive, colour));

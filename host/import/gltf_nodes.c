@@ -318,6 +318,9 @@ clshear_status gltf_nodes(gltf_reader *reader)
         scene = gltf_at(reader, "scenes", chosen >= 0 ? chosen : 0);
         if (scene == NULL) status = CLSHEAR_BAD_FILE;
     }
+    if (gltf_count(reader, "scenes") > 1)
+        cs_warn(reader->model->log, "%s: %zu scenes, of which number %lld is shown",
+                reader->model->path, gltf_count(reader, "scenes"), chosen >= 0 ? chosen : 0);
     if (status == CLSHEAR_OK) status = push_roots(reader, &waiting, scene);
     while (status == CLSHEAR_OK && waiting.count > 0) {
         const gltf_visit visit = ((const gltf_visit *)waiting.items)[--waiting.count];

@@ -32,6 +32,8 @@ typedef enum gltf_remark {
     GLTF_MORE_JOINTS,   /* a primitive */
     GLTF_BASISU,        /* a texture that is compressed so */
     GLTF_WITHOUT_IMAGE, /* a texture */
+    GLTF_WITHOUT_AREA,  /* a primitive of points or lines, beside others */
+    GLTF_STANDS_STILL,  /* a channel of an animation that moves no node */
     GLTF_REMARKS
 } gltf_remark;
 
@@ -191,10 +193,10 @@ clshear_status gltf_skin_bind(gltf_reader *reader, const json_t *attributes, siz
 void gltf_skin_matrix(const gltf_skin *skin, size_t vertex, const double *of_node, double *matrix);
 void gltf_skin_close(gltf_skin *skin);
 
-/* Adds what the morph targets of a primitive change of an attribute with three components. weights:
- * those of the node or its mesh, or NULL. */
+/* Adds what the morph targets of a primitive change of an attribute whose `count` values have so
+ * many components. weights: those of the node or its mesh, or NULL. */
 clshear_status gltf_morph(gltf_reader *reader, const json_t *primitive, const json_t *weights,
-                          const char *attribute, float *values, size_t count);
+                          const char *attribute, size_t components, float *values, size_t count);
 
 /* Adds the triangles of a node's mesh, moved by a matrix (4 columns of 4) or by the node's skin,
  * with the weights of its morph targets. */
