@@ -70,7 +70,11 @@ refuse 2 "focus-pixel 40,2 is outside the 32 x 32 image: give X 0 to 31 and Y 0 
 refuse 2 "replicates" -- "$cornell" --quiet --spp 2 --replicates 3
 expect 1 "folder no/such/ cannot be written" -- "$cornell" --out no/such/folder.exr
 output=$(OCL_ICD_VENDORS=/nonexistent "$program" "$cornell" --quiet --out refused.exr 2>&1)
-case $?$output in 1*"no OpenCL device found; install"*) ;; *) wrong "no driver: $output" ;; esac
+case $?$output in 1*"no OpenCL device found; install"*"unset \$OCL_ICD_VENDORS"*) ;; *) wrong "no driver: $output" ;; esac
+for files in 4 5 6 7 8; do # with too few, the program is not loaded either
+    output=$(ulimit -n $files && "$program" "$cornell" --quiet --spp 4 --width 8 --height 8 --out few.exr 2>&1)
+    case $?$output in 127*"shared libraries"* | 1*"may have $files files open (ulimit -n)"* | 0) ;; *) wrong "few files: $output" ;; esac
+done
 
 # Full outputs and formats that are too small.
 output=$("$program" --list-samplers 2>&1 >/dev/full)
@@ -122,6 +126,8 @@ expect 1 "the name is too long" -- "$cornell" --quiet --spp 1000000000 --out "${
     [ -s line.exr ] && [ ! -e file.exr ] || wrong "outputs of the line do not replace the file's"
     case $(oiiotool --info -v line.exr) in *'clshear.aperture: "disk"'*) ;; *) wrong "aperture of the file won" ;; esac
     refuse 1 "gone.flags: cannot be read" -- "$cornell" --settings gone.flags
+    refuse 1 "/dev/zero: is no settings file" -- "$cornell" --settings /dev/zero
+    expect 0 "" -- "$cornell" $small --quiet --settings <(echo "width 8") --out d.exr
 }
 
 # Apertures and filters, with what tells them in the metadata.
@@ -200,12 +206,18 @@ done
     case $output in *"--aov"*) wrong "a remark on channels that are kept: $output" ;; esac
 }
 # Pictures that cannot be meant are remarked on; others are not.
-remarks="black|brighter|everything is in focus"
+remarks="black|thousandth|brighter|everything is in focus"
 # shellcheck disable=SC2086
 {
     expect 0 "black: the camera does not see" -- bare.obj $small --eye 0,0,1e5 --target 0,0,2e5 \
         --light 0,0,9,1,1,1 --out k.exr
     expect 0 "does not see the scene, only what is around it" -- bare.obj $small --eye 0,0,9 --target 0,0,20 --out k.exr
+    far="--eye 0,0,300 --target 0,0,0 --width 128 --height 128 --spp 2"
+    expect 0 "the scene fills less than a thousandth of the picture, the rest is black; --orbit 0,0" -- bare.obj $far \
+        --light 0,0,9,99,99,99 --out k.exr
+    expect 0 "the scene fills less than a thousandth of the picture; --orbit" -- bare.obj $far --environment 1,1,1 --out k.exr
+    expect 0 "" -- bare.obj $far --crop 60,128,0,128 --light 0,0,9,99,99,99 --out k.exr
+    case $output in *thousandth*) wrong "a remark on a crop: $output" ;; esac
     expect 0 "black: no light reaches" -- bare.obj $small --light 1e6,1e6,1e6,0,0,0 --out k.exr
     expect 0 "--exposure -9 or --auto-exposure" -- bare.obj $small --environment 99,99,99 \
         --out k.exr

@@ -29,6 +29,10 @@ expect 2 "--direction 0,0: must be two numbers" -- spectrum --direction 0,0
 expect 2 "--out a.gif: must be" -- spectrum --out a.gif
 expect 2 "--plot a.pdf: must be a name that ends in .png or .svg" -- spectrum --plot a.pdf
 expect 1 "none.txt" -- spectrum --in none.txt
+expect 1 "/dev/zero:1: this is no line of text, or has more than 4095 bytes" -- spectrum --in /dev/zero
+printf '# %05000d\n0.25 0.5\n0.5 0.75' 0 >long.txt # a remark may be long, the last line without its end
+expect 0 "0.25 0.5" -- points --in long.txt --out -
+case $output in *"0.5 0.75"*) ;; *) wrong "points behind a long remark: $output" ;; esac
 expect 0 "predicted as isotropic," -- predict --integrand step --sampler nrooks --n 16 --sets 50 --measure 50
 case $output in *"measured,"*) ;; *) wrong "not measured: $output" ;; esac
 expect 2 "give an --integrand" -- predict --n 16

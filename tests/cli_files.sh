@@ -150,6 +150,12 @@ while kill -HUP $child 2>/dev/null; do sleep 0.02; done
 wait $child
 [ $? -eq 0 ] || wrong "nohup: exit code, $(cat h.txt)"
 
+# A reader of what is printed that leaves costs no picture.
+rm -f piped.exr
+# shellcheck disable=SC2086
+"$program" "$cornell" $small --spp 1024 --out piped.exr 2>&1 | head -1 >piped.txt
+[ "${PIPESTATUS[0]}" -eq 0 ] && [ -s piped.exr ] || wrong "a reader that leaves ends the render: $(cat piped.txt)"
+
 # What is printed does not go into the files of a program whose standard streams are closed.
 # shellcheck disable=SC2086
 {

@@ -78,6 +78,19 @@ render
 PATH=$keep
 [ $code -eq 0 ] || wrong "kernels are there, ld is not: $output"
 
+# Variables of PoCL with values for which it ends the process, or has no device.
+# with VARIABLE=VALUE WORDS
+with() {
+    output=$(export "$1" && "$program" "$scene" --width 16 --height 16 --spp 4 --quiet --out out.exr 2>&1)
+    code=$?
+    refused "$2"
+}
+with POCL_CACHE_DIR= "\$POCL_CACHE_DIR is empty"
+with POCL_MAX_PTHREAD_COUNT=-1 "\$POCL_MAX_PTHREAD_COUNT is \"-1\", for which PoCL ends the process: unset it"
+with POCL_MAX_PTHREAD_COUNT=99999999999999999999 "set it to a number from 0 to 4096"
+with POCL_MAX_WORK_GROUP_SIZE=none "\$POCL_MAX_WORK_GROUP_SIZE is \"none\""
+with POCL_DEVICES=toaster "\$POCL_DEVICES is \"toaster\": unset it"
+
 # The limit of the stack is that of the first thread, not of PoCL's.
 output=$(ulimit -s 256 && "$program" "$scene" --width 16 --height 16 --spp 4 --quiet --out out.exr 2>&1) ||
     wrong "a small stack: $output"

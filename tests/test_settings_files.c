@@ -82,6 +82,20 @@ static void errors_in_files_have_a_place(void **state)
                               "other.flags:4 bad=1;");
 }
 
+/* Pictures, text in UTF-16 and streams without an end are no settings, and are told so. */
+static void what_is_no_text_is_refused(void **state)
+{
+    static const char words[] = "is no settings file: it must be text";
+    clshear_settings *settings = *state;
+    test_refused(clshear_settings_read(settings, test_bytes("wide.flags", "s\0p\0p\0 \0004\0", 10),
+                                       NULL, NULL),
+                 CLSHEAR_BAD_FILE, words);
+    test_refused(
+        clshear_settings_read(settings, test_bytes("zeros.flags", "spp 4\n\0\0", 8), NULL, NULL),
+        CLSHEAR_BAD_FILE, words);
+    test_refused(clshear_settings_read(settings, "/dev/zero", NULL, NULL), CLSHEAR_BAD_FILE, words);
+}
+
 static void apertures_are_checked(void **state)
 {
     clshear_settings *settings = *state;
@@ -113,6 +127,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_SETTINGS(files_are_read),
         WITH_SETTINGS(errors_in_files_have_a_place),
+        WITH_SETTINGS(what_is_no_text_is_refused),
         WITH_SETTINGS(apertures_are_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -20,3 +20,10 @@ size_t cs_address_limit(void)
     if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return 0;
     return (size_t)limit.rlim_cur;
 }
+
+size_t cs_open_file_limit(void)
+{
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return 0;
+    return (size_t)limit.rlim_cur;
+}

@@ -1,4 +1,4 @@
-/* The memory of this process. */
+/* The memory of this process, and limits that the system sets to it. */
 #ifndef CS_BASE_RESIDENT_H
 #define CS_BASE_RESIDENT_H
 
@@ -9,5 +9,8 @@ size_t cs_resident_bytes(void);
 
 /* Bytes that its addresses may span (`ulimit -v`); 0: any number. */
 size_t cs_address_limit(void);
+
+/* Files that it may have open (`ulimit -n`); 0: any number. */
+size_t cs_open_file_limit(void);
 
 #endif

@@ -8,10 +8,12 @@
 
 #include "base/resident.h"
 #include "device/device.h"
+#include "device/pocl.h"
 
 enum {
     MAX_DEVICES = 64,
-    MAX_PLATFORMS = 16
+    MAX_PLATFORMS = 16,
+    FEW_FILES = 64
 };
 
 static const char *code_name(cl_int code)
@@ -62,19 +64,52 @@ void cs_opencl_describe(cl_device_id device, char *name, char *driver, size_t si
     if (driver != NULL) snprintf(driver, size, "%s %s", platform_name, version);
 }
 
+/* The variable that says where the loader looks for drivers, if one is set. */
+static const char *variable_of_drivers(void)
+{
+    static const char *const names[] = {"OCL_ICD_VENDORS", "OPENCL_VENDOR_PATH"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const char *value = getenv(names[i]);
+        if (value != NULL && *value != '\0') return names[i];
+    }
+    return NULL;
+}
+
+static clshear_status no_drivers(cs_error *error)
+{
+    const char *name = variable_of_drivers();
+    return cs_fail(error, CLSHEAR_NO_DEVICE,
+                   "no OpenCL device found; install a driver, for CPUs pocl-opencl-icd%s%s%s",
+                   name == NULL ? "" : ", or unset $", name == NULL ? "" : name,
+                   name == NULL ? "" : ", which says where drivers are");
+}
+
+/* PoCL has no device where it has no cache, or where its variable names others. */
+static clshear_status no_devices_of_drivers(cs_error *error)
+{
+    const char *wanted = getenv("POCL_DEVICES");
+    return cs_fail(
+        error, CLSHEAR_NO_DEVICE,
+        "the OpenCL drivers here offer no device; %s%.64s%sPoCL needs a cache folder that "
+        "it can write: $POCL_CACHE_DIR, else one in $XDG_CACHE_HOME or ~/.cache",
+        wanted == NULL ? "" : "$POCL_DEVICES is \"", wanted == NULL ? "" : wanted,
+        wanted == NULL ? "" : "\": unset it, or name PoCL's devices there (pthread); ");
+}
+
 static clshear_status no_devices(cl_uint platforms, cs_error *error)
 {
+    const size_t files = cs_open_file_limit();
+    if (files != 0 && files < FEW_FILES)
+        return cs_fail(error, CLSHEAR_NO_DEVICE,
+                       "no OpenCL device found; the process may have %zu files open (ulimit -n), "
+                       "which may be too few to load a driver: allow %d",
+                       files, FEW_FILES);
     if (cs_address_limit() != 0)
         return cs_fail(error, CLSHEAR_NO_DEVICE,
                        "no OpenCL device found; memory is limited to %zu MB (ulimit -v), which may "
                        "be too little to load a driver",
                        cs_address_limit() >> 20);
-    return cs_fail(
-        error, CLSHEAR_NO_DEVICE,
-        platforms == 0
-            ? "no OpenCL device found; install a driver, for CPUs pocl-opencl-icd"
-            : "the OpenCL drivers here offer no device; PoCL needs a cache folder that it "
-              "can write: $POCL_CACHE_DIR, else one in $XDG_CACHE_HOME or ~/.cache");
+    return platforms == 0 ? no_drivers(error) : no_devices_of_drivers(error);
 }
 
 /* Finds the devices of all drivers; fails when there are none. */
@@ -82,6 +117,8 @@ static clshear_status all_devices(cl_device_id *devices, cl_uint *found, cs_erro
 {
     cl_platform_id platforms[MAX_PLATFORMS];
     cl_uint platform_count = 0, total = 0;
+    clshear_status status = cs_pocl_check_environment(error);
+    if (status != CLSHEAR_OK) return status;
     if (clGetPlatformIDs(MAX_PLATFORMS, platforms, &platform_count) != CL_SUCCESS)
         platform_count = 0;
     if (platform_count > MAX_PLATFORMS) platform_count = MAX_PLATFORMS;

@@ -1,6 +1,7 @@
 #define _GNU_SOURCE /* pthread_getattr_default_np */
 #include "device/pocl.h"
 
+#include <limits.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +12,7 @@
 
 enum {
     PATH_SIZE = 4096,
+    MOST_THREADS = 4096,  /* more than processors have cores, fewer than a process may start */
     LEAST_STACK = 1 << 20 /* bytes; the kernels of paths take up to 900 KB of a thread's stack */
 };
 
@@ -74,6 +76,32 @@ static clshear_status check_linker(cl_device_id device, cs_error *error)
     return cs_fail(error, CLSHEAR_DEVICE_FAILED,
                    "PoCL links the kernels with ld, which is in no folder of $PATH: add /usr/bin "
                    "to it, or install binutils");
+}
+
+/* PoCL reads a number in its environment as strtol does, and what is none as 0. Its `least` and
+ * `most` are those that it bears. */
+static clshear_status check_number(const char *name, long least, long most, cs_error *error)
+{
+    const char *text = getenv(name);
+    const long value = text == NULL ? least : strtol(text, NULL, 10);
+    if (value >= least && value <= most) return CLSHEAR_OK;
+    return cs_fail(error, CLSHEAR_NO_DEVICE,
+                   "$%s is \"%.64s\", for which PoCL ends the process: unset it, or set it to a "
+                   "number from %ld to %ld",
+                   name, text, least, most);
+}
+
+clshear_status cs_pocl_check_environment(cs_error *error)
+{
+    const char *cache = getenv("POCL_CACHE_DIR");
+    if (cache != NULL && *cache == '\0')
+        return cs_fail(
+            error, CLSHEAR_NO_DEVICE,
+            "$POCL_CACHE_DIR is empty, for which PoCL ends the process: unset it, or set "
+            "it to a folder");
+    clshear_status status = check_number("POCL_MAX_PTHREAD_COUNT", 0, MOST_THREADS, error);
+    return status == CLSHEAR_OK ? check_number("POCL_MAX_WORK_GROUP_SIZE", 1, INT_MAX, error)
+                                : status;
 }
 
 clshear_status cs_pocl_check(cl_device_id device, cs_error *error)

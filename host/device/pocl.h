@@ -9,4 +9,8 @@
  * drivers are fine. */
 clshear_status cs_pocl_check(cl_device_id device, cs_error *error);
 
+/* Fails where PoCL would end the process as soon as it looks for its devices: its variables of the
+ * environment have values that it does not bear. Call it before any function of OpenCL. */
+clshear_status cs_pocl_check_environment(cs_error *error);
+
 #endif

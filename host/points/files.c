@@ -73,16 +73,30 @@ static clshear_status read_point(text_reader *reader, const char *text)
     return CLSHEAR_OK;
 }
 
+/* Reads what is left of a line of which `line` holds the beginning. */
+static void skip_rest(const char *line, FILE *stream)
+{
+    int byte = strchr(line, '\n') != NULL ? '\n' : 0;
+    while (byte != '\n' && byte != EOF)
+        byte = getc(stream);
+}
+
+/* Streams without an end of the line, such as /dev/zero, do not fill the memory. */
 static clshear_status read_lines(text_reader *reader, FILE *stream)
 {
     clshear_status status = CLSHEAR_OK;
-    char *line = NULL;
-    size_t size = 0;
-    while (status == CLSHEAR_OK && getline(&line, &size, stream) >= 0) {
+    char line[4096];
+    while (status == CLSHEAR_OK && fgets(line, sizeof line, stream) != NULL) {
         reader->line++;
-        status = line[0] == '#' ? end_set(reader) : read_point(reader, line);
+        if (line[0] == '#') {
+            skip_rest(line, stream);
+            status = end_set(reader);
+        } else if (strchr(line, '\n') == NULL && !feof(stream)) {
+            status = complain(reader, "this is no line of text, or has more than 4095 bytes");
+        } else {
+            status = read_point(reader, line);
+        }
     }
-    free(line);
     if (status != CLSHEAR_OK) return status;
     if (ferror(stream))
         return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: cannot be read: %s", reader->path,

@@ -18,6 +18,7 @@ static const char *nearest_command(const char *word)
     const size_t length = strlen(word), most = 2;
     if (length <= most || *word == '-' || access(word, F_OK) == 0) return NULL;
     if (strcmp(word, "help") == 0) return "--help";
+    if (strcmp(word, "version") == 0) return "--version";
     for (size_t i = 1; all_commands[i] != NULL; i++) {
         const char *name = all_commands[i]->name;
         if (word_distance(word, length, name, strlen(name)) <= most) return name;

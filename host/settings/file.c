@@ -7,29 +7,28 @@
 
 #include "settings/settings.h"
 
-/* Reads a whole text file and appends a 0. Returns NULL, with errno set, on failure. The caller
- * frees it. */
-static char *read_text(const char *path)
+enum {
+    MOST_BYTES = 1 << 20
+};
+
+/* Reads a whole text file, which the caller frees, and appends a 0. Pictures and streams without an
+ * end are no settings. */
+static clshear_status read_text(const char *path, char **text, cs_error *error)
 {
+    clshear_status status = CLSHEAR_OK;
     FILE *stream = fopen(path, "rb");
-    if (stream == NULL) return NULL;
-    size_t size = 0, capacity = 1 << 12, got;
-    char *text = malloc(capacity + 1);
-    while (text != NULL && (got = fread(text + size, 1, capacity - size, stream)) > 0) {
-        size += got;
-        if (size < capacity) continue;
-        capacity *= 2;
-        char *larger = realloc(text, capacity + 1);
-        if (larger == NULL) free(text);
-        text = larger;
-    }
-    const int reason = text == NULL ? ENOMEM : ferror(stream) ? errno : 0;
-    fclose(stream);
-    if (text != NULL) text[size] = '\0';
-    if (reason == 0) return text;
-    free(text);
-    errno = reason;
-    return NULL;
+    *text = stream == NULL ? NULL : malloc(MOST_BYTES + 1);
+    CS_REQUIRE(stream != NULL, CLSHEAR_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
+    CS_REQUIRE(*text != NULL, CLSHEAR_OUT_OF_MEMORY, "%s: out of memory", path);
+    const size_t size = fread(*text, 1, MOST_BYTES, stream);
+    (*text)[size] = '\0';
+    CS_REQUIRE(!ferror(stream), CLSHEAR_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
+    CS_REQUIRE(memchr(*text, '\0', size) == NULL && size < MOST_BYTES, CLSHEAR_BAD_FILE,
+               "%s: is no settings file: it must be text, less than 1 MB, with a flag on each line",
+               path);
+done:
+    if (stream != NULL) fclose(stream);
+    return status;
 }
 
 /* A line split in place into name and value. The name is empty if the line has no setting. */
@@ -76,10 +75,9 @@ clshear_status cs_settings_read(clshear_settings *settings, const char *path,
                                 void *user, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
-    char *text = read_text(path), place[600];
+    char *text, place[600];
     int number = 1;
-    CS_REQUIRE(text != NULL, errno == ENOMEM ? CLSHEAR_OUT_OF_MEMORY : CLSHEAR_BAD_FILE,
-               "%s: cannot be read: %s", path, strerror(errno));
+    CS_TRY(read_text(path, &text, error));
     /* Editors put a byte order mark before UTF-8. */
     const size_t mark = strncmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     for (char *line = text + mark; line != NULL; number++) {

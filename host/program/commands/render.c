@@ -224,6 +224,7 @@ static int run(void *user)
     if (name == NULL) return complain(EXIT_FAILED, "out of memory");
     if (job->files.out.count == 0) job->files.out.items[job->files.out.count++] = name;
     if (job->files.gain.count > 0) clshear_settings_set_integer(options->settings, CLSHEAR_GAIN, 1);
+    progress_outlive_reader();
     job->has_lens = given_a_lens(options->settings);
     int code = render_check(job);
     if (code == EXIT_DONE) code = render_frames(job);

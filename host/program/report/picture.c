@@ -48,6 +48,27 @@ static int fitting_exposure(const survey *found)
     return (int)floor(log2(0.18) - found->log_sum / (double)found->lit);
 }
 
+/* Says where the camera sees nothing of the scene, or next to nothing: it is too far away, or looks
+ * elsewhere. Returns whether it has said so of a picture that is all black. A crop may have been
+ * meant to show what is around the scene. */
+static int remark_on_view(const survey *found, const clshear_film_info *info)
+{
+    static const char help[] = "--orbit 0,0 frames it from its front, --eye and --target aim the "
+                               "camera, --fov narrows its view";
+    const int is_whole = info->width == info->full_width && info->height == info->full_height;
+    const int is_dark = 2 * found->lit < found->pixels;
+    if (found->met == 0 && found->lit == 0)
+        fprintf(stderr, "clshear: the picture is black: the camera does not see the scene; %s\n",
+                help);
+    else if (is_whole && found->met == 0 && !is_dark)
+        fprintf(stderr, "clshear: the camera does not see the scene, only what is around it; %s\n",
+                help);
+    else if (is_whole && 1000 * found->met < found->pixels)
+        fprintf(stderr, "clshear: the scene fills less than a thousandth of the picture%s; %s\n",
+                is_dark ? ", the rest is black" : "", help);
+    return found->met == 0 && found->lit == 0;
+}
+
 void remark_on_picture(const clshear_film *film, const clshear_settings *settings, int has_lens)
 {
     clshear_film_info info = {.struct_size = sizeof info};
@@ -55,14 +76,7 @@ void remark_on_picture(const clshear_film *film, const clshear_settings *setting
     const survey found =
         look_at(film, (size_t)info.width * (size_t)info.height, white_of(settings));
     if (found.pixels == 0) return;
-    if (found.lit == 0 && found.met == 0)
-        fprintf(stderr, "clshear: the picture is black: the camera does not see the scene; "
-                        "--eye and --target aim it, without them the scene is framed\n");
-    else if (found.met == 0 && (size_t)info.width * (size_t)info.height ==
-                                   (size_t)info.full_width * (size_t)info.full_height)
-        fprintf(stderr, "clshear: the camera does not see the scene, only what is around it; "
-                        "--eye and --target aim it, without them the scene is framed\n");
-    else if (found.lit == 0)
+    if (!remark_on_view(&found, &info) && found.lit == 0)
         fprintf(stderr, "clshear: the picture is black: no light reaches what it shows; "
                         "--environment 1,1,1 adds light from all around\n");
     if (2 * found.clipped > found.pixels)

@@ -51,6 +51,11 @@ void progress_note_signals(void)
     if (hangup_ignored) block_hangups();
 }
 
+void progress_outlive_reader(void)
+{
+    signal(SIGPIPE, SIG_IGN);
+}
+
 static void catch_interrupts(void)
 {
     struct sigaction action;

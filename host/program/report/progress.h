@@ -15,6 +15,10 @@ typedef struct progress_line {
  * compilers of OpenCL drivers install handlers of their own. */
 void progress_note_signals(void);
 
+/* Lets the process go on where the reader of what it prints leaves (`2>&1 | head`): by default, the
+ * next line ends it, and a render without its picture. */
+void progress_outlive_reader(void);
+
 /* Whether SIGUSR1 came since the last call: it asks for the picture so far. */
 int preview_wanted(void);
 
