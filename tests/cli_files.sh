@@ -166,6 +166,20 @@ rm -f piped.exr
     case $?$(cat closed.txt) in 1*"standard output: cannot be written"*) ;; *) wrong "closed output: $(cat closed.txt)" ;; esac
 }
 
+# A file that may not be written is not replaced, though its folder would allow it.
+mkdir -m 777 open
+cp "$cornell" open
+echo kept >open/kept.png
+chmod 444 open/kept.png
+user=()
+[ "$(id -u)" -ne 0 ] || user=(setpriv --reuid 65534 --regid 65534 --clear-groups)
+if "${user[@]}" test -w open && "${user[@]}" test -x "$program"; then
+    # shellcheck disable=SC2086
+    output=$(POCL_CACHE_DIR=$PWD/open/cache "${user[@]}" "$program" open/cornell.obj $small --quiet --out open/kept.png 2>&1)
+    case $?$output in 1*"--out open/kept.png: cannot be written: Permission denied"*) ;; *) wrong "a protected file: $output" ;; esac
+    [ "$(cat open/kept.png)" = kept ] || wrong "a protected file is replaced"
+fi
+
 # A full disk: one line, exit 1, the old picture untouched and nothing left behind.
 echo old >kept.exr
 (

@@ -1,7 +1,10 @@
 /* Public objects: lifetimes, messages and refusals. */
+#define _GNU_SOURCE /* feenableexcept */
 #include "support.h"
 
+#include <fenv.h>
 #include <pthread.h>
+#include <sys/stat.h>
 
 #include "clshear/opencl.h"
 
@@ -41,6 +44,58 @@ static void any_order_of_freeing_is_fine(void **state)
     clshear_scene_free(NULL);
     clshear_film_free(NULL);
     clshear_settings_free(NULL);
+}
+
+/* Rounding upwards, and traps where there are such, as hosts of numerical work set them: the
+ * picture has the same bits, and the caller's environment is back. */
+static void the_callers_floats_do_not_matter(void **state)
+{
+    test_fixture *made = *state;
+    clshear_settings *settings = small(made);
+    clshear_film *plain = test_render(made->scene, settings);
+    fenv_t given;
+    assert_int_equal(fegetenv(&given), 0);
+#ifdef __GLIBC__
+    feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+#endif
+    fesetround(FE_UPWARD);
+    clshear_context *context = test_context();
+    clshear_scene *scene = test_cornell(context);
+    clshear_film *film = test_render(scene, settings);
+    const int rounding = fegetround();
+#ifdef __GLIBC__
+    const int traps = fegetexcept();
+#endif
+    fesetenv(&given);
+    assert_int_equal(rounding, FE_UPWARD);
+#ifdef __GLIBC__
+    assert_int_equal(traps, FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+#endif
+    expect_same_picture(plain, film);
+    clshear_film_free(plain);
+    clshear_film_free(film);
+    clshear_scene_free(scene);
+    clshear_context_free(context);
+    clshear_settings_free(settings);
+}
+
+/* A file that a picture replaces hands on who may read it. */
+static void permissions_are_kept(void **state)
+{
+    test_fixture *made = *state;
+    static const mode_t modes[] = {0600, 0664, 0640};
+    struct stat about;
+    clshear_settings *settings = small(made);
+    clshear_film *film = test_render(made->scene, settings);
+    const char *path = test_file("private.exr", "old");
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        assert_int_equal(chmod(path, modes[i]), 0);
+        test_ok(clshear_film_write(film, path));
+        assert_int_equal(stat(path, &about), 0);
+        assert_int_equal(about.st_mode & 0777, modes[i]);
+    }
+    clshear_film_free(film);
+    clshear_settings_free(settings);
 }
 
 #define expect_nameless(call) test_refused((call), CLSHEAR_BAD_ARGUMENT, "path is empty: give ")
@@ -324,6 +379,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_order_of_freeing_is_fine),
+        cmocka_unit_test(the_callers_floats_do_not_matter),
+        cmocka_unit_test(permissions_are_kept),
         cmocka_unit_test(empty_names_are_refused),
         cmocka_unit_test(messages_have_owners),
         cmocka_unit_test(scenes_must_be_complete),

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/floats.h"
 #include "base/status.h"
 
 /* Returns from the calling function with an error if `pointer` is NULL. */

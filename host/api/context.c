@@ -21,6 +21,7 @@ static device_wish wish_of(const clshear_settings *settings)
 
 clshear_status clshear_context_create(const clshear_settings *settings, clshear_context **context)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(context);
     cs_error *error = cs_thread_error();
     const device_wish wish = wish_of(settings);
@@ -73,6 +74,7 @@ const char *clshear_driver_name(const clshear_context *context)
 clshear_status clshear_list_devices(void (*report)(void *user, int number, const char *name),
                                     void *user)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(report);
     return cs_device_list(report, user, cs_thread_error());
 }

@@ -11,6 +11,7 @@ clshear_status clshear_fit_slope(const uint32_t *counts, size_t sizes, const dou
                                  size_t replicates, const double *reference, double *errors,
                                  clshear_fit *fit)
 {
+    CS_PLAIN_FLOATS;
     clshear_fit made;
     CS_NEEDS(counts);
     CS_NEEDS(means);
@@ -25,6 +26,7 @@ clshear_status clshear_fit_slope(const uint32_t *counts, size_t sizes, const dou
 clshear_status clshear_fit_slope_of_parts(const uint32_t *counts, size_t sizes, const double *parts,
                                           size_t count, double *errors, clshear_fit *fit)
 {
+    CS_PLAIN_FLOATS;
     clshear_fit made;
     CS_NEEDS(counts);
     CS_NEEDS(parts);
@@ -38,6 +40,7 @@ clshear_status clshear_fit_slope_of_parts(const uint32_t *counts, size_t sizes, 
 clshear_status clshear_variance_of(const double *values, size_t count, double *variance,
                                    double *standard_error)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(values);
     CS_NEEDS(variance);
     CS_NEEDS(standard_error);
@@ -55,6 +58,7 @@ clshear_status clshear_converge_integrand(const clshear_integrand *integrand, co
                                           uint32_t replicates, const double *reference,
                                           clshear_convergence **result)
 {
+    CS_PLAIN_FLOATS;
     CS_TAKE(clshear_integrand, copy, integrand);
     CS_NEEDS(counts);
     CS_NEEDS(result);
@@ -70,6 +74,7 @@ clshear_status clshear_converge_pixel(clshear_scene *scene, const clshear_settin
                                       uint32_t replicates, const double *reference,
                                       clshear_convergence **result)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(scene);
     CS_NEEDS(counts);
     CS_NEEDS(result);
@@ -84,6 +89,7 @@ clshear_status clshear_converge_image(clshear_scene *scene, const clshear_settin
                                       const uint32_t *counts, size_t sizes, uint32_t replicates,
                                       const clshear_film *reference, clshear_convergence **result)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(scene);
     CS_NEEDS(counts);
     CS_NEEDS(result);

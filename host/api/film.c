@@ -74,6 +74,7 @@ const char *clshear_film_text_name(const clshear_film *film, size_t index)
 clshear_status clshear_film_merge(const clshear_film *const *films, size_t count,
                                   clshear_film **merged)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(films);
     CS_NEEDS(merged);
     if (count == 0)
@@ -100,6 +101,7 @@ void clshear_film_missing(const clshear_film *film, char *text, size_t size)
 
 clshear_status clshear_film_read(const char *path, clshear_film **film)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS_NAME(path);
     CS_NEEDS(film);
     return cs_film_read(path, cs_thread_error(), film);
@@ -107,6 +109,7 @@ clshear_status clshear_film_read(const char *path, clshear_film **film)
 
 clshear_status clshear_film_write(clshear_film *film, const char *path)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(film);
     CS_NEEDS_NAME(path);
     return cs_message_keep(&film->message, cs_film_write(film, path));
@@ -120,6 +123,7 @@ clshear_status clshear_film_check_path(const char *path, int width, int height)
 
 clshear_status clshear_film_write_ratio(clshear_film *film, const char *channel, const char *path)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(film);
     CS_NEEDS(channel);
     CS_NEEDS_NAME(path);

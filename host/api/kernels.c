@@ -69,6 +69,7 @@ clshear_status clshear_sampler_count(const char *sampler, uint32_t wanted, uint3
 clshear_status clshear_pattern_create(const char *sampler, uint32_t wanted,
                                       clshear_sample_order order, clshear_pattern **result)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(result);
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
@@ -156,6 +157,7 @@ static clshear_status check_numbers(const clshear_settings *settings)
 
 clshear_status clshear_lens_create(const clshear_settings *settings, clshear_lens **result)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(settings);
     CS_NEEDS(result);
     if (check_numbers(settings) != CLSHEAR_OK) return CLSHEAR_BAD_ARGUMENT;

@@ -11,6 +11,7 @@ clshear_status clshear_context_create_from(cl_context cl, cl_device_id device,
                                            cl_command_queue queue, const clshear_settings *settings,
                                            clshear_context **context)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(cl);
     CS_NEEDS(device);
     CS_NEEDS(queue);
@@ -52,6 +53,7 @@ done:
 clshear_status clshear_film_copy_to_buffer(clshear_film *film, clshear_context *context,
                                            const char *channel, cl_mem buffer, size_t offset)
 {
+    CS_PLAIN_FLOATS;
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
     cl_command_queue queue;

@@ -11,6 +11,7 @@ CS_HAND_OVER(points)
 clshear_status clshear_points_draw(const char *sampler, size_t count, size_t sets, uint32_t seed,
                                    clshear_points **points)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(points);
     clshear_points made = {0};
     return hand_over(cs_points_draw(sampler, count, sets, seed, 0, 0, &made), &made, points);
@@ -19,6 +20,7 @@ clshear_status clshear_points_draw(const char *sampler, size_t count, size_t set
 clshear_status clshear_points_draw_fresh(const char *sampler, size_t count, size_t sets,
                                          uint32_t seed, clshear_points **points)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(points);
     clshear_points made = {0};
     return hand_over(cs_points_draw(sampler, count, sets, seed, 1, 0, &made), &made, points);
@@ -27,6 +29,7 @@ clshear_status clshear_points_draw_fresh(const char *sampler, size_t count, size
 clshear_status clshear_points_draw_moving(const char *sampler, size_t count, size_t sets,
                                           uint32_t seed, int fresh, clshear_points **points)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(points);
     clshear_points made = {0};
     return hand_over(cs_points_draw(sampler, count, sets, seed, fresh, 1, &made), &made, points);
@@ -35,6 +38,7 @@ clshear_status clshear_points_draw_moving(const char *sampler, size_t count, siz
 clshear_status clshear_points_create(const float *values, size_t sets, size_t count,
                                      const char *names, clshear_points **points)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(values);
     CS_NEEDS(names);
     CS_NEEDS(points);
@@ -44,6 +48,7 @@ clshear_status clshear_points_create(const float *values, size_t sets, size_t co
 
 clshear_status clshear_points_read(const char *path, clshear_points **points)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS_NAME(path);
     CS_NEEDS(points);
     clshear_points made = {0};
@@ -60,6 +65,7 @@ CS_GETTER(const char *, points, names)
 
 clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear, float shear_px)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(points);
     return cs_points_shear(points, shear, shear_px);
 }
@@ -67,6 +73,7 @@ clshear_status clshear_points_shear(clshear_points *points, clshear_shear shear,
 clshear_status clshear_points_shear_moving(clshear_points *points, clshear_shear shear,
                                            float shear_px, const float velocity_px[2])
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(points);
     CS_NEEDS(velocity_px);
     const cs_velocity velocity = {velocity_px[0], velocity_px[1]};
@@ -82,6 +89,7 @@ clshear_status clshear_points_select(clshear_points *points, const char *names)
 
 clshear_status clshear_points_write(const clshear_points *points, const char *path)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(points);
     CS_NEEDS_NAME(path);
     return cs_points_write(points, path);
@@ -90,6 +98,7 @@ clshear_status clshear_points_write(const clshear_points *points, const char *pa
 void clshear_points_integrate(const clshear_points *points, const clshear_integrand *integrand,
                               int homogenise, uint32_t seed, double *means)
 {
+    CS_PLAIN_FLOATS;
     clshear_integrand copy;
     if (points == NULL || integrand == NULL || means == NULL) return;
     if (cs_struct_in(&copy, sizeof copy, integrand, "integrand") == CLSHEAR_OK)
@@ -99,6 +108,7 @@ void clshear_points_integrate(const clshear_points *points, const clshear_integr
 clshear_status clshear_points_integrate_4d(const clshear_points *points, clshear_function function,
                                            void *user, int homogenise, uint32_t seed, double *means)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(points);
     CS_NEEDS(function);
     CS_NEEDS(means);

@@ -17,6 +17,7 @@ clshear_status clshear_integrand_find(const char *name, clshear_integrand *integ
 
 double clshear_integrand_at(const clshear_integrand *integrand, double x, double y)
 {
+    CS_PLAIN_FLOATS;
     clshear_integrand copy;
     if (integrand == NULL) return 0.0;
     const clshear_status status = cs_struct_in(&copy, sizeof copy, integrand, "integrand");
@@ -26,6 +27,7 @@ double clshear_integrand_at(const clshear_integrand *integrand, double x, double
 clshear_status clshear_integrand_tabulate(const clshear_integrand *integrand, size_t side,
                                           float *cells, double *mean_square)
 {
+    CS_PLAIN_FLOATS;
     CS_TAKE(clshear_integrand, copy, integrand);
     CS_NEEDS(cells);
     CS_NEEDS(mean_square);
@@ -36,6 +38,7 @@ clshear_status clshear_predict_variance(const clshear_spectrum *samples, const f
                                         size_t side, double mean_square,
                                         clshear_prediction **prediction)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(samples);
     CS_NEEDS(integrand);
     CS_NEEDS(prediction);
@@ -51,6 +54,7 @@ clshear_status clshear_predict_variance_4d(clshear_context *context, const clshe
                                            const clshear_reach *reach,
                                            clshear_prediction **prediction)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(context);
     CS_NEEDS(samples);
     CS_NEEDS(function);

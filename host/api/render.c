@@ -10,6 +10,7 @@
 clshear_status clshear_render(clshear_scene *scene, const clshear_settings *settings,
                               clshear_film **film)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(scene);
     CS_NEEDS(film);
     return cs_message_keep(&scene->message,
@@ -19,6 +20,7 @@ clshear_status clshear_render(clshear_scene *scene, const clshear_settings *sett
 clshear_status clshear_render_extend(clshear_scene *scene, const clshear_settings *settings,
                                      const clshear_film *base, clshear_film **film)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(scene);
     CS_NEEDS(base);
     CS_NEEDS(film);
@@ -39,6 +41,7 @@ static clshear_status radiance_at(clshear_scene *scene, const clshear_settings *
                                   int y, size_t dimensions, const float *points, size_t count,
                                   float *rgb)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(scene);
     CS_NEEDS(points);
     CS_NEEDS(rgb);
@@ -62,6 +65,7 @@ static clshear_status radiance_of(clshear_scene *scene, const clshear_settings *
                                   int y, const cs_pixel_shears *shears, size_t dimensions,
                                   const float *samples, size_t count, float *rgb)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(scene);
     CS_NEEDS(samples);
     CS_NEEDS(rgb);
@@ -91,6 +95,7 @@ clshear_status clshear_moving_radiance_of_samples(clshear_scene *scene,
 clshear_status clshear_pixel_motion(clshear_scene *scene, const clshear_settings *settings, int x,
                                     int y, int *moves, float velocity_px[2])
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(scene);
     CS_NEEDS(moves);
     CS_NEEDS(velocity_px);
@@ -105,6 +110,7 @@ clshear_status clshear_pixel_motion(clshear_scene *scene, const clshear_settings
 clshear_status clshear_pixel_shear(clshear_scene *scene, const clshear_settings *settings, int x,
                                    int y, float *shear_px)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(scene);
     CS_NEEDS(shear_px);
     return cs_message_keep(&scene->message,

@@ -9,6 +9,7 @@
 clshear_status clshear_scene_load(clshear_context *context, const char *path,
                                   const clshear_settings *settings, clshear_scene **result)
 {
+    CS_PLAIN_FLOATS;
     clshear_status status = CLSHEAR_OK;
     cs_error *error = cs_thread_error();
     clshear_scene *scene = NULL;
@@ -34,6 +35,7 @@ clshear_status clshear_scene_create(clshear_context *context, clshear_scene **sc
 
 clshear_status clshear_scene_add_mesh(clshear_scene *scene, const clshear_mesh *mesh)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(scene);
     CS_TAKE(clshear_mesh, copy, mesh);
     return cs_message_keep(&scene->message, cs_scene_append(scene, &copy, cs_thread_error()));
@@ -49,6 +51,7 @@ void clshear_material_init(clshear_material *material)
 clshear_status clshear_scene_add_material(clshear_scene *scene, const clshear_material *material,
                                           uint32_t *number)
 {
+    CS_PLAIN_FLOATS;
     clshear_status status = CLSHEAR_OK;
     CS_NEEDS(scene);
     CS_NEEDS(number);
@@ -63,6 +66,7 @@ clshear_status clshear_scene_add_material(clshear_scene *scene, const clshear_ma
 
 clshear_status clshear_scene_complete(clshear_scene *scene)
 {
+    CS_PLAIN_FLOATS;
     cs_error *error = cs_thread_error();
     CS_NEEDS(scene);
     clshear_status status = CLSHEAR_OK;
@@ -76,6 +80,7 @@ done:
 
 clshear_status clshear_scene_add_light(clshear_scene *scene, const clshear_light *light)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(scene);
     CS_TAKE(clshear_light, copy, light);
     return cs_message_keep(&scene->message, cs_scene_light(scene, &copy, cs_thread_error()));
@@ -123,6 +128,7 @@ static clshear_status check_complete(const clshear_scene *scene)
 
 clshear_status clshear_camera_complete(const clshear_scene *scene, clshear_settings *settings)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(scene);
     CS_NEEDS(settings);
     clshear_status status = check_complete(scene);
@@ -132,6 +138,7 @@ clshear_status clshear_camera_complete(const clshear_scene *scene, clshear_setti
 
 clshear_status clshear_light_complete(const clshear_scene *scene, clshear_settings *settings)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(scene);
     CS_NEEDS(settings);
     cs_error *error = cs_thread_error();
@@ -144,6 +151,7 @@ clshear_status clshear_light_complete(const clshear_scene *scene, clshear_settin
 clshear_status clshear_camera_focus(const clshear_scene *scene, clshear_settings *settings, int x,
                                     int y)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(scene);
     CS_NEEDS(settings);
     cs_error *error = cs_thread_error();

@@ -10,6 +10,7 @@ CS_HAND_OVER(spectrum)
 clshear_status clshear_spectrum_measure(clshear_context *context, const clshear_points *points,
                                         size_t width, size_t height, clshear_spectrum **spectrum)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(context);
     CS_NEEDS(points);
     CS_NEEDS(spectrum);
@@ -24,6 +25,7 @@ of_values(clshear_status (*transform)(const float *values, size_t width, size_t 
                                       clshear_spectrum *spectrum),
           const float *values, size_t width, size_t height, clshear_spectrum **spectrum)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(values);
     CS_NEEDS(spectrum);
     clshear_spectrum made = {0};
@@ -66,6 +68,7 @@ void clshear_spectrum_along(const clshear_spectrum *spectrum, double x, double y
 clshear_status clshear_spectrum_write(const clshear_spectrum *spectrum, int keep_dc,
                                       const char *path)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS(spectrum);
     CS_NEEDS_NAME(path);
     return cs_spectrum_write(spectrum, keep_dc, path);
@@ -74,6 +77,7 @@ clshear_status clshear_spectrum_write(const clshear_spectrum *spectrum, int keep
 clshear_status clshear_image_write(const char *path, int width, int height, size_t channels,
                                    const char *const *names, const float *const *planes)
 {
+    CS_PLAIN_FLOATS;
     CS_NEEDS_NAME(path);
     CS_NEEDS(names);
     CS_NEEDS(planes);

@@ -71,11 +71,22 @@ int cs_output_begin(const char *path, cs_output_file *file)
     return 0;
 }
 
+/* Opens the part. A file that it will replace has to allow that, and hands its permissions on. */
+static FILE *open_part(const cs_output_file *file)
+{
+    struct stat old;
+    const int replaces = strcmp(file->part, file->target) != 0 && stat(file->target, &old) == 0;
+    if (replaces && access(file->target, W_OK) != 0) return NULL;
+    FILE *stream = fopen(file->part, "wb");
+    if (stream != NULL && replaces) fchmod(fileno(stream), old.st_mode & 0777);
+    return stream;
+}
+
 int cs_output_open(const char *path, cs_output_file *file)
 {
     int reason = cs_output_begin(path, file);
     if (reason != 0) return reason;
-    file->stream = fopen(file->part, "wb");
+    file->stream = open_part(file);
     if (file->stream != NULL) return 0;
     reason = errno;
     free(file->target);

@@ -22,10 +22,11 @@ static int check_place(const char *flag, const char *path)
     if (exists && S_ISDIR(about.st_mode))
         return complain(EXIT_FAILED, "--%s %s: is a folder", flag, path);
     if (slash != NULL) snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
-    const int special = exists && !S_ISREG(about.st_mode);
-    if (access(special ? path : folder, W_OK) == 0) return EXIT_DONE;
-    return complain(EXIT_FAILED, "--%s %s: %s%s cannot be written: %s", flag, path,
-                    special ? "" : "folder ", special ? path : folder, strerror(errno));
+    if (exists && access(path, W_OK) != 0)
+        return complain(EXIT_FAILED, "--%s %s: cannot be written: %s", flag, path, strerror(errno));
+    if ((exists && !S_ISREG(about.st_mode)) || access(folder, W_OK) == 0) return EXIT_DONE;
+    return complain(EXIT_FAILED, "--%s %s: folder %s cannot be written: %s", flag, path, folder,
+                    strerror(errno));
 }
 
 /* Where a link leads, though nothing may be there; else the path itself. */
