@@ -185,6 +185,36 @@ static void placed_cameras_stand_upright(void **state)
     }
 }
 
+/* A camera of the file that --eye moves before what it looks at keeps looking at the scene: its
+ * target is beside the scene's middle, not a step in front of where it was. */
+static void moved_cameras_look_at_the_scene(void **state)
+{
+    test_fixture *made = *state;
+    const char *path = test_file(
+        "far.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],"
+        "\"nodes\":[{\"mesh\":0},{\"camera\":0,\"translation\":[0.5,0.25,300]}],"
+        "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.6,\"znear\":0.1}}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAACAPwAAgD8AAAAA\"}]}");
+    static const float beside_middle[3] = {0.5f, 0.25f, 0.0f}, ahead[3] = {0.5f, 0.25f, 299.0f};
+    static const char *const eyes[] = {"0,0,5", NULL};
+    clshear_scene *scene = test_load(made->context, path);
+    for (size_t k = 0; k < 2; k++) {
+        clshear_settings *settings = test_settings(NULL, 100, 100, 16);
+        if (eyes[k] != NULL) test_set(settings, CLSHEAR_EYE, "%s", eyes[k]);
+        test_ok(clshear_camera_complete(scene, settings));
+        for (int axis = 0; axis < 3; axis++)
+            assert_near(view_of(settings).target[axis],
+                        eyes[k] != NULL ? beside_middle[axis] : ahead[axis], 1e-4f);
+        clshear_settings_free(settings);
+    }
+    clshear_scene_free(scene);
+}
+
 /* The blur of points at infinity, A / w, is what was asked for; the focus is the point's depth. */
 static void blur_and_focus_point_do_what_they_say(void **state)
 {
@@ -223,6 +253,7 @@ int main(void)
         cmocka_unit_test(framing_fits_every_vertex),
         cmocka_unit_test(orbits_name_the_side),
         cmocka_unit_test(placed_cameras_stand_upright),
+        cmocka_unit_test(moved_cameras_look_at_the_scene),
         cmocka_unit_test(blur_and_focus_point_do_what_they_say),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);

@@ -71,14 +71,18 @@ int cs_output_begin(const char *path, cs_output_file *file)
     return 0;
 }
 
-/* Opens the part. A file that it will replace has to allow that, and hands its permissions on. */
+/* Opens the part. A file that it will replace has to allow that, and hands on its permissions, and
+ * its owner where the process may give files away. */
 static FILE *open_part(const cs_output_file *file)
 {
     struct stat old;
     const int replaces = strcmp(file->part, file->target) != 0 && stat(file->target, &old) == 0;
     if (replaces && access(file->target, W_OK) != 0) return NULL;
     FILE *stream = fopen(file->part, "wb");
-    if (stream != NULL && replaces) fchmod(fileno(stream), old.st_mode & 0777);
+    if (stream == NULL || !replaces) return stream;
+    const int is_given = fchown(fileno(stream), old.st_uid, old.st_gid) == 0;
+    (void)is_given;
+    fchmod(fileno(stream), old.st_mode & 0777);
     return stream;
 }
 

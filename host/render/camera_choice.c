@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/vec.h"
 #include "render/focus_choice.h"
 #include "render/interior.h"
 #include "scene/camera.h"
@@ -127,6 +128,22 @@ static void set_upright(const clshear_scene *scene, const clshear_settings *sett
     cs_framing_upright(cs_z_is_up(&scene->scene, settings), line, up);
 }
 
+/* Moves the target of a camera of the file along its line of sight beside the middle of the scene,
+ * where that is in front of it: a camera that stands elsewhere and looks there sees the scene. The
+ * file has a direction alone. */
+static void move_target_to_scene(const cs_scene *scene, cs_view *view)
+{
+    float line[3], to_middle[3];
+    for (int axis = 0; axis < 3; axis++) {
+        line[axis] = view->target[axis] - view->eye[axis];
+        to_middle[axis] =
+            0.5f * (scene->bounds[0][axis] + scene->bounds[1][axis]) - view->eye[axis];
+    }
+    const float steps = cs_vec_dot(to_middle, line) / cs_vec_dot(line, line);
+    for (int axis = 0; axis < 3 && steps > 0.0f; axis++)
+        view->target[axis] = view->eye[axis] + steps * line[axis];
+}
+
 clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *settings,
                               cs_error *error)
 {
@@ -144,6 +161,7 @@ clshear_status cs_camera_pose(const clshear_scene *scene, clshear_settings *sett
     if (number >= 0)
         CS_TRY(follow_camera((const cs_scene_camera *)scene->scene.cameras.items + number, origin,
                              settings, error));
+    if (number >= 0 && cs_is_set(settings, EYE)) move_target_to_scene(&scene->scene, &view);
     if (!cs_is_set(settings, EYE))
         CS_TRY(set_vector(settings, CLSHEAR_EYE, view.eye, origin, error));
     if (!cs_is_set(settings, TARGET))
