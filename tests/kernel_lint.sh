@@ -15,7 +15,7 @@ for width in 1 4 8 16; do
     for kernel in "$root"/cl/kernels/*.cl; do
         lint $width 0 "$kernel" ""
     done
-    for features in 1 2 3 5 7 8 13 24 32 34 61 63 64 65 67 127 128 384 517 1023 1025 1031 1663; do # those that renders use, see cl/kernels/features.h
+    for features in 1 2 3 5 7 8 13 24 32 34 61 63 64 65 67 127 128 384 517 1023 1025 1031 1663 2048 2055 4095; do # those that renders use, see cl/kernels/features.h
         lint $width $features "$root/cl/kernels/render.cl" ""
         lint $width $features "$root/cl/kernels/radiance.cl" ""
     done

@@ -1,4 +1,9 @@
 /* The way of a sample: tuple -> shear -> ray -> hit -> radiance -> mean and variance. */
+#include "kernels/features.h"
+#if !CS_HAS(SAMPLERS)
+#define CS_NETS_ONLY
+#endif
+
 #include "accumulator.h"
 #include "aov_sums.h"
 #include "clshear/device/lens.h"

@@ -16,6 +16,9 @@ cs_u32 cs_sampler_default(void);
 /* Returns 1 if the first samples of a pattern are independent of its length, else 0. */
 int cs_sampler_is_progressive(cs_u32 sampler);
 
+/* Whether kernels that draw nets alone (CS_NETS_ONLY) draw it. */
+int cs_sampler_is_net(cs_u32 sampler);
+
 /* The smallest sample count of the construction that is `wanted` or more. `wanted` is 1 or more.
  * Returns 0 if there is none. */
 cs_u32 cs_sampler_count(cs_u32 sampler, cs_u32 wanted);

@@ -125,6 +125,7 @@ static clshear_status choose_pattern(cs_job *job, cs_error *error)
                        "%u replicates of %u samples per pixel are more than 2000000000",
                        job->replicates, count);
     job->pattern = cs_pattern_of(sampler, 0, count);
+    if (!cs_sampler_is_net(sampler)) job->features |= CS_FEATURE_SAMPLERS;
     if (cs_integer(&job->settings, FRESH_SETS))
         cs_pattern_refresh(&job->pattern, (cs_u32)cs_integer(&job->settings, SEED));
     return CLSHEAR_OK;

@@ -13,6 +13,14 @@
 
 #include "../fp_contract_off.h"
 
+/* The samplers that the functions below draw. With CS_NETS_ONLY defined they are nets: the program
+ * is smaller, and compiles sooner. */
+#ifdef CS_NETS_ONLY
+#define CS_DRAWN_LIST CS_SAMPLER_LIST_NETS
+#else
+#define CS_DRAWN_LIST CS_SAMPLER_LIST
+#endif
+
 /* The key of a pixel's pattern. `seed` belongs to the image, `pixel` numbers its pixels,
  * `replicate` the independent patterns of one pixel. */
 static inline cs_u32 cs_pattern_key(cs_u32 seed, cs_u32 pixel, cs_u32 replicate)
@@ -46,7 +54,7 @@ static inline void cs_draw(const cs_pattern *pattern, cs_sample_table table, cs_
         cs_draw_##draw(pattern, table, key, index, tuple);                                   \
         break;
     switch (pattern->sampler) {
-        CS_SAMPLER_LIST(CS_DRAW_CASE)
+        CS_DRAWN_LIST(CS_DRAW_CASE)
     }
 #undef CS_DRAW_CASE
 }
@@ -65,7 +73,7 @@ static inline cs_pair cs_draw_padding(const cs_pattern *pattern, cs_sample_table
         point = cs_extra_##extra(pattern, table, key, index, slot);                           \
         break;
     switch (pattern->sampler) {
-        CS_SAMPLER_LIST(CS_EXTRA_CASE)
+        CS_DRAWN_LIST(CS_EXTRA_CASE)
     }
 #undef CS_EXTRA_CASE
     return point;
@@ -88,7 +96,7 @@ static inline int cs_pads_lanes(cs_u32 sampler)
     case CS_SAMPLER_##identifier:                                                            \
         return CS_PADS_##extra;
     switch (sampler) {
-        CS_SAMPLER_LIST(CS_PADS_CASE)
+        CS_DRAWN_LIST(CS_PADS_CASE)
     }
 #undef CS_PADS_CASE
     return 0;
@@ -116,7 +124,7 @@ static inline cs_pair cs_draw_extra(const cs_pattern *pattern, cs_sample_table t
         point = cs_extra_##light(pattern, table, key, index, slot);                           \
         break;
     switch (pattern->sampler) {
-        CS_SAMPLER_LIST(CS_LIGHT_CASE)
+        CS_DRAWN_LIST(CS_LIGHT_CASE)
     }
 #undef CS_LIGHT_CASE
     return point;
