@@ -125,6 +125,18 @@ expect 1 "the name is too long" -- "$cornell" --quiet --spp 1000000000 --out "${
     expect 0 "" -- "$cornell" $small --quiet --settings mine.flags --aperture disk --adaptive=0 --out line.exr
     [ -s line.exr ] && [ ! -e file.exr ] || wrong "outputs of the line do not replace the file's"
     case $(oiiotool --info -v line.exr) in *'clshear.aperture: "disk"'*) ;; *) wrong "aperture of the file won" ;; esac
+    mkdir -p apart/deeper
+    cp "$cornell" apart/s.obj
+    oiiotool --create 8x4 3 --fill:color=1,0,0 8x4 -o apart/sky.exr --create 8x4 3 --fill:color=0,1,0 8x4 -o sky.exr \
+        --create 8x8 1 --fill:color=1 8x8 -o apart/deeper/iris.png --create 8x4 3 -o here.exr
+    printf 'environment sky.exr\naperture deeper/iris.png\nto s.obj\n' >apart/s.flags
+    expect 0 "" -- apart/s.obj $small --quiet --eye 276,274,800 --out d.exr
+    info=$(oiiotool --info -v d.exr)
+    case $info in *'clshear.environment: "apart/sky.exr"'*) ;; *) wrong "a sky beside the flags: $info" ;; esac
+    echo 'environment here.exr' >apart/s.flags
+    expect 0 "" -- apart/s.obj $small --quiet --eye 276,274,800 --out d.exr
+    echo 'environment 0.5,0.5,0.5' >apart/s.flags
+    expect 0 "" -- apart/s.obj $small --quiet --eye 276,274,800 --out d.exr
     refuse 1 "gone.flags: cannot be read" -- "$cornell" --settings gone.flags
     refuse 1 "/dev/zero: is no settings file" -- "$cornell" --settings /dev/zero
     expect 0 "" -- "$cornell" $small --quiet --settings <(echo "width 8") --out d.exr

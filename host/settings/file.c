@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "settings/settings.h"
 
@@ -53,9 +54,33 @@ static words cut_line(char *line)
     return found;
 }
 
-/* Applies a line with a setting. The message starts with file and line. */
-static clshear_status apply(clshear_settings *settings, size_t index, const char *place,
-                            const words *line, cs_error *error)
+/* Whether the value names a file that is read. */
+static int names_input(const cs_setting *entry, const char *value)
+{
+    return entry->setting == CLSHEAR_ENVIRONMENT || entry->setting == CLSHEAR_TO ||
+           (entry->setting == CLSHEAR_APERTURE && strpbrk(value, "./") != NULL);
+}
+
+/* The path of `name` in the folder of the settings file `path`, so that the file means the same
+ * from wherever it is read; owned by the caller. NULL where no such file is there, and where that
+ * folder is the current one. */
+static char *find_beside(const char *path, const char *name)
+{
+    const char *slash = strrchr(path, '/');
+    const size_t folder = slash == NULL ? 0 : (size_t)(slash + 1 - path), length = strlen(name);
+    char *beside = folder == 0 || *name == '/' ? NULL : malloc(folder + length + 1);
+    if (beside == NULL) return NULL;
+    memcpy(beside, path, folder);
+    memcpy(beside + folder, name, length + 1);
+    if (access(beside, F_OK) == 0) return beside;
+    free(beside);
+    return NULL;
+}
+
+/* Applies a line with a setting of the file `path`. The message starts with `place`, file and
+ * line. */
+static clshear_status apply(clshear_settings *settings, size_t index, const char *path,
+                            const char *place, const words *line, cs_error *error)
 {
     const cs_setting *entry = &cs_setting_table[index];
     const int takes_value = entry->kind != CLSHEAR_SWITCH;
@@ -63,8 +88,11 @@ static clshear_status apply(clshear_settings *settings, size_t index, const char
         return cs_fail(error, CLSHEAR_BAD_ARGUMENT, "%s%s needs a value: %s", place, line->name,
                        entry->argument);
     const char *value = line->value != NULL ? line->value : "1";
+    char *beside = names_input(entry, value) ? find_beside(path, value) : NULL;
     cs_error reason;
-    const clshear_status status = cs_settings_set_text(settings, index, value, &reason);
+    const clshear_status status =
+        cs_settings_set_text(settings, index, beside != NULL ? beside : value, &reason);
+    free(beside);
     if (status == CLSHEAR_OK) return status;
     return cs_fail(error, status, "%s%s", place, reason.message);
 }
@@ -89,7 +117,7 @@ clshear_status cs_settings_read(clshear_settings *settings, const char *path,
         const size_t index = cs_setting_named(found.name, strlen(found.name));
         snprintf(place, sizeof place, "%.500s:%d: ", path, number);
         if (index < CS_SETTING_COUNT) {
-            CS_TRY(apply(settings, index, place, &found, error));
+            CS_TRY(apply(settings, index, path, place, &found, error));
             continue;
         }
         CS_REQUIRE(other != NULL && other(user, path, number, found.name, found.value) == 0,

@@ -107,7 +107,8 @@ CLSHEAR_API clshear_status clshear_settings_get_text(const clshear_settings *set
  * a comment. The callback `other` receives lines with an unknown name: the file's name, the
  * line's number from 1, the name and the value (NULL if there is none). It returns 0 if it
  * accepts the line. Otherwise, or if `other` is NULL, such lines are errors. The message names
- * file and line. */
+ * file and line. Files that CLSHEAR_ENVIRONMENT, _APERTURE and _TO name are looked for beside the
+ * settings file first, then in the current folder. */
 CLSHEAR_API clshear_status clshear_settings_read(clshear_settings *settings, const char *path,
                                                  int (*other)(void *user, const char *file,
                                                               int line, const char *name,
