@@ -102,10 +102,10 @@ clshear_status cs_settings_read(clshear_settings *settings, const char *path,
                                              const char *name, const char *value),
                                 void *user, cs_error *error)
 {
-    clshear_status status = CLSHEAR_OK;
-    char *text, place[600];
+    char *text = NULL, place[600];
     int number = 1;
-    CS_TRY(read_text(path, &text, error));
+    clshear_status status = read_text(path, &text, error);
+    if (status != CLSHEAR_OK || text == NULL) goto done;
     /* Editors put a byte order mark before UTF-8. */
     const size_t mark = strncmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     for (char *line = text + mark; line != NULL; number++) {
