@@ -161,6 +161,63 @@ static void layers_on_glossiness(void **state)
     cs_scene_free(&scene);
 }
 
+/* What is asked for is told, unless its factor is 0 or the surface is unlit. */
+static void what_materials_ask_for(void **state)
+{
+    static const struct {
+        const char *material, *words; /* "": nothing is said */
+    } files[] = {
+        {"'alphaMode':'ADD'", "an alphaMode that glTF does not have (taken as OPAQUE)"},
+        {"'extensions':{'KHR_materials_iridescence':{'iridescenceFactor':0.5}}",
+         "left out: KHR_materials_iridescence\n"},
+        {"'extensions':{'KHR_materials_iridescence':{},'KHR_materials_dispersion':{'dispersion':0},"
+         "'KHR_materials_anisotropy':{},'KHR_materials_diffuse_transmission':{}}",
+         ""},
+        {"'extensions':{'KHR_materials_clearcoat':{'clearcoatTexture':{'index':0}},"
+         "'KHR_materials_sheen':{'sheenColorTexture':{'index':0}},'KHR_materials_specular':"
+         "{'specularFactor':0,'specularColorFactor':[1,0,0],'specularColorTexture':{'index':0}},"
+         "'KHR_materials_transmission':{'transmissionTexture':{'index':0}}}",
+         ""},
+        {"'extensions':{'KHR_materials_unlit':{},'KHR_materials_clearcoat':{'clearcoatFactor':1,"
+         "'clearcoatTexture':{'index':0}}}",
+         ""}};
+    char text[512];
+    (void)state;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        snprintf(text, sizeof text, "{%s}", files[i].material);
+        cs_scene scene = material_scene_gltf(text);
+        if (*files[i].words == '\0')
+            assert_string_equal(import_warnings, "");
+        else
+            import_warned(files[i].words);
+        cs_scene_free(&scene);
+    }
+    cs_scene scene = import_load(import_gltf_square(
+        "", "{\"alphaMode\":\"mask\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,1,1,0.2]}}",
+        "{\"mesh\":0}", ""));
+    assert_int_equal(import_material(&scene, 0)->flags, CS_MATERIAL_MASK);
+    assert_string_equal(import_warnings, "");
+    cs_scene_free(&scene);
+    import_refused(import_gltf_square("", "1", "{\"mesh\":0}", ""),
+                   "materials[0]: is no object of JSON");
+}
+
+/* Attributes whose items are too short are refused: they would be read as others. */
+static void short_attributes(void **state)
+{
+    static const char *const files[][2] = {
+        {",\"NORMAL\":2", "meshes[0].primitives[0]: its NORMAL has 2 numbers a vertex"},
+        {",\"COLOR_0\":2", "meshes[0].primitives[0]: its COLOR_0 has 2 numbers a vertex"},
+        {",\"TEXCOORD_0\":3", "meshes[0].primitives[0]: its TEXCOORD_0 has 1 number a vertex"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        import_refused(
+            import_gltf_square(files[i][0],
+                               "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}",
+                               "{\"mesh\":0}", ""),
+            files[i][1]);
+}
+
 /* ----- Images within the file ----- */
 
 /* Reads the square with an image of these bytes. */
@@ -214,9 +271,14 @@ static void targa_within_the_file(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(morphs_of_colours_and_textures), cmocka_unit_test(what_is_not_shown),
-        cmocka_unit_test(animations_by_pointers),         cmocka_unit_test(curves_of_other_widths),
-        cmocka_unit_test(layers_on_glossiness),           cmocka_unit_test(images_of_other_kinds),
+        cmocka_unit_test(morphs_of_colours_and_textures),
+        cmocka_unit_test(what_is_not_shown),
+        cmocka_unit_test(animations_by_pointers),
+        cmocka_unit_test(curves_of_other_widths),
+        cmocka_unit_test(layers_on_glossiness),
+        cmocka_unit_test(what_materials_ask_for),
+        cmocka_unit_test(short_attributes),
+        cmocka_unit_test(images_of_other_kinds),
         cmocka_unit_test(targa_within_the_file),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -79,6 +79,8 @@ json_t *gltf_at(const gltf_reader *reader, const char *name, long long index)
     if (index < 0)
         cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: an index into %s %s", reader->model->path,
                 name, index == -1 ? "is missing" : "is no whole number of 0 or more");
+    else if ((size_t)index < json_array_size(array))
+        gltf_complain(reader, name, index, "is no object of JSON");
     else
         cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: %s[%lld] is asked for, but there are %zu",
                 reader->model->path, name, index, json_array_size(array));

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/vec.h"
 #include "import/find_file.h"
@@ -133,18 +134,23 @@ static clshear_status read_map(gltf_reader *reader, const json_t *parent, const 
 
 /* ----- Materials ----- */
 
-/* Notes a map that the device has no place for. */
-static void ask_map(const json_t *parent, const char *key, const char *word,
+/* Notes a map that the device has no place for, unless the factor that multiplies it is 0. */
+static void ask_map(const json_t *parent, const char *key, const char *word, float factor,
                     cs_material_description *material)
 {
-    if (json_is_object(json_object_get(parent, key))) cs_material_ask(material, word);
+    if (json_is_object(json_object_get(parent, key)) && factor != 0.0f)
+        cs_material_ask(material, word);
 }
 
 static void read_alpha(const json_t *json, cs_material_description *material)
 {
     const char *mode = gltf_text(json, "alphaMode", "OPAQUE");
-    if (strcmp(mode, "MASK") == 0) material->alpha_mode = CS_ALPHA_MASK;
-    if (strcmp(mode, "BLEND") == 0) material->alpha_mode = CS_ALPHA_BLEND;
+    if (strcasecmp(mode, "MASK") == 0)
+        material->alpha_mode = CS_ALPHA_MASK;
+    else if (strcasecmp(mode, "BLEND") == 0)
+        material->alpha_mode = CS_ALPHA_BLEND;
+    else if (strcasecmp(mode, "OPAQUE") != 0)
+        cs_material_ask(material, "an alphaMode that glTF does not have (taken as OPAQUE)");
     material->alpha_cutoff = (float)gltf_number(json, "alphaCutoff", 0.5);
 }
 
@@ -162,10 +168,10 @@ static void read_reflection(const json_t *json, cs_material_description *materia
     const double factor = gltf_number(ext, "specularFactor", 1.0);
     material->reflectance = (float)(fmin(edge * edge * grey, 1.0) * factor);
     material->grazing = (float)factor;
-    if (colour[0] != colour[1] || colour[1] != colour[2])
+    if (factor != 0.0 && (colour[0] != colour[1] || colour[1] != colour[2]))
         cs_material_ask(material, "a coloured reflection (taken as grey)");
-    ask_map(ext, "specularTexture", "a map of the reflection", material);
-    ask_map(ext, "specularColorTexture", "a map of the reflection", material);
+    ask_map(ext, "specularTexture", "a map of the reflection", material->grazing, material);
+    ask_map(ext, "specularColorTexture", "a map of the reflection", material->grazing, material);
 }
 
 /* Layers above and transparency below. */
@@ -173,7 +179,7 @@ static void read_layers(const json_t *json, cs_material_description *material)
 {
     const json_t *ext = gltf_extension(json, "KHR_materials_transmission");
     material->transmission = (float)gltf_number(ext, "transmissionFactor", 0.0);
-    ask_map(ext, "transmissionTexture", "a map of transmission", material);
+    ask_map(ext, "transmissionTexture", "a map of transmission", material->transmission, material);
     ext = gltf_extension(json, "KHR_materials_volume");
     material->thickness = (float)gltf_number(ext, "thicknessFactor", 0.0);
     gltf_floats(ext, "attenuationColor", material->attenuation_colour, 3);
@@ -181,14 +187,17 @@ static void read_layers(const json_t *json, cs_material_description *material)
     ext = gltf_extension(json, "KHR_materials_clearcoat");
     material->clearcoat = (float)gltf_number(ext, "clearcoatFactor", 0.0);
     material->clearcoat_roughness = (float)gltf_number(ext, "clearcoatRoughnessFactor", 0.0);
-    ask_map(ext, "clearcoatTexture", "a map of the clear coat", material);
-    ask_map(ext, "clearcoatRoughnessTexture", "a map of the clear coat", material);
-    ask_map(ext, "clearcoatNormalTexture", "a normal map of the clear coat", material);
+    const float coat = material->clearcoat;
+    ask_map(ext, "clearcoatTexture", "a map of the clear coat", coat, material);
+    ask_map(ext, "clearcoatRoughnessTexture", "a map of the clear coat", coat, material);
+    ask_map(ext, "clearcoatNormalTexture", "a normal map of the clear coat", coat, material);
     ext = gltf_extension(json, "KHR_materials_sheen");
     gltf_floats(ext, "sheenColorFactor", material->sheen_colour, 3);
     material->sheen_roughness = (float)gltf_number(ext, "sheenRoughnessFactor", 0.0);
-    ask_map(ext, "sheenColorTexture", "a map of sheen", material);
-    ask_map(ext, "sheenRoughnessTexture", "a map of sheen", material);
+    const float *colour = material->sheen_colour;
+    const float sheen = fmaxf(fmaxf(colour[0], colour[1]), colour[2]);
+    ask_map(ext, "sheenColorTexture", "a map of sheen", sheen, material);
+    ask_map(ext, "sheenRoughnessTexture", "a map of sheen", sheen, material);
 }
 
 int gltf_reads_of_material(const char *extension)
@@ -207,6 +216,20 @@ int gltf_reads_of_material(const char *extension)
     return 0;
 }
 
+/* Whether an extension of a material changes nothing, since its factor is 0, as by default. */
+static int is_idle(const char *extension, const json_t *value)
+{
+    static const char *const factors[][2] = {
+        {"KHR_materials_anisotropy", "anisotropyStrength"},
+        {"KHR_materials_diffuse_transmission", "diffuseTransmissionFactor"},
+        {"KHR_materials_dispersion", "dispersion"},
+        {"KHR_materials_iridescence", "iridescenceFactor"}};
+    for (size_t i = 0; i < sizeof factors / sizeof *factors; i++)
+        if (strcmp(factors[i][0], extension) == 0)
+            return gltf_number(value, factors[i][1], 0.0) == 0.0;
+    return 0;
+}
+
 /* Asks for the extensions that are not read, by name. */
 static void read_others(const json_t *json, cs_material_description *material)
 {
@@ -214,7 +237,8 @@ static void read_others(const json_t *json, cs_material_description *material)
     json_t *value;
     json_object_foreach(json_object_get(json, "extensions"), name, value)
     {
-        if (!gltf_reads_of_material(name) && strlen(name) < 60) cs_material_ask(material, name);
+        if (!gltf_reads_of_material(name) && strlen(name) < 60 && !is_idle(name, value))
+            cs_material_ask(material, name);
     }
 }
 
@@ -285,7 +309,7 @@ static clshear_status read_surface(gltf_reader *reader, const json_t *json,
     if (old != NULL) return read_glossiness(reader, json, old, material);
     gltf_floats(pbr, "baseColorFactor", material->base_colour, 4);
     CS_TRY(read_map(reader, pbr, "baseColorTexture", &material->base_map));
-    if (!asks_for_more(json)) return status;
+    if (!asks_for_more(json) || material->unlit) return status;
     material->metallic = (float)gltf_number(pbr, "metallicFactor", 1.0);
     material->roughness = (float)gltf_number(pbr, "roughnessFactor", 1.0);
     CS_TRY(read_map(reader, pbr, "metallicRoughnessTexture", &material->metallic_map));

@@ -26,6 +26,16 @@ static clshear_status wrong_count(const gltf_primitive *primitive, const char *w
                          count, what, primitive->count);
 }
 
+/* Refuses an attribute whose items have `given` numbers, fewer than `least`. */
+static clshear_status check_width(const gltf_primitive *primitive, const char *attribute,
+                                  size_t given, size_t least)
+{
+    if (given >= least) return CLSHEAR_OK;
+    return gltf_complain(primitive->reader, primitive->place, -1,
+                         "its %s has %zu number%s a vertex", attribute, given,
+                         given == 1 ? "" : "s");
+}
+
 static clshear_status add_positions(gltf_primitive *primitive, long long accessor)
 {
     gltf_reader *reader = primitive->reader;
@@ -79,11 +89,12 @@ static clshear_status add_normals(gltf_primitive *primitive, long long accessor)
     if (status != CLSHEAR_OK) return status;
     primitive->first_normal = (uint32_t)pool->count;
     float(*added)[3] = cs_model_extend(pool, count);
-    if (count != primitive->count)
+    status = check_width(primitive, "NORMAL", given, 3);
+    if (status == CLSHEAR_OK && count != primitive->count)
         status = wrong_count(primitive, "normals", count);
-    else if (added == NULL)
+    else if (status == CLSHEAR_OK && added == NULL)
         status = cs_model_full(reader->model, reader->error);
-    else
+    if (status == CLSHEAR_OK)
         status =
             gltf_morph(reader, primitive->json, primitive->weights, "NORMAL", 3, values, count);
     for (size_t i = 0; status == CLSHEAR_OK && added != NULL && i < count; i++) {
@@ -115,11 +126,12 @@ static clshear_status add_textures(gltf_primitive *primitive, const char *attrib
     if (status != CLSHEAR_OK) return status;
     primitive->first_texture = (uint32_t)pool->count;
     void *added = cs_model_extend(pool, count);
-    if (count != primitive->count)
+    status = check_width(primitive, attribute, given, 2);
+    if (status == CLSHEAR_OK && count != primitive->count)
         status = wrong_count(primitive, "texture coordinates", count);
-    else if (added == NULL)
+    else if (status == CLSHEAR_OK && added == NULL)
         status = cs_model_full(reader->model, reader->error);
-    else
+    if (status == CLSHEAR_OK)
         status =
             gltf_morph(reader, primitive->json, primitive->weights, attribute, 2, values, count);
     if (status == CLSHEAR_OK && count > 0) memcpy(added, values, count * pool->item_size);
@@ -136,9 +148,10 @@ static clshear_status add_colours(gltf_primitive *primitive, long long accessor)
         (cs_material_description *)reader->model->materials.items + primitive->material;
     clshear_status status = gltf_read_colours(reader, accessor, &values, &count, &given);
     if (status != CLSHEAR_OK) return status;
-    if (count != primitive->count)
+    status = check_width(primitive, "COLOR_0", given, 3);
+    if (status == CLSHEAR_OK && count != primitive->count)
         status = wrong_count(primitive, "colours", count);
-    else
+    if (status == CLSHEAR_OK)
         status =
             gltf_morph(reader, primitive->json, primitive->weights, "COLOR_0", 4, values, count);
     for (size_t i = 0; i < count && status == CLSHEAR_OK; i++) {
