@@ -202,7 +202,8 @@ static void what_materials_ask_for(void **state)
                    "materials[0]: is no object of JSON");
 }
 
-/* Attributes whose items are too short are refused: they would be read as others. */
+/* Attributes whose items are too short are refused: they would be read as others. So are joints
+ * without weights. */
 static void short_attributes(void **state)
 {
     static const char *const files[][2] = {
@@ -216,6 +217,9 @@ static void short_attributes(void **state)
                                "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}",
                                "{\"mesh\":0}", ""),
             files[i][1]);
+    import_refused(import_gltf_square(",\"JOINTS_0\":4", "{}", "{\"mesh\":0,\"skin\":0}",
+                                      ",\"skins\":[{\"joints\":[0]}]"),
+                   "meshes[0].primitives[0]: has JOINTS_0, but no WEIGHTS_0");
 }
 
 /* ----- Images within the file ----- */

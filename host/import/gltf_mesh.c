@@ -134,7 +134,8 @@ static clshear_status add_textures(gltf_primitive *primitive, const char *attrib
     if (status == CLSHEAR_OK)
         status =
             gltf_morph(reader, primitive->json, primitive->weights, attribute, 2, values, count);
-    if (status == CLSHEAR_OK && count > 0) memcpy(added, values, count * pool->item_size);
+    if (status == CLSHEAR_OK && added != NULL && count > 0)
+        memcpy(added, values, count * pool->item_size);
     free(values);
     return status;
 }
@@ -262,7 +263,12 @@ static clshear_status bind_skin(gltf_primitive *primitive, const json_t *attribu
     const json_t *accessor = gltf_at(primitive->reader, "accessors", position);
     if (accessor == NULL) return CLSHEAR_BAD_FILE;
     const long long count = gltf_index(accessor, "count");
-    if (primitive->skin->joint_count > 0 && json_object_get(attributes, "JOINTS_1") != NULL)
+    const int is_bound = primitive->skin->joint_count > 0;
+    if (is_bound && gltf_index(attributes, "JOINTS_0") != -1 &&
+        gltf_index(attributes, "WEIGHTS_0") == -1)
+        return gltf_complain(primitive->reader, primitive->place, -1,
+                             "has JOINTS_0, but no WEIGHTS_0");
+    if (is_bound && json_object_get(attributes, "JOINTS_1") != NULL)
         gltf_note(primitive->reader, GLTF_MORE_JOINTS, primitive->place, -1);
     return gltf_skin_bind(primitive->reader, attributes, count > 0 ? (size_t)count : 0,
                           primitive->skin);
