@@ -13,6 +13,7 @@
 #include "helper/collada.h"
 #include "helper/collada_camera.h"
 #include "helper/node.h"
+#include "helper/three_mf.h"
 #include "import/find_file.h"
 
 typedef struct importing {
@@ -290,6 +291,7 @@ static clshear_status open_file(cs_bytes *bytes, const char *path, const struct 
 clshear_status cs_read_other(cs_bytes *bytes, cs_model *model, cs_error *error)
 {
     const struct aiScene *file = NULL;
+    if (cs_is_3mf(model->path)) return cs_read_3mf(bytes, model, error);
     clshear_status status = open_file(bytes, model->path, &file, error);
     if (status != CLSHEAR_OK) return status;
     if (file == NULL && strstr(aiGetErrorString(), "bad_alloc") != NULL)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "helper/three_mf.h"
 #include "helper/unpack.h"
 #include "image/image_io.h"
 #include "import/import.h"
@@ -51,7 +52,8 @@ static clshear_status unpack_draco(const void *bytes, size_t size, cs_packed_mes
 static void read_scene(const char *path, size_t size)
 {
     const cs_import_options options = {.smooth_degrees = size % 2 == 0 ? -1.0 : 40.0};
-    const cs_import_modules modules = {.draco = unpack_draco, .meshopt = cs_unpack_meshopt};
+    const cs_import_modules modules = {
+        .other = cs_read_3mf, .draco = unpack_draco, .meshopt = cs_unpack_meshopt};
     const cs_log log = {0};
     cs_scene scene;
     cs_error error;
@@ -73,6 +75,11 @@ CS_FORMAT(stl)
 CS_FORMAT(off)
 CS_FORMAT(gltf)
 CS_FORMAT(glb)
+
+void cs_fuzz_three_mf(const uint8_t *data, size_t size)
+{
+    read_scene(cs_fuzz_file("x.3mf", data, size), size);
+}
 
 /* As the material library of a fixed OBJ file. */
 void cs_fuzz_mtl(const uint8_t *data, size_t size)

@@ -9,7 +9,7 @@ set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 seconds=${1:-120}
 [ $# -eq 0 ] || shift
-[ $# -gt 0 ] || set -- obj mtl ply stl off gltf glb command_line settings points checkpoint merge film
+[ $# -gt 0 ] || set -- obj mtl ply stl off three_mf gltf glb command_line settings points checkpoint merge film
 seeds=${CS_FUZZ_SEEDS:+$(cd "$CS_FUZZ_SEEDS" && pwd)}
 flags="-g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined"
 cmake -S "$root" -B "$root/build-fuzz" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCLSHEAR_FUZZ=ON \

@@ -13,6 +13,7 @@
     X(ply)                     \
     X(stl)                     \
     X(off)                     \
+    X(three_mf)                \
     X(gltf)                    \
     X(glb)                     \
     X(command_line)            \

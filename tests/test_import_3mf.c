@@ -1,0 +1,267 @@
+/* 3MF, whose archives are read behind the wall. */
+#include "import_support.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* An archive of a file, as it grows. */
+typedef struct archive {
+    unsigned char bytes[16384], directory[4096];
+    size_t size, directory_size;
+    unsigned count;
+    int is_packed; /* entries are in deflate's stored blocks */
+    int is_far;    /* sizes and places are in fields of 64 bits */
+} archive;
+
+static void put(unsigned char *bytes, size_t *size, const void *data, size_t count)
+{
+    memcpy(bytes + *size, data, count);
+    *size += count;
+}
+
+static void put_number(unsigned char *bytes, size_t *size, uint64_t value, int count)
+{
+    for (int i = 0; i < count; i++)
+        bytes[(*size)++] = (unsigned char)(value >> 8 * i);
+}
+
+/* What the head of an entry and the directory have in common, from the version on. */
+static void put_head(unsigned char *bytes, size_t *size, const archive *file, uint64_t packed,
+                     uint64_t unpacked, size_t name, size_t extra)
+{
+    put_number(bytes, size, 20, 2);
+    put_number(bytes, size, 0, 2);
+    put_number(bytes, size, file->is_packed ? 8 : 0, 2);
+    put_number(bytes, size, 0, 8); /* time and checksum, which nothing reads */
+    put_number(bytes, size, packed, 4);
+    put_number(bytes, size, unpacked, 4);
+    put_number(bytes, size, name, 2);
+    put_number(bytes, size, extra, 2);
+}
+
+static void add_entry(archive *file, const char *name, const char *text)
+{
+    const size_t length = strlen(text), place = file->size, extra = file->is_far ? 28 : 0;
+    const size_t packed = length + (file->is_packed ? 5 : 0);
+    const uint64_t far = UINT32_MAX;
+    put(file->bytes, &file->size, "PK\3\4", 4);
+    put_head(file->bytes, &file->size, file, packed, length, strlen(name), 0);
+    put(file->bytes, &file->size, name, strlen(name));
+    if (file->is_packed) {
+        file->bytes[file->size++] = 1; /* the last block, stored */
+        put_number(file->bytes, &file->size, length, 2);
+        put_number(file->bytes, &file->size, ~length, 2);
+    }
+    put(file->bytes, &file->size, text, length);
+    unsigned char *directory = file->directory;
+    size_t *size = &file->directory_size;
+    put(directory, size, "PK\1\2\24\0", 6);
+    put_head(directory, size, file, file->is_far ? far : packed, file->is_far ? far : length,
+             strlen(name), extra);
+    put_number(directory, size, 0, 4); /* comment, disk */
+    put_number(directory, size, 0, 6); /* attributes */
+    put_number(directory, size, file->is_far ? far : place, 4);
+    put(directory, size, name, strlen(name));
+    if (file->is_far) {
+        put_number(directory, size, 1, 2);
+        put_number(directory, size, 24, 2);
+        put_number(directory, size, length, 8);
+        put_number(directory, size, packed, 8);
+        put_number(directory, size, place, 8);
+    }
+    file->count++;
+}
+
+/* Writes the file and returns its path. */
+static const char *finish(archive *file, const char *name)
+{
+    const size_t place = file->size;
+    put(file->bytes, &file->size, file->directory, file->directory_size);
+    put(file->bytes, &file->size, "PK\5\6\0\0\0\0", 8);
+    put_number(file->bytes, &file->size, file->count, 2);
+    put_number(file->bytes, &file->size, file->count, 2);
+    put_number(file->bytes, &file->size, file->directory_size, 4);
+    put_number(file->bytes, &file->size, place, 4);
+    put_number(file->bytes, &file->size, 0, 2);
+    return test_bytes(name, file->bytes, file->size);
+}
+
+#define MODEL(resources, build)                                                             \
+    "<?xml version=\"1.0\"?><!-- <object id=\"1\"> --><model unit=\"inch\" xmlns=\"core\" " \
+    "xmlns:m=\"material\" xmlns:p=\"production\"><resources>" resources                     \
+    "</resources><build>" build "</build></model>"
+#define TRIANGLE(more) "<triangle v1=\"0\" v2=\"1\" v3=\"2\"" more "/>"
+#define OTHER(more) "<triangle v1=\"0\" v2='2' v3=\"3\"" more "></triangle>"
+#define MESH(triangles)                                                         \
+    "<mesh><vertices><vertex x=\"0\" y=\"0\" z=\"5\"/><vertex x=\"1\" y=\"0\" " \
+    "z=\"5\" /><vertex z=\"5\"\n y=\"1\" x=\"1\"/><vertex x=\"0\" y=\"1\" "     \
+    "z=\"5\"/></vertices><triangles>" triangles "</triangles></mesh>"
+#define OBJECT(id, more, inside) "<object id=\"" id "\" type=\"model\"" more ">" inside "</object>"
+#define ITEM(id, more) "<item objectid=\"" id "\"" more "/>"
+#define BASE                                                                    \
+    "<basematerials id=\"5\"><base name=\"r\" displaycolor=\"#FF0000\"/><base " \
+    "name=\"g\" displaycolor=\"#808080ff\"/><base displaycolor=\"#00FF0080\"/>" \
+    "</basematerials>"
+#define COLOURS                                                    \
+    "<m:colorgroup id=\"6\"><m:color color=\"#0000FF\"/><m:color " \
+    "color=\"#00FF00\"/></m:colorgroup><m:texture2dgroup id=\"7\" texid=\"8\"/>"
+
+static const char *plain_file(const char *name, const char *model)
+{
+    archive file = {0};
+    add_entry(&file, "3D/3dmodel.model", model);
+    return finish(&file, name);
+}
+
+static clshear_status load(const char *path, cs_scene *scene, cs_error *error)
+{
+    const cs_import_options options = {.smooth_degrees = -1.0};
+    const cs_log log = {.warn = import_collect};
+    import_warnings[0] = error->message[0] = '\0';
+    cs_scene_init(scene);
+    return cs_scene_import(path, &options, scene, &log, error);
+}
+
+static cs_scene load_well(const char *path)
+{
+    cs_scene scene;
+    cs_error error;
+    if (load(path, &scene, &error) != CLSHEAR_OK) fail_msg("%s", error.message);
+    return scene;
+}
+
+static void expect_refusal(const char *path, const char *words)
+{
+    cs_scene scene;
+    cs_error error;
+    assert_int_equal(load(path, &scene, &error), CLSHEAR_BAD_FILE);
+    if (strstr(error.message, words) == NULL)
+        fail_msg("\"%s\" does not contain \"%s\"", error.message, words);
+    assert_int_equal(strncmp(error.message, path, strlen(path)), 0);
+    cs_scene_free(&scene);
+}
+
+/* A component turns by 90 degrees about Z after it has moved, and the item moves after that. */
+static void components_in_their_places(void **state)
+{
+    (void)state;
+    cs_scene scene = load_well(plain_file(
+        "places.3mf",
+        MODEL(OBJECT("2", "",
+                     "<components><component objectid=\"1\" transform=\"0 1 0 -1 0 0 0 0 1 10 0 "
+                     "0\"/></components>") OBJECT("1", "", MESH(TRIANGLE("")))
+                  OBJECT("3", "", MESH("")),
+              ITEM("2", " transform=\"2 0 0 0 2 0 0 0 2 0 100 0\""))));
+    assert_int_equal(scene.indices.count, 1);
+    assert_int_equal(scene.z_up, 1);
+    expect_close(import_position(&scene, 0, 0), 20, 100, 10);
+    expect_close(import_position(&scene, 0, 1), 20, 102, 10);
+    expect_close(import_position(&scene, 0, 2), 18, 102, 10);
+    expect_close(import_material(&scene, 0)->diffuse, 0.5f, 0.5f, 0.5f);
+    assert_string_equal(import_warnings, "");
+    cs_scene_free(&scene);
+}
+
+/* Triangles have their own colours, or those of the object; bytes are on the sRGB curve. */
+static void colours_of_triangles(void **state)
+{
+    (void)state;
+    cs_scene scene = load_well(plain_file(
+        "base.3mf",
+        MODEL(BASE OBJECT("1", " pid=\"5\" pindex=\"1\"",
+                          MESH(TRIANGLE(" pid=\"5\" p1=\"2\"") OTHER("") TRIANGLE(" p1=\"0\""))),
+              ITEM("1", ""))));
+    expect_close(import_material(&scene, 0)->diffuse, 0, 1, 0);
+    assert_true(fabsf(import_material(&scene, 0)->alpha - 128.0f / 255.0f) < 1e-5f);
+    expect_close(import_material(&scene, 1)->diffuse, 0.21586f, 0.21586f, 0.21586f);
+    expect_close(import_material(&scene, 2)->diffuse, 1, 0, 0);
+    assert_string_equal(import_warnings, "");
+    cs_scene_free(&scene);
+    scene = load_well(plain_file(
+        "colours.3mf",
+        MODEL(COLOURS OBJECT("1", "",
+                             MESH(TRIANGLE(" pid=\"6\" p1=\"0\"")
+                                      OTHER(" pid=\"6\" p1=\"0\" p2=\"1\" p3=\"0\"")
+                                          TRIANGLE(" pid=\"7\" p1=\"0\" paint_color=\"4\""))),
+              ITEM("1", ""))));
+    expect_close(import_material(&scene, 0)->diffuse, 0, 0, 1);
+    expect_close(import_material(&scene, 1)->diffuse, 1, 1, 1);
+    expect_close(import_colour(&scene, 0, 0), 1, 1, 1);
+    expect_close(import_colour(&scene, 1, 0), 0, 0, 1);
+    expect_close(import_colour(&scene, 1, 1), 0, 1, 0);
+    import_warned("has textures, which are not supported");
+    import_warned("has paint of a slicer, which is not supported");
+    cs_scene_free(&scene);
+    scene = load_well(plain_file(
+        "wrong.3mf",
+        MODEL(BASE OBJECT("1", " pid=\"5\" pindex=\"9\"", MESH(TRIANGLE(""))), ITEM("1", ""))));
+    import_warned("some triangles name colours that are not there");
+    cs_scene_free(&scene);
+}
+
+/* Objects in parts of their own, as slicers write them, packed or not, with fields of 64 bits. */
+static void parts_of_their_own(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 4; kind++) {
+        archive file = {.is_packed = kind & 1, .is_far = kind >> 1};
+        add_entry(&file, "_rels/.rels",
+                  "<Relationships><Relationship Type=\"x/thumbnail\" Target=\"/a.png\"/>"
+                  "<Relationship Target=\"/3D/root.model\" Type=\"http://x/3dmodel\"/>"
+                  "</Relationships>");
+        add_entry(&file, "3D/Objects/one.model",
+                  MODEL(OBJECT("1", "", MESH(TRIANGLE(""))), ITEM("1", "")));
+        add_entry(&file, "3D/root.model",
+                  "\xef\xbb\xbf" MODEL(OBJECT("1", "",
+                                              "<components><component "
+                                              "p:path=\"/3D/Objects/one.model\" objectid=\"1\" "
+                                              "transform=\"1 0 0 0 1 0 0 0 1 7 0 0\"/>"
+                                              "</components>"),
+                                       ITEM("1", "")));
+        cs_scene scene = load_well(finish(&file, "parts.3mf"));
+        assert_int_equal(scene.indices.count, 1);
+        expect_close(import_position(&scene, 0, 0), 7, 0, 5);
+        cs_scene_free(&scene);
+    }
+}
+
+static void damaged_files(void **state)
+{
+    static const struct {
+        const char *model;
+        const char *words;
+    } files[] = {
+        {MODEL(OBJECT("1", "", MESH("<triangle v1=\"0\" v2=\"1\" v3=\"4\"/>")), ITEM("1", "")),
+         "triangle 0 of object 1 names vertex 4, but there are 4"},
+        {MODEL(OBJECT("1", "", MESH("<triangle v1=\"0\" v2=\"1\" v3=\"-1\"/>")), ITEM("1", "")),
+         "a <triangle> in it has no usable \"v3\""},
+        {MODEL("", ITEM("9", "")), "names object 9, which is not there"},
+        {MODEL(OBJECT("1", "", MESH(TRIANGLE(""))), ""), "nothing in it is to be built"},
+        {MODEL(OBJECT("1", "", "<components><component objectid=\"1\"/></components>"),
+               ITEM("1", "")),
+         "lie within each other without an end"},
+        {MODEL(OBJECT("1", "", MESH(TRIANGLE(""))), ITEM("1", " transform=\"1 0 0\"")),
+         "a <item> in it has no usable \"transform\""},
+        {MODEL(OBJECT("1", "", MESH(TRIANGLE(""))), ITEM("1", " path=\"/a\"")),
+         "\"/a\" is not in it"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        expect_refusal(plain_file("damaged.3mf", files[i].model), files[i].words);
+    expect_refusal(test_file("damaged.3mf", "hello"), "is no ZIP archive");
+    archive file = {.is_packed = 1};
+    add_entry(&file, "3D/3dmodel.model", MODEL("", ""));
+    file.bytes[30 + 16] = 7; /* no kind of block */
+    expect_refusal(finish(&file, "damaged.3mf"), "\"3D/3dmodel.model\" in it is damaged");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(components_in_their_places),
+        cmocka_unit_test(colours_of_triangles),
+        cmocka_unit_test(parts_of_their_own),
+        cmocka_unit_test(damaged_files),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
