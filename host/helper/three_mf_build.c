@@ -128,12 +128,12 @@ static clshear_status add_vertices(mf_reader *reader, const mf_object *object,
 static clshear_status add_mesh(mf_reader *reader, const mf_object *object, const mf_matrix *matrix)
 {
     cs_model *model = reader->model;
-    const mf_triangle *triangle = (const mf_triangle *)reader->triangles.items;
+    const mf_triangle *triangles = reader->triangles.items;
     const size_t first = model->positions.count;
     uint32_t material, white = CS_NO_INDEX;
     clshear_status status = add_vertices(reader, object, matrix);
-    triangle += object->first_triangle;
-    for (size_t i = 0; i < object->triangles && status == CLSHEAR_OK; i++, triangle++) {
+    for (size_t i = 0; i < object->triangles && status == CLSHEAR_OK; i++) {
+        const mf_triangle *triangle = &triangles[object->first_triangle + i];
         cs_corner corners[3];
         for (int k = 0; k < 3; k++) {
             if (triangle->vertex[k] >= object->vertices)
