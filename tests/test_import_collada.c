@@ -34,15 +34,23 @@
                                        "</library_visual_scenes><scene><instance_visual_scene "    \
                                        "url='#w'/></scene></COLLADA>\n"
 
-static void expect_triangle(const char *path, float red, float green, float blue)
+/* Reads a file of one triangle or more; the caller frees the scene. */
+static cs_scene load(const char *path)
 {
     const cs_import_options options = {.smooth_degrees = -1.0};
     const cs_log log = {.warn = import_collect};
     cs_scene scene;
     cs_error error = {0};
+    import_warnings[0] = '\0';
     cs_scene_init(&scene);
     if (cs_scene_import(path, &options, &scene, &log, &error) != CLSHEAR_OK)
         fail_msg("%s", error.message);
+    return scene;
+}
+
+static void expect_triangle(const char *path, float red, float green, float blue)
+{
+    cs_scene scene = load(path);
     assert_int_equal(scene.triangle_flags.count, 1);
     expect_close(import_material(&scene, 0)->diffuse, red, green, blue);
     cs_scene_free(&scene);
@@ -67,6 +75,36 @@ static void names_between_lines(void **state)
                   COLLADA("", "1 1 1 1</color><texture texture='i' texcoord='U'/><color>1 1 1 1")),
         0.5f, 0.5f, 0.5f);
     import_warned("texture none.png is not there");
+}
+
+#define BESIDE(elements) "1 1 1 1</color></diffuse>" elements "<diffuse><color>0.5 0.25 0 1"
+#define TRANSPARENT(mode, colour, factor)                                                         \
+    BESIDE("<transparent opaque='" mode "'><color>" colour "</color></transparent><transparency>" \
+           "<float>" factor "</float></transparency>")
+
+/* Opacity in the four ways of Collada; 0 is opaque, as exporters mean it. */
+static void opacity(void **state)
+{
+    static const struct {
+        const char *text;
+        float alpha;
+    } files[] = {{COLLADA("", TRANSPARENT("A_ONE", "1 1 1 0.25", "1")), 0.25f},
+                 {COLLADA("", TRANSPARENT("A_ZERO", "1 1 1 0.75", "1")), 0.25f},
+                 {COLLADA("", TRANSPARENT("RGB_ZERO", "0.75 0.75 0.75 1", "1")), 0.25f},
+                 {COLLADA("", TRANSPARENT("RGB_ONE", "0.25 0.25 0.25 1", "1")), 0.25f},
+                 {COLLADA("", TRANSPARENT("A_ONE", "1 1 1 1", "0.75")), 0.75f},
+                 {COLLADA("", TRANSPARENT("RGB_ZERO", "0 0 0 1", "1")), 1.0f},
+                 {COLLADA("", TRANSPARENT("A_ONE", "1 1 1 1", "0")), 1.0f}};
+    (void)state;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        cs_scene scene = load(test_file("opacity.dae", files[i].text));
+        const cs_material *material = import_material(&scene, 0);
+        assert_near(material->alpha, files[i].alpha, 1e-6f);
+        assert_int_equal((material->flags & CS_MATERIAL_BLEND) != 0, files[i].alpha < 1.0f);
+        expect_close(material->diffuse, 0.5f, 0.25f, 0);
+        cs_scene_free(&scene);
+    }
+    import_warned("the opacity 0 of 1 material is taken as opaque");
 }
 
 /* UTF-16 with a byte order mark, of both orders. */
@@ -106,13 +144,7 @@ static const char *camera_file(const char *optics)
 /* What the picture shows downwards: an angle in degrees, or of parallel cameras the height. */
 static void expect_extent(const char *optics, float degrees, float height)
 {
-    const cs_import_options options = {.smooth_degrees = -1.0};
-    const cs_log log = {.warn = import_collect};
-    cs_scene scene;
-    cs_error error = {0};
-    cs_scene_init(&scene);
-    if (cs_scene_import(camera_file(optics), &options, &scene, &log, &error) != CLSHEAR_OK)
-        fail_msg("%s", error.message);
+    cs_scene scene = load(camera_file(optics));
     assert_int_equal(scene.cameras.count, 1);
     const cs_view *view = &((const cs_scene_camera *)scene.cameras.items)->view;
     assert_near(view->orthographic, height, 1e-5f * height);
@@ -151,6 +183,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(colours_behind_blanks),
         cmocka_unit_test(names_between_lines),
+        cmocka_unit_test(opacity),
         cmocka_unit_test(utf_16),
         cmocka_unit_test(cameras_show_what_they_say),
     };

@@ -48,7 +48,9 @@ static cs_wrap wrap_of(enum aiTextureMapMode mode)
                                              : CS_WRAP_REPEAT;
 }
 
-static clshear_status take_map(const importing *work, const struct aiMaterial *source, cs_map *map)
+/* A map of one of two kinds, the first that the material has. */
+static clshear_status take_map(const importing *work, const struct aiMaterial *source,
+                               const enum aiTextureType types[2], cs_map *map)
 {
     struct aiString name;
     enum aiTextureMapMode modes[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap,
@@ -56,10 +58,10 @@ static clshear_status take_map(const importing *work, const struct aiMaterial *s
     unsigned set = 0;
     char folder[CS_FILE_PATH], found[CS_FILE_PATH];
     const char *folders[] = {folder};
-    if (aiGetMaterialTexture(source, aiTextureType_DIFFUSE, 0, &name, NULL, &set, NULL, NULL, modes,
-                             NULL) != aiReturn_SUCCESS &&
-        aiGetMaterialTexture(source, aiTextureType_BASE_COLOR, 0, &name, NULL, &set, NULL, NULL,
-                             modes, NULL) != aiReturn_SUCCESS)
+    if (aiGetMaterialTexture(source, types[0], 0, &name, NULL, &set, NULL, NULL, modes, NULL) !=
+            aiReturn_SUCCESS &&
+        aiGetMaterialTexture(source, types[1], 0, &name, NULL, &set, NULL, NULL, modes, NULL) !=
+            aiReturn_SUCCESS)
         return CLSHEAR_OK;
     map->wrap[0] = wrap_of(modes[0]);
     map->wrap[1] = wrap_of(modes[1]);
@@ -74,8 +76,30 @@ static clshear_status take_map(const importing *work, const struct aiMaterial *s
                               &map->image, work->error);
 }
 
+/* Opacity, by a number or an image. */
+static clshear_status take_opacity(const importing *work, const struct aiMaterial *source,
+                                   cs_material_description *material)
+{
+    static const enum aiTextureType types[] = {aiTextureType_OPACITY, aiTextureType_OPACITY};
+    float opacity = 1.0f;
+    unsigned count = 1;
+    if (aiGetMaterialFloatArray(source, "$mat.opacity", 0, 0, &opacity, &count) !=
+            aiReturn_SUCCESS ||
+        !(opacity < 1.0f))
+        opacity = 1.0f;
+    material->alpha_map.use.kind = CS_TEXELS_OPACITY;
+    const clshear_status status = take_map(work, source, types, &material->alpha_map);
+    if (!(opacity > 0.0f) && cs_map_is_used(&material->alpha_map)) opacity = 1.0f;
+    material->base_colour[3] = opacity;
+    if (opacity < 1.0f || cs_map_is_used(&material->alpha_map))
+        material->alpha_mode = CS_ALPHA_BLEND;
+    return status;
+}
+
 static clshear_status add_material(const importing *work, const struct aiMaterial *source)
 {
+    static const enum aiTextureType base_types[] = {aiTextureType_DIFFUSE,
+                                                    aiTextureType_BASE_COLOR};
     struct aiString name = {0};
     cs_material_description *material = cs_model_extend(&work->model->materials, 1);
     if (material == NULL) return cs_model_full(work->model, work->error);
@@ -87,8 +111,8 @@ static clshear_status add_material(const importing *work, const struct aiMateria
     material->emissive_map.missing = aiGetMaterialTextureCount(source, aiTextureType_EMISSIVE) > 0;
     material->normal_map.missing = aiGetMaterialTextureCount(source, aiTextureType_NORMALS) > 0;
     material->normal_map.missing |= aiGetMaterialTextureCount(source, aiTextureType_HEIGHT) > 0;
-    material->alpha_map.missing = aiGetMaterialTextureCount(source, aiTextureType_OPACITY) > 0;
-    clshear_status status = take_map(work, source, &material->base_map);
+    clshear_status status = take_map(work, source, base_types, &material->base_map);
+    if (status == CLSHEAR_OK) status = take_opacity(work, source, material);
     cs_material_whiten(material);
     return status;
 }
@@ -164,10 +188,10 @@ static clshear_status add_instance(void *user, const struct aiMesh *source,
     const cs_model *model = work->model;
     const cs_material_description *materials = model->materials.items;
     cs_array corners = {.item_size = sizeof(cs_corner)};
-    int set = 0;
+    const cs_map *placing = NULL;
     if (source->mMaterialIndex < model->materials.count)
-        set = materials[source->mMaterialIndex].base_map.set;
-    const struct aiVector3D *st = source->mTextureCoords[set];
+        placing = cs_material_placing(&materials[source->mMaterialIndex]);
+    const struct aiVector3D *st = source->mTextureCoords[placing != NULL ? placing->set : 0];
     const cs_corner first = {(uint32_t)model->positions.count,
                              source->mNormals != NULL ? (uint32_t)model->normals.count
                                                       : CS_NO_INDEX,
@@ -244,6 +268,23 @@ static void make_default(const importing *work)
             cs_model_plain(work->model, all[i].name, &all[i]);
 }
 
+/* Exporters of Collada and others write an opacity of 0 for opaque. */
+static void show_invisible(const importing *work)
+{
+    cs_material_description *all = work->model->materials.items;
+    size_t count = 0;
+    for (size_t i = 0; i < work->model->materials.count; i++) {
+        if (all[i].base_colour[3] > 0.0f) continue;
+        all[i].base_colour[3] = 1.0f;
+        all[i].alpha_mode = CS_ALPHA_OPAQUE;
+        count++;
+    }
+    if (count > 0)
+        cs_warn(work->model->log,
+                "%s: the opacity 0 of %zu material%s is taken as opaque, as some programs mean it",
+                work->model->path, count, count > 1 ? "s" : "");
+}
+
 static clshear_status convert(const importing *work)
 {
     const struct aiScene *file = work->file;
@@ -252,6 +293,7 @@ static clshear_status convert(const importing *work)
         CS_TRY(add_material(work, file->mMaterials[i]));
     CS_TRY(cs_node_visit_meshes(file, add_instance, (void *)work));
     make_default(work);
+    show_invisible(work);
     for (unsigned i = 0; i < file->mNumLights; i++)
         CS_TRY(add_light(work, file->mLights[i]));
     for (unsigned i = 0; i < file->mNumCameras; i++)
