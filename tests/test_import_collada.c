@@ -56,11 +56,12 @@ static void expect_triangle(const char *path, float red, float green, float blue
     cs_scene_free(&scene);
 }
 
-/* Colours that begin with a blank, or on a line of their own. */
+/* Colours that begin with a blank, or on a line of their own, or have no opacity. */
 static void colours_behind_blanks(void **state)
 {
     (void)state;
     expect_triangle(test_file("plain.dae", COLLADA("", "0.5 0.25 0 1")), 0.5f, 0.25f, 0);
+    expect_triangle(test_file("three.dae", COLLADA("", " 0.75 0.25\n0 ")), 0.75f, 0.25f, 0);
     expect_triangle(test_file("blank.dae", COLLADA("", " 0.75 0.25 0 1")), 0.75f, 0.25f, 0);
     expect_triangle(test_file("line.dae", COLLADA("", "\r\n\t0.125 0.25\n0 1\n")), 0.125f, 0.25f,
                     0);
@@ -75,6 +76,50 @@ static void names_between_lines(void **state)
                   COLLADA("", "1 1 1 1</color><texture texture='i' texcoord='U'/><color>1 1 1 1")),
         0.5f, 0.5f, 0.5f);
     import_warned("texture none.png is not there");
+}
+
+/* A file of a triangle, with `to` in the place of `from`. */
+static const char *file_with(const char *from, const char *to)
+{
+    static const char plain[] = COLLADA("", "0.5 0.25 0 1");
+    const char *place = strstr(plain, from);
+    char text[16384];
+    assert_non_null(place);
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(place - plain), plain, to, place + strlen(from));
+    return test_file("other.dae", text);
+}
+
+#define POLYGONS(inside)                                                                        \
+    "<polygons count='1' material='s'><input semantic='VERTEX' source='#v' offset='0'/>" inside \
+    "</polygons><triangles "
+#define MORPH                                                                                 \
+    "<library_controllers><controller id='k'><morph source='#g'><source id='z'><IDREF_array " \
+    "id='z-a' count='1'>g</IDREF_array></source><targets><input semantic='MORPH_TARGET' "     \
+    "source='#z'/></targets></morph></controller></library_controllers>"
+
+/* What Assimp refuses, or makes something else of. */
+static void polygons_with_holes(void **state)
+{
+    (void)state;
+    cs_scene scene =
+        load(file_with("<triangles ", POLYGONS("<ph><p>2 1 0</p><h>0 1 2</h><h>\n0 1 2</h></ph>")));
+    assert_int_equal(scene.triangle_flags.count, 2);
+    import_warned("holes of polygons are not supported: 2 closed");
+    cs_scene_free(&scene);
+}
+
+static void morph_targets(void **state)
+{
+    char text[8192];
+    (void)state;
+    snprintf(text, sizeof text,
+             MORPH "<library_visual_scenes><visual_scene id='w'>"
+                   "<node id='o'><instance_controller url='#k'/></node>");
+    cs_scene scene = load(file_with("<library_visual_scenes><visual_scene id='w'>", text));
+    assert_int_equal(scene.triangle_flags.count, 2);
+    expect_close(import_position(&scene, 0, 1), 1, 0, 0);
+    import_warned("morph targets are not supported: the first shape of 1 mesh");
+    cs_scene_free(&scene);
 }
 
 #define BESIDE(elements) "1 1 1 1</color></diffuse>" elements "<diffuse><color>0.5 0.25 0 1"
@@ -183,6 +228,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(colours_behind_blanks),
         cmocka_unit_test(names_between_lines),
+        cmocka_unit_test(polygons_with_holes),
+        cmocka_unit_test(morph_targets),
         cmocka_unit_test(opacity),
         cmocka_unit_test(utf_16),
         cmocka_unit_test(cameras_show_what_they_say),

@@ -12,6 +12,7 @@
 
 #include "helper/collada.h"
 #include "helper/collada_camera.h"
+#include "helper/collada_edit.h"
 #include "helper/node.h"
 #include "helper/three_mf.h"
 #include "import/find_file.h"
@@ -316,15 +317,23 @@ static void turn_back(const struct aiScene *file, cs_model *model)
 
 /* Opens a file with Assimp. `file` becomes NULL where Assimp cannot read it. No step of Assimp's
  * post-processing runs, since these trust the indices of the file, which are checked later. */
-static clshear_status open_file(cs_bytes *bytes, const char *path, const struct aiScene **file,
+static clshear_status open_file(cs_bytes *bytes, const cs_model *model, const struct aiScene **file,
                                 cs_error *error)
 {
-    if (!cs_is_collada(path)) {
-        *file = aiImportFile(path, 0);
+    cs_collada_losses lost = {0};
+    if (!cs_is_collada(model->path)) {
+        *file = aiImportFile(model->path, 0);
         return CLSHEAR_OK;
     }
-    clshear_status status = cs_collada_tidy(bytes, path, error);
+    clshear_status status = cs_collada_tidy(bytes, model->path, error);
+    if (status == CLSHEAR_OK) status = cs_collada_edit(bytes, &lost, error);
     if (status == CLSHEAR_OK) status = cs_collada_edit_cameras(bytes, error);
+    if (lost.holes > 0)
+        cs_warn(model->log, "%s: holes of polygons are not supported: %zu closed; export triangles",
+                model->path, lost.holes);
+    if (lost.morphs > 0)
+        cs_warn(model->log, "%s: morph targets are not supported: the first shape of %zu mesh%s",
+                model->path, lost.morphs, lost.morphs > 1 ? "es" : "");
     if (status == CLSHEAR_OK)
         *file = aiImportFileFromMemory(bytes->data, (unsigned)bytes->size, 0, "dae");
     return status;
@@ -334,7 +343,7 @@ clshear_status cs_read_other(cs_bytes *bytes, cs_model *model, cs_error *error)
 {
     const struct aiScene *file = NULL;
     if (cs_is_3mf(model->path)) return cs_read_3mf(bytes, model, error);
-    clshear_status status = open_file(bytes, model->path, &file, error);
+    clshear_status status = open_file(bytes, model, &file, error);
     if (status != CLSHEAR_OK) return status;
     if (file == NULL && strstr(aiGetErrorString(), "bad_alloc") != NULL)
         return cs_fail(error, CLSHEAR_BAD_FILE,
@@ -344,6 +353,9 @@ clshear_status cs_read_other(cs_bytes *bytes, cs_model *model, cs_error *error)
         return cs_fail(error, CLSHEAR_BAD_FILE,
                        "%s: no reader knows this format by its name or its first bytes; OBJ, glTF, "
                        "PLY, STL and OFF are read",
+                       model->path);
+    if (file == NULL && strstr(aiGetErrorString(), "File came out empty") != NULL)
+        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: has no scene that shows anything",
                        model->path);
     if (file == NULL)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %.*s", model->path,

@@ -30,6 +30,7 @@ int cs_xml_next(const char **at, cs_xml_tag *tag)
     while (begin != NULL && (begin[1] == '!' || begin[1] == '?'))
         begin = strchr(pass(begin), '<');
     if (begin == NULL) return 0;
+    tag->begin = begin;
     tag->closes = begin[1] == '/';
     const char *name = begin + 1 + tag->closes, *end = name;
     while (*end != '\0' && *end != '>' && *end != '/' && !is_blank(*end))

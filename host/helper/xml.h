@@ -5,7 +5,8 @@
 #include <stddef.h>
 
 typedef struct cs_xml_tag {
-    const char *name; /* without its prefix; not 0-terminated */
+    const char *begin; /* its < */
+    const char *name;  /* without its prefix; not 0-terminated */
     size_t length;
     const char *attributes; /* from the name's end to `end` */
     const char *end;
