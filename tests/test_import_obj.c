@@ -96,10 +96,11 @@ static void words_of_map_options(void **state)
     static const struct {
         const char *line;
         int clamps;
-    } lines[] = {
-        {"-clamp on four.ppm", 1},  {"-clamp ON four.ppm", 1},   {"four.ppm -clamp on", 1},
-        {"-clamp off four.ppm", 0}, {"-clamp four.ppm", 0},      {"four.ppm -clamp", 0},
-        {"-imfchan four.ppm", 0},   {"-blendu -cc four.ppm", 0}, {"-type sphere four.ppm", 0}};
+    } lines[] = {{"-clamp on four.ppm", 1},    {"-clamp ON four.ppm", 1},
+                 {"four.ppm -clamp on", 1},    {"-clamp off four.ppm", 0},
+                 {"-clamp four.ppm", 0},       {"four.ppm -clamp", 0},
+                 {"-imfchan four.ppm", 0},     {"-blendu -cc four.ppm", 0},
+                 {"-type sphere four.ppm", 0}, {"-colorspace sRGB four.ppm", 0}};
     char text[128];
     (void)state;
     import_picture("four.ppm");

@@ -42,6 +42,11 @@ static const struct {
          LIST, RED_POINTS "4 0 1 2 3\n"),
      {1, 0, 0},
      ""},
+    {"elements.ply",
+     "ply\nformat ascii 1.0\nelement Vertex 4\n" XYZ "element Face 1\n" LIST "end_header\n" POINTS
+     "4 0 1 2 3\n",
+     {0.5f, 0.5f, 0.5f},
+     ""},
     {"floats-to-255.ply", PLY(XYZ RGB("float"), LIST, RED_POINTS "4 0 1 2 3\n"), {1, 0, 0}, ""},
     {"int64.ply",
      PLY(XYZ "property int64 id\n", LIST, "-1 -1 0 1\n1 -1 0 2\n1 1 0 3\n-1 1 0 4\n4 0 1 2 3\n"),
@@ -206,6 +211,8 @@ static const struct {
     {"comma.obj", "v 1,5 2 3\n",
      "comma.obj:1: a vertex needs three numbers; \"1,5\" is not a number"},
     {"none.obj", "f 1 2 3\n", "none.obj:1: the face names vertex 1, but there are none"},
+    {"library.obj", "mtllib namesake.mtl\n", "library.obj: has no vertices and no faces"},
+    {"groups.obj", "# a\no a\ng b\n", "groups.obj: has no vertices and no faces"},
     {"gzip.obj", "\x1f\x8b\x08", "compressed by gzip; unpack it first"},
     {"zip.obj", "PK\3\4", "is a ZIP archive; unpack it first"},
     {"lost.stl", "solid\nfacet\nvertex 0 0 1\nvertex 0 1 0\n" FACETS,
@@ -311,7 +318,7 @@ static void stl_without_a_count(void **state)
     }
 }
 
-/* Each face of a PLY file has the texture that its number says. */
+/* Each face of a PLY file has the texture that its number says, -1 for none. */
 static void textures_of_ply_faces(void **state)
 {
     (void)state;
@@ -321,10 +328,11 @@ static void textures_of_ply_faces(void **state)
         "textures.ply",
         "ply\nformat ascii 1.0\ncomment TextureFile one.ppm\ncomment TextureFile two.ppm\n"
         "element vertex 4\n" XYZ "property float texture_s\nproperty float texture_t\n"
-        "element face 2\n" LIST "property int texnumber\nend_header\n"
-        "-1 -1 0 0 0\n1 -1 0 1 0\n1 1 0 1 1\n-1 1 0 0 1\n3 0 1 2 1\n3 0 2 3 0\n");
+        "element face 3\n" LIST "property int texnumber\nend_header\n"
+        "-1 -1 0 0 0\n1 -1 0 1 0\n1 1 0 1 1\n-1 1 0 0 1\n3 0 1 2 1\n3 0 2 3 0\n3 0 1 3 -1\n");
     assert_int_equal(import_material(&scene, 0)->texture, 1);
     assert_int_equal(import_material(&scene, 1)->texture, 0);
+    assert_int_equal(import_material(&scene, 2)->texture, CS_NO_TEXTURE);
     assert_string_equal(import_warnings, "");
     cs_scene_free(&scene);
 }

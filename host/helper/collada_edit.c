@@ -45,18 +45,18 @@ static part value_of(const cs_xml_tag *tag, const char *name)
 {
     part value = {NULL, 0};
     value.at = cs_xml_value(tag, name, &value.length);
-    return value;
+    return value.at != NULL ? value : (part){"", 0};
 }
 
 static void find_morphs(editing *edit, const char *text)
 {
     cs_xml_tag tag;
-    part id = {NULL, 0};
+    part id = {"", 0};
     while (cs_xml_next(&text, &tag)) {
         if (tag.closes) continue;
         if (cs_xml_is(&tag, "controller")) id = value_of(&tag, "id");
         const part source = value_of(&tag, "source");
-        if (!cs_xml_is(&tag, "morph") || id.at == NULL || source.at == NULL) continue;
+        if (!cs_xml_is(&tag, "morph") || id.length == 0 || source.length == 0) continue;
         morph *added = cs_array_extend(&edit->morphs, 1);
         edit->is_full |= added == NULL;
         if (added != NULL) *added = (morph){id, source};
@@ -68,7 +68,7 @@ static const morph *morph_called(const editing *edit, part name)
 {
     const morph *all = edit->morphs.items;
     if (name.length > 0 && name.at[0] == '#') name = (part){name.at + 1, name.length - 1};
-    for (size_t i = 0; name.at != NULL && i < edit->morphs.count; i++)
+    for (size_t i = 0; i < edit->morphs.count; i++)
         if (all[i].id.length == name.length && memcmp(all[i].id.at, name.at, name.length) == 0)
             return &all[i];
     return NULL;

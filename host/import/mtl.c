@@ -161,6 +161,7 @@ static const struct {
     {"-blendu", 0, {"on", "off"}},
     {"-blendv", 0, {"on", "off"}},
     {"-cc", 0, {"on", "off"}},
+    {"-colorspace", 0, {"sRGB", "linear"}},
     {"-imfchan", 0, {"r", "g", "b", "m", "l", "z"}},
     {"-type",
      0,

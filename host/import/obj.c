@@ -143,6 +143,15 @@ static void leave_out(obj_reader *reader, const char *key)
                 reader->model->path, reader->lines.number, key);
 }
 
+/* Lines that OBJ files have besides vertices and faces. */
+static int is_empty(const char *key)
+{
+    static const char *const keys[] = {"mtllib", "usemtl", "o", "g", "s", "vt", "vn", "vp"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (strcasecmp(key, keys[i]) == 0) return 1;
+    return 0;
+}
+
 static int is_free_form(const char *key)
 {
     static const char *const keys[] = {"curv", "curv2", "surf", "parm", "cstype"};
@@ -154,6 +163,7 @@ static int is_free_form(const char *key)
 static clshear_status read_line(obj_reader *reader, const char *key, char *at)
 {
     cs_model *model = reader->model;
+    if (model->positions.count == 0) reader->empty += (size_t)is_empty(key);
     if (strcasecmp(key, "v") == 0) return read_position(reader, at);
     if (strcasecmp(key, "vt") == 0) return read_attribute(reader, &model->textures, 1, 2, at);
     if (strcasecmp(key, "vn") == 0) return read_attribute(reader, &model->normals, 3, 3, at);
@@ -185,6 +195,8 @@ static clshear_status check(const obj_reader *reader)
     if (model->without_area > 0)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE,
                        "%s: holds points and lines only; export faces", path);
+    if (model->positions.count == 0 && reader->empty > 0)
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: has no vertices and no faces", path);
     if (model->positions.count == 0)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE,
                        "%s: no line in it is one of an OBJ file; is it one?", path);

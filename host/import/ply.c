@@ -106,6 +106,7 @@ static clshear_status add_face(cs_ply_reader *reader, const cs_ply_element *elem
     if (cs_ply_colour(given, colour)) CS_TRY(add_coloured(reader, corners, count, colour));
     uint32_t material = 0;
     const double number = given->value[CS_PLY_TEXTURE_NUMBER];
+    if (number < 0.0) material = CS_NO_INDEX; /* -1: this face has none */
     if (number > 0.0 && number < (double)reader->head.texture_count) material = (uint32_t)number;
     CS_TRY(cs_model_add_polygon(model, corners, count, material, 0, error));
 done:

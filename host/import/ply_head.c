@@ -113,6 +113,8 @@ static const char *read_element(cs_ply_head *head, char *at)
         return "an element needs a name and a count of 0 or more";
     cs_ply_element *element = &head->elements[head->element_count++];
     snprintf(element->name, sizeof element->name, "%s", name);
+    for (char *letter = element->name; *letter != '\0'; letter++) /* some begin with a capital */
+        if (*letter >= 'A' && *letter <= 'Z') *letter = (char)(*letter - 'A' + 'a');
     element->count = (size_t)number;
     return NULL;
 }
