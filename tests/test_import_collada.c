@@ -122,6 +122,34 @@ static void morph_targets(void **state)
     cs_scene_free(&scene);
 }
 
+/* Skins are where they are bound, below their node; the targets of morphs may lie below. */
+static void skins_as_bound(void **state)
+{
+    static const char scene_begin[] = "<library_visual_scenes><visual_scene id='w'>";
+    char text[8192];
+    (void)state;
+    for (int has_morph = 0; has_morph < 2; has_morph++) {
+        snprintf(text, sizeof text,
+                 "%s<library_controllers><controller id='s'><skin source='#%s'><bind_shape_matrix>"
+                 "2 0 0 100\n0 2 0 0 0 0 2 0 0 0 0 1</bind_shape_matrix></skin></controller>"
+                 "</library_controllers>%s<node id='o'><translate>0 7 0</translate>"
+                 "<instance_controller url='#s'><skeleton>#n</skeleton><bind_material>"
+                 "<technique_common><instance_material symbol='s' target='#m'/></technique_common>"
+                 "</bind_material></instance_controller></node>",
+                 has_morph ? MORPH : "", has_morph ? "k" : "g", scene_begin);
+        cs_scene scene = load(file_with(scene_begin, text));
+        assert_int_equal(scene.triangle_flags.count, 2);
+        expect_close(import_position(&scene, 0, 0), 100, 7, 0);
+        expect_close(import_position(&scene, 0, 1), 102, 7, 0);
+        expect_close(import_material(&scene, 0)->diffuse, 0.5f, 0.25f, 0);
+        if (has_morph)
+            import_warned("morph targets");
+        else
+            assert_string_equal(import_warnings, "");
+        cs_scene_free(&scene);
+    }
+}
+
 #define BESIDE(elements) "1 1 1 1</color></diffuse>" elements "<diffuse><color>0.5 0.25 0 1"
 #define TRANSPARENT(mode, colour, factor)                                                         \
     BESIDE("<transparent opaque='" mode "'><color>" colour "</color></transparent><transparency>" \
@@ -230,6 +258,7 @@ int main(void)
         cmocka_unit_test(names_between_lines),
         cmocka_unit_test(polygons_with_holes),
         cmocka_unit_test(morph_targets),
+        cmocka_unit_test(skins_as_bound),
         cmocka_unit_test(opacity),
         cmocka_unit_test(utf_16),
         cmocka_unit_test(cameras_show_what_they_say),

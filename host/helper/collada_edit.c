@@ -11,19 +11,21 @@ typedef struct part {
     size_t length;
 } part;
 
-/* A controller of morph targets, and the mesh that it changes. */
-typedef struct morph {
+/* A controller, of a skin or of morph targets. */
+typedef struct controller {
     part id;
-    part source; /* with its # */
-} morph;
+    part source; /* the mesh that it changes, or another controller; with its # */
+    part matrix; /* of a skin: where the mesh is when it is bound; or empty */
+    int is_morph;
+} controller;
 
 typedef struct editing {
     cs_array text;      /* char: the new one */
     const char *copied; /* up to here the old text is in the new one, or left out */
-    cs_array morphs;    /* morph */
-    int is_full;        /* memory ran out */
-    int in_holes;       /* within <ph> */
-    int is_renaming;    /* within an instance of a controller that became one of a mesh */
+    cs_array controllers;
+    int is_full;     /* memory ran out */
+    int in_holes;    /* within <ph> */
+    int is_instance; /* within an instance of a controller, which becomes one of its mesh */
     cs_collada_losses lost;
 } editing;
 
@@ -48,28 +50,32 @@ static part value_of(const cs_xml_tag *tag, const char *name)
     return value.at != NULL ? value : (part){"", 0};
 }
 
-static void find_morphs(editing *edit, const char *text)
+static void find_controllers(editing *edit, const char *text)
 {
     cs_xml_tag tag;
-    part id = {"", 0};
+    controller *last = NULL;
     while (cs_xml_next(&text, &tag)) {
         if (tag.closes) continue;
-        if (cs_xml_is(&tag, "controller")) id = value_of(&tag, "id");
-        const part source = value_of(&tag, "source");
-        if (!cs_xml_is(&tag, "morph") || id.length == 0 || source.length == 0) continue;
-        morph *added = cs_array_extend(&edit->morphs, 1);
-        edit->is_full |= added == NULL;
-        if (added != NULL) *added = (morph){id, source};
+        if (cs_xml_is(&tag, "controller")) {
+            last = cs_array_extend(&edit->controllers, 1);
+            edit->is_full |= last == NULL;
+            if (last != NULL) *last = (controller){value_of(&tag, "id"), {"", 0}, {"", 0}, 0};
+        } else if (last != NULL && (cs_xml_is(&tag, "skin") || cs_xml_is(&tag, "morph"))) {
+            last->source = value_of(&tag, "source");
+            last->is_morph = cs_xml_is(&tag, "morph");
+        } else if (last != NULL && cs_xml_is(&tag, "bind_shape_matrix")) {
+            last->matrix = (part){text, strcspn(text, "<")};
+        }
     }
 }
 
-/* The morph of an id, or of a reference to one, which begins with a #; NULL where it is none. */
-static const morph *morph_called(const editing *edit, part name)
+/* The controller that a reference means, which begins with a #; NULL where it means none. */
+static const controller *controller_called(const editing *edit, part name)
 {
-    const morph *all = edit->morphs.items;
-    if (name.length > 0 && name.at[0] == '#') name = (part){name.at + 1, name.length - 1};
-    for (size_t i = 0; i < edit->morphs.count; i++)
-        if (all[i].id.length == name.length && memcmp(all[i].id.at, name.at, name.length) == 0)
+    const controller *all = edit->controllers.items;
+    for (size_t i = 0; i < edit->controllers.count && name.length > 1; i++)
+        if (all[i].id.length == name.length - 1 && all[i].source.length > 0 &&
+            memcmp(all[i].id.at, name.at + 1, name.length - 1) == 0)
             return &all[i];
     return NULL;
 }
@@ -97,23 +103,43 @@ static int leave_out(editing *edit, const cs_xml_tag *tag, const char *closing, 
     return 1;
 }
 
-/* What refers to a controller of morph targets refers to its mesh instead. */
-static void edit_reference(editing *edit, const cs_xml_tag *tag, const char *at)
+static void end_instance(editing *edit)
 {
-    const int is_instance = cs_xml_is(tag, "instance_controller");
-    const part name = value_of(tag, is_instance ? "url" : "source");
-    const morph *target = morph_called(edit, name);
-    if (target == NULL) return;
-    if (!is_instance) {
-        copy(edit, name.at, name.at + name.length);
-        put(edit, target->source.at, target->source.length);
-        return;
+    static const char end[] = "</instance_geometry></node>";
+    put(edit, end, sizeof end - 1);
+    edit->is_instance = 0;
+}
+
+/* An instance of a controller becomes one of its mesh, where that was when it was bound. */
+static void edit_instance(editing *edit, const cs_xml_tag *tag, const char *at)
+{
+    enum {
+        MOST = 8 /* controllers on each other */
+    };
+    static const char node[] = "<node>", matrix[] = "<matrix>", end_of_matrix[] = "</matrix>";
+    static const char mesh[] = "<instance_geometry url=\"";
+    const controller *first = controller_called(edit, value_of(tag, "url")), *last = first;
+    part place = {"", 0};
+    if (first == NULL) return;
+    for (int i = 0; i < MOST; i++) {
+        if (place.length == 0) place = last->matrix;
+        edit->lost.morphs += (size_t)last->is_morph;
+        const controller *next = controller_called(edit, last->source);
+        if (next == NULL) break;
+        last = next;
     }
     copy(edit, tag->begin, at);
-    put(edit, "<instance_geometry url=\"", 24);
-    put(edit, target->source.at, target->source.length);
-    put(edit, tag->is_empty ? "\"/>" : "\">", tag->is_empty ? 3 : 2);
-    edit->is_renaming = !tag->is_empty;
+    put(edit, node, sizeof node - 1);
+    if (place.length > 0) {
+        put(edit, matrix, sizeof matrix - 1);
+        put(edit, place.at, place.length);
+        put(edit, end_of_matrix, sizeof end_of_matrix - 1);
+    }
+    put(edit, mesh, sizeof mesh - 1);
+    put(edit, last->source.at, last->source.length);
+    put(edit, "\">", 2);
+    edit->is_instance = !tag->is_empty;
+    if (tag->is_empty) end_instance(edit);
 }
 
 static void edit_end(editing *edit, const cs_xml_tag *tag, const char *at)
@@ -121,10 +147,9 @@ static void edit_end(editing *edit, const cs_xml_tag *tag, const char *at)
     if (cs_xml_is(tag, "ph")) {
         copy(edit, tag->begin, at);
         edit->in_holes = 0;
-    } else if (edit->is_renaming && cs_xml_is(tag, "instance_controller")) {
+    } else if (edit->is_instance && cs_xml_is(tag, "instance_controller")) {
         copy(edit, tag->begin, at);
-        put(edit, "</instance_geometry>", 20);
-        edit->is_renaming = 0;
+        end_instance(edit);
     }
 }
 
@@ -142,26 +167,27 @@ static void edit_tag(editing *edit, const cs_xml_tag *tag, const char **at)
         edit->in_holes = 1;
     } else if (cs_xml_is(tag, "h") && edit->in_holes) {
         edit->lost.holes += (size_t)leave_out(edit, tag, "</h>", at);
-    } else if (cs_xml_is(tag, "controller") && morph_called(edit, value_of(tag, "id")) != NULL) {
-        edit->lost.morphs += (size_t)leave_out(edit, tag, "</controller>", at);
-    } else if (cs_xml_is(tag, "skin") || cs_xml_is(tag, "instance_controller")) {
-        edit_reference(edit, tag, *at);
+    } else if (cs_xml_is(tag, "library_controllers")) {
+        leave_out(edit, tag, "</library_controllers>", at);
+    } else if (cs_xml_is(tag, "instance_controller") && !edit->is_instance) {
+        edit_instance(edit, tag, *at);
     }
 }
 
 clshear_status cs_collada_edit(cs_bytes *bytes, cs_collada_losses *lost, cs_error *error)
 {
-    editing edit = {.text.item_size = 1, .morphs.item_size = sizeof(morph), .copied = bytes->data};
+    editing edit = {
+        .text.item_size = 1, .controllers.item_size = sizeof(controller), .copied = bytes->data};
     const char *at = bytes->data;
     cs_xml_tag tag;
     *lost = (cs_collada_losses){0};
     if (strlen(bytes->data) != bytes->size) return CLSHEAR_OK;
-    find_morphs(&edit, bytes->data);
+    find_controllers(&edit, bytes->data);
     while (!edit.is_full && cs_xml_next(&at, &tag))
         edit_tag(&edit, &tag, &at);
     const char *end = bytes->data + bytes->size;
     copy(&edit, end + 1, end); /* with the final 0 */
-    cs_array_free(&edit.morphs);
+    cs_array_free(&edit.controllers);
     if (edit.is_full) {
         cs_array_free(&edit.text);
         return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory");
