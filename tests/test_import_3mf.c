@@ -39,11 +39,33 @@ static void put_head(unsigned char *bytes, size_t *size, const archive *file, ui
     put_number(bytes, size, extra, 2);
 }
 
+/* Adds an entry of the directory for bytes at a place. */
+static void add_to_directory(archive *file, const char *name, uint64_t packed, uint64_t unpacked,
+                             uint64_t place)
+{
+    const uint64_t far = UINT32_MAX;
+    unsigned char *bytes = file->directory;
+    size_t *size = &file->directory_size;
+    put(bytes, size, "PK\1\2\24\0", 6);
+    put_head(bytes, size, file, file->is_far ? far : packed, file->is_far ? far : unpacked,
+             strlen(name), file->is_far ? 28 : 0);
+    put_number(bytes, size, 0, 4); /* comment, disk */
+    put_number(bytes, size, 0, 6); /* attributes */
+    put_number(bytes, size, file->is_far ? far : place, 4);
+    put(bytes, size, name, strlen(name));
+    file->count++;
+    if (!file->is_far) return;
+    put_number(bytes, size, 1, 2);
+    put_number(bytes, size, 24, 2);
+    put_number(bytes, size, unpacked, 8);
+    put_number(bytes, size, packed, 8);
+    put_number(bytes, size, place, 8);
+}
+
 static void add_entry(archive *file, const char *name, const char *text)
 {
-    const size_t length = strlen(text), place = file->size, extra = file->is_far ? 28 : 0;
+    const size_t length = strlen(text), place = file->size;
     const size_t packed = length + (file->is_packed ? 5 : 0);
-    const uint64_t far = UINT32_MAX;
     put(file->bytes, &file->size, "PK\3\4", 4);
     put_head(file->bytes, &file->size, file, packed, length, strlen(name), 0);
     put(file->bytes, &file->size, name, strlen(name));
@@ -53,23 +75,7 @@ static void add_entry(archive *file, const char *name, const char *text)
         put_number(file->bytes, &file->size, ~length, 2);
     }
     put(file->bytes, &file->size, text, length);
-    unsigned char *directory = file->directory;
-    size_t *size = &file->directory_size;
-    put(directory, size, "PK\1\2\24\0", 6);
-    put_head(directory, size, file, file->is_far ? far : packed, file->is_far ? far : length,
-             strlen(name), extra);
-    put_number(directory, size, 0, 4); /* comment, disk */
-    put_number(directory, size, 0, 6); /* attributes */
-    put_number(directory, size, file->is_far ? far : place, 4);
-    put(directory, size, name, strlen(name));
-    if (file->is_far) {
-        put_number(directory, size, 1, 2);
-        put_number(directory, size, 24, 2);
-        put_number(directory, size, length, 8);
-        put_number(directory, size, packed, 8);
-        put_number(directory, size, place, 8);
-    }
-    file->count++;
+    add_to_directory(file, name, packed, length, place);
 }
 
 /* Writes the file and returns its path. */

@@ -134,6 +134,7 @@ static clshear_status add_vertices(const importing *work, const struct aiMesh *s
 {
     cs_model *model = work->model;
     const size_t count = source->mNumVertices, first = model->positions.count;
+    const int has_alpha = cs_is_collada(model->path); /* other readers leave anything there */
     struct aiMatrix4x4 turn = *matrix;
     aiMatrix4Inverse(&turn); /* normals transform by the inverse transpose */
     aiTransposeMatrix4(&turn);
@@ -155,7 +156,7 @@ static clshear_status add_vertices(const importing *work, const struct aiMesh *s
             textures[i][1] = st[i].y;
         }
         if (source->mColors[0] == NULL) continue;
-        model->fades |= source->mColors[0][i].a < 1.0f;
+        model->fades |= has_alpha && source->mColors[0][i].a < 1.0f;
         clshear_status status =
             cs_model_set_colour(model, first + i, &source->mColors[0][i].r, work->error);
         if (status != CLSHEAR_OK) return status;
