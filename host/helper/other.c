@@ -354,7 +354,7 @@ clshear_status cs_read_other(cs_bytes *bytes, cs_model *model, cs_error *error)
     if (file == NULL && strstr(aiGetErrorString(), "No suitable reader") != NULL)
         return cs_fail(error, CLSHEAR_BAD_FILE,
                        "%s: no reader knows this format by its name or its first bytes; OBJ, glTF, "
-                       "PLY, STL and OFF are read",
+                       "PLY, STL, OFF and 3MF are read",
                        model->path);
     if (file == NULL && strstr(aiGetErrorString(), "File came out empty") != NULL)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: has no scene that shows anything",

@@ -43,8 +43,8 @@ const program_command render_command = {
              "       clshear predict [flags]     variance expected from spectra\n"
              "       clshear converge [flags]    variance against samples\n"
              "       clshear merge FILES [flags] shards of a render, put together\n\n"
-             "Render SCENE (OBJ, glTF, PLY, STL, OFF) with depth of field. Each command has\n"
-             "its own --help.\n\n"
+             "Render SCENE (OBJ, glTF, PLY, STL, OFF, 3MF) with depth of field. Each command\n"
+             "has its own --help.\n\n"
              "  clshear scenes/cornell.obj --spp 1024 --out img.exr\n",
     .notes = "Words after -- are names, even those that begin with a dash.\n"
              "Without --out, writes the scene's name with .exr in the current folder.\n"
