@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/output_file.h"
+#include "image/embedded.h"
 #include "image/layers.h"
 #include "image/oiio.h"
 #include "kernels/vector.h"
@@ -77,55 +78,6 @@ struct Source {
     size_t size;
 };
 
-/* A kind of image, by the bytes that begin it, behind some that may be any. */
-struct Kind {
-    size_t offset;
-    std::string magic;
-    const char *extension; /* nullptr: cannot be read from memory */
-    const char *name;
-};
-
-/* The kind of an image in memory, or nullptr: OpenImageIO goes by names of files. */
-const Kind *kind_of(const void *memory, size_t size)
-{
-    static const Kind known[] = {
-        {0, "\x89PNG", "png", "PNG"},      {0, "\xff\xd8\xff", "jpg", "JPEG"},
-        {0, "RIFF", "webp", "WebP"},       {0, "\x76\x2f\x31\x01", "exr", "EXR"},
-        {0, "#?", "hdr", "Radiance"},      {0, "GIF8", "gif", "GIF"},
-        {0, "II*", "tif", "TIFF"},         {0, "MM", "tif", "TIFF"},
-        {0, "BM", "bmp", "BMP"},           {0, "8BPS", "psd", "Photoshop"},
-        {0, "DDS ", "dds", "DDS"},         {0, "\xabKTX 20", nullptr, "KTX2"},
-        {0, "\xabKTX 11", nullptr, "KTX"}, {4, "ftypavif", nullptr, "AVIF"},
-        {4, "ftyphei", nullptr, "HEIC"},   {4, "jP  ", nullptr, "JPEG 2000"},
-        {0, "<svg", nullptr, "SVG"},       {0, "<?xml", nullptr, "SVG"}};
-    for (const Kind &kind : known)
-        if (size >= kind.offset + kind.magic.size() &&
-            std::memcmp(static_cast<const char *>(memory) + kind.offset, kind.magic.data(),
-                        kind.magic.size()) == 0)
-            return &kind;
-    static const Kind targa = {0, "TRUEVISION-XFILE.", "tga",
-                               "Targa"}; /* ends the file, with a 0 */
-    const size_t ends = targa.magic.size() + 1;
-    return size >= ends && std::memcmp(static_cast<const char *>(memory) + size - ends,
-                                       targa.magic.data(), targa.magic.size()) == 0
-               ? &targa
-               : nullptr;
-}
-
-/* The name that makes OpenImageIO read an image in memory by its kind. */
-clshear_status name_for(const Source &from, std::string &name, cs_error *error)
-{
-    if (from.size == 0) return cs_fail(error, CLSHEAR_BAD_FILE, "%s: has no bytes", from.label);
-    const Kind *kind = kind_of(from.memory, from.size);
-    if (kind == nullptr)
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: not an image that can be read", from.label);
-    if (kind->extension == nullptr)
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s images are not read from within a file",
-                       from.label, kind->name);
-    name = std::string("embedded.") + kind->extension;
-    return CLSHEAR_OK;
-}
-
 /* Texels in one image: more are a damaged head rather than a picture. */
 constexpr uint64_t most_texels = uint64_t(1) << 28;
 
@@ -165,44 +117,68 @@ ImageBuf displayed(ImageBuf &&source)
     return format == "hdr" ? upright(std::move(source)) : std::move(source);
 }
 
-/* An image as RGBA, its colours linear. */
-clshear_status read_rgba(const Source &from, Curve curve, ImageBuf &rgba, cs_error *error)
+/* Opens an image, reads its head and finds the part that is its picture. memory: of from.memory. */
+clshear_status open_image(const Source &from, OIIO::Filesystem::IOProxy *memory, ImageBuf &source,
+                          int &part, cs_error *error)
 {
     const char *flaw = from.memory == nullptr ? cs_not_a_file(from.path) : nullptr;
     if (flaw != nullptr) return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label, flaw);
     std::string path = from.path;
     clshear_status status = CLSHEAR_OK;
     if (from.memory != nullptr)
-        status = name_for(from, path, error);
+        status = embedded_name(from.label, from.memory, from.size, path, error);
     else if (access(from.path, R_OK) != 0)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: cannot be opened: %s", from.label,
                        std::strerror(errno));
     else
         forget(from.path);
     if (status != CLSHEAR_OK) return status;
-    OIIO::Filesystem::IOMemReader reader(const_cast<void *>(from.memory), from.size);
     ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
-    OIIO::Filesystem::IOProxy *memory = from.memory != nullptr ? &reader : nullptr;
-    ImageBuf source(path, 0, 0, nullptr, &config, memory);
+    source.reset(path, 0, 0, nullptr, &config, memory);
     if (!source.init_spec(path, 0, 0))
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
                        reason_of(source, path).c_str());
-    const int part = picture_part(source, path, &config, memory);
+    part = picture_part(source, path, &config, memory);
     const ImageSpec &spec = source.spec();
     status = check_size(from.label, spec.width, spec.height, error);
     if (status == CLSHEAR_OK)
         status = check_size(from.label, spec.full_width, spec.full_height, error);
+    return status;
+}
+
+/* Reads the picture of an image that is open, as numbers of this type. */
+clshear_status read_part(const Source &from, ImageBuf &source, int part, TypeDesc type,
+                         cs_error *error)
+{
+    if (source.read(part, 0, true, type)) return CLSHEAR_OK;
+    return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
+                   reason_of(source, std::string(source.name())).c_str());
+}
+
+/* An image that is open as RGBA, its colours linear. */
+clshear_status read_rgba(const Source &from, ImageBuf &&source, int part, Curve curve,
+                         ImageBuf &rgba, cs_error *error)
+{
+    const clshear_status status = read_part(from, source, part, TypeDesc::FLOAT, error);
     if (status != CLSHEAR_OK) return status;
-    if (!source.read(part, 0, true, TypeDesc::FLOAT))
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
-                       reason_of(source, path).c_str());
     const Stored stored = stored_in(source);
     rgba = linear_rgba(displayed(std::move(source)), stored, curve);
     if (rgba.has_error())
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
                        first_line(rgba.geterror()).c_str());
     return CLSHEAR_OK;
+}
+
+/* A whole image file as RGBA, its colours linear. */
+clshear_status read_file(const char *path, ImageBuf &rgba, cs_error *error)
+{
+    const Source from = {path, path, nullptr, 0};
+    ImageBuf source;
+    int part = 0;
+    const clshear_status status = open_image(from, nullptr, source, part, error);
+    if (status != CLSHEAR_OK) return status;
+    return read_rgba(from, std::move(source), part, Curve::files, rgba, error);
 }
 
 /* Applies base and gain, and converts what are no colours. */
@@ -223,30 +199,95 @@ void convert_texels(const cs_texel_use &use, ImageBuf &rgba)
     rgba.set_pixels(rgba.roi(), TypeDesc::FLOAT, texels.data());
 }
 
+/* RGBA as halves. Brighter texels would be infinite, and black times them no number. No number
+ * becomes 0. */
+bool store_halves(ImageBuf &&rgba, uint16_t *halves)
+{
+    rgba = OIIO::ImageBufAlgo::clamp(rgba, 0.0f, CS_LARGEST_HALF);
+    return rgba.get_pixels(rgba.roi(), TypeDesc::HALF, halves);
+}
+
+/* What becomes of every number that an image of small integers can hold, as halves for red, green,
+ * blue and alpha: by the same way as texels, on a picture of them all. Empty where there is no such
+ * table: texels are floats, or their alpha counts in their colours. */
+std::vector<uint16_t> table_of(const ImageBuf &source, const cs_texel_use &use, Curve curve)
+{
+    const TypeDesc type = source.nativespec().format;
+    const Stored stored = stored_in(source);
+    const bool is_byte = type == TypeDesc::UINT8;
+    if (!is_byte && type != TypeDesc::UINT16) return {};
+    if (stored.is_associated || (use.kind != CS_TEXELS_COLOUR && use.kind != CS_TEXELS_DATA))
+        return {};
+    ImageSpec spec = source.spec();
+    spec.full_x = spec.full_y = spec.x = spec.y = 0;
+    spec.full_width = spec.width = is_byte ? 256 : 65536;
+    spec.full_height = spec.height = 1;
+    spec.set_format(type);
+    std::vector<uint16_t> numbers(static_cast<size_t>(spec.width * spec.nchannels));
+    for (size_t i = 0; i < numbers.size(); i++) {
+        const size_t number = i / static_cast<size_t>(spec.nchannels);
+        numbers[i] = static_cast<uint16_t>(is_byte ? 257 * number : number);
+    }
+    ImageBuf all(spec), floats;
+    std::vector<uint16_t> table(4 * static_cast<size_t>(spec.width));
+    if (!all.set_pixels(all.roi(), TypeDesc::UINT16, numbers.data()) ||
+        !floats.copy(all, TypeDesc::FLOAT))
+        return {};
+    ImageBuf rgba = linear_rgba(floats, stored, curve);
+    convert_texels(use, rgba);
+    if (!store_halves(std::move(rgba), table.data())) return {};
+    return table;
+}
+
+/* Looks the numbers of `source` up. */
+template <typename Number>
+void look_up(const ImageBuf &source, const std::vector<uint16_t> &table, uint16_t *halves)
+{
+    int order[4];
+    picture_channels(source.spec(), order);
+    const auto *numbers = static_cast<const Number *>(source.localpixels());
+    const auto channels = static_cast<size_t>(source.nchannels());
+    const size_t texels = source.spec().image_pixels();
+    for (size_t i = 0; i < texels; i++)
+        for (size_t c = 0; c < 4; c++) {
+            const size_t number =
+                order[c] < 0 ? 0 : numbers[channels * i + static_cast<size_t>(order[c])];
+            halves[4 * i + c] = table[4 * number + c];
+        }
+}
+
 clshear_status read_texels(const Source &from, const cs_texel_use &use, cs_texels *texels,
                            cs_error *error)
 {
-    ImageBuf rgba;
     const Curve given = use.is_srgb != 0 ? Curve::srgb : Curve::files;
+    const Curve curve = use.kind == CS_TEXELS_COLOUR ? given : Curve::none;
+    OIIO::Filesystem::IOMemReader reader(const_cast<void *>(from.memory), from.size);
+    ImageBuf source, rgba;
+    int part = 0;
     clshear_status status =
-        read_rgba(from, use.kind == CS_TEXELS_COLOUR ? given : Curve::none, rgba, error);
+        open_image(from, from.memory != nullptr ? &reader : nullptr, source, part, error);
     if (status != CLSHEAR_OK) return status;
-    convert_texels(use, rgba);
-    /* Brighter texels would be infinite, and black times them no number. No number becomes 0. */
-    rgba = OIIO::ImageBufAlgo::clamp(rgba, 0.0f, CS_LARGEST_HALF);
-    const size_t width = static_cast<size_t>(rgba.spec().width);
-    const size_t height = static_cast<size_t>(rgba.spec().height);
-    auto *halves = static_cast<uint16_t *>(std::malloc(width * height * 4 * sizeof(uint16_t)));
+    const TypeDesc type = source.nativespec().format;
+    const std::vector<uint16_t> table = table_of(source, use, curve);
+    status = table.empty() ? read_rgba(from, std::move(source), part, curve, rgba, error)
+                           : read_part(from, source, part, type, error);
+    if (status != CLSHEAR_OK) return status;
+    const ImageSpec &spec = table.empty() ? rgba.spec() : source.spec();
+    texels->width = static_cast<uint32_t>(spec.width);
+    texels->height = static_cast<uint32_t>(spec.height);
+    auto *halves = static_cast<uint16_t *>(std::malloc(spec.image_pixels() * 4 * sizeof(uint16_t)));
     if (halves == nullptr) throw std::bad_alloc();
-    if (!rgba.get_pixels(rgba.roi(), TypeDesc::HALF, halves)) {
-        std::free(halves);
-        return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %s", from.label,
-                       first_line(rgba.geterror()).c_str());
-    }
-    texels->width = static_cast<uint32_t>(width);
-    texels->height = static_cast<uint32_t>(height);
     texels->halves = halves;
-    return CLSHEAR_OK;
+    if (table.empty())
+        convert_texels(use, rgba);
+    else if (type == TypeDesc::UINT8)
+        look_up<uint8_t>(source, table, halves);
+    else
+        look_up<uint16_t>(source, table, halves);
+    if (!table.empty() || store_halves(std::move(rgba), halves)) return CLSHEAR_OK;
+    std::free(halves);
+    texels->halves = nullptr;
+    return cs_fail(error, CLSHEAR_BAD_FILE, "%s: its texels are not to be had", from.label);
 }
 
 /* Reduces by summing whole blocks of texels, which preserves the total light. */
@@ -254,7 +295,7 @@ clshear_status read_luminance(const char *path, int most, float **luminance, int
                               int *height, cs_error *error)
 {
     ImageBuf rgba;
-    clshear_status status = read_rgba({path, path, nullptr, 0}, Curve::files, rgba, error);
+    clshear_status status = read_file(path, rgba, error);
     if (status != CLSHEAR_OK) return status;
     const int full_width = rgba.spec().width, full_height = rgba.spec().height;
     const int longer = full_width > full_height ? full_width : full_height;
@@ -280,7 +321,7 @@ clshear_status read_colours(const char *path, float **colours, size_t *width, si
                             cs_error *error)
 {
     ImageBuf rgba;
-    clshear_status status = read_rgba({path, path, nullptr, 0}, Curve::files, rgba, error);
+    clshear_status status = read_file(path, rgba, error);
     if (status != CLSHEAR_OK) return status;
     *width = static_cast<size_t>(rgba.spec().width);
     *height = static_cast<size_t>(rgba.spec().height);
