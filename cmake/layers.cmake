@@ -117,7 +117,7 @@ if(circles)
 endif()
 
 # Libraries that one folder alone may see.
-foreach(rule "CL/cl.h|host/device;include/clshear" "embree3/|host/accel" "assimp/|host/helper" "zlib.h|host/helper" "draco/|host/helper" "meshoptimizer.h|host/helper" "jansson.h|host/import" "OpenImageIO/|host/image" "fftw3|host/analysis")
+foreach(rule "CL/cl.h|host/device;include/clshear" "embree3/|host/accel" "assimp/|host/helper" "zip.h|host/helper" "libxml/|host/helper" "draco/|host/helper" "meshoptimizer.h|host/helper" "jansson.h|host/import" "OpenImageIO/|host/image" "fftw3|host/analysis")
     string(REPLACE "|" ";" rule "${rule}")
     list(GET rule 0 header)
     list(GET rule 1 owner)

@@ -9,8 +9,9 @@ typedef struct archive {
     unsigned char bytes[16384], directory[4096];
     size_t size, directory_size;
     unsigned count;
-    int is_packed; /* entries are in deflate's stored blocks */
-    int is_far;    /* sizes and places are in fields of 64 bits */
+    uint32_t checksum; /* of the last entry */
+    int is_packed;     /* entries are in deflate's stored blocks */
+    int is_far;        /* sizes and places are in fields of 64 bits */
 } archive;
 
 static void put(unsigned char *bytes, size_t *size, const void *data, size_t count)
@@ -25,6 +26,18 @@ static void put_number(unsigned char *bytes, size_t *size, uint64_t value, int c
         bytes[(*size)++] = (unsigned char)(value >> 8 * i);
 }
 
+/* The checksum of ZIP. */
+static uint32_t checksum_of(const char *text)
+{
+    uint32_t sum = UINT32_MAX;
+    for (; *text != '\0'; text++) {
+        sum ^= (unsigned char)*text;
+        for (int bit = 0; bit < 8; bit++)
+            sum = sum >> 1 ^ ((sum & 1) != 0 ? 0xEDB88320u : 0);
+    }
+    return ~sum;
+}
+
 /* What the head of an entry and the directory have in common, from the version on. */
 static void put_head(unsigned char *bytes, size_t *size, const archive *file, uint64_t packed,
                      uint64_t unpacked, size_t name, size_t extra)
@@ -32,7 +45,8 @@ static void put_head(unsigned char *bytes, size_t *size, const archive *file, ui
     put_number(bytes, size, 20, 2);
     put_number(bytes, size, 0, 2);
     put_number(bytes, size, file->is_packed ? 8 : 0, 2);
-    put_number(bytes, size, 0, 8); /* time and checksum, which nothing reads */
+    put_number(bytes, size, 0, 4); /* time, which nothing reads */
+    put_number(bytes, size, file->checksum, 4);
     put_number(bytes, size, packed, 4);
     put_number(bytes, size, unpacked, 4);
     put_number(bytes, size, name, 2);
@@ -66,6 +80,7 @@ static void add_entry(archive *file, const char *name, const char *text)
 {
     const size_t length = strlen(text), place = file->size;
     const size_t packed = length + (file->is_packed ? 5 : 0);
+    file->checksum = checksum_of(text);
     put(file->bytes, &file->size, "PK\3\4", 4);
     put_head(file->bytes, &file->size, file, packed, length, strlen(name), 0);
     put(file->bytes, &file->size, name, strlen(name));
@@ -240,7 +255,7 @@ static void damaged_files(void **state)
         {MODEL(OBJECT("1", "", MESH("<triangle v1=\"0\" v2=\"1\" v3=\"4\"/>")), ITEM("1", "")),
          "triangle 0 of object 1 names vertex 4, but there are 4"},
         {MODEL(OBJECT("1", "", MESH("<triangle v1=\"0\" v2=\"1\" v3=\"-1\"/>")), ITEM("1", "")),
-         "a <triangle> in it has no usable \"v3\""},
+         "a <triangle> in it has no usable \"v3\": line 2 of \"/3D/3dmodel.model\""},
         {MODEL("", ITEM("9", "")), "names object 9, which is not there"},
         {MODEL(OBJECT("1", "", MESH(TRIANGLE(""))), ""), "nothing in it is to be built"},
         {MODEL(OBJECT("1", "", "<components><component objectid=\"1\"/></components>"),
@@ -250,6 +265,9 @@ static void damaged_files(void **state)
          "a <item> in it has no usable \"transform\""},
         {MODEL(OBJECT("1", "", MESH(TRIANGLE(""))), ITEM("1", " path=\"/a\"")),
          "\"/a\" is not in it"},
+        {"<model>\n<build>\n</model>", "line 3 of \"/3D/3dmodel.model\" in it is no XML"},
+        {"<model>\n<build>\n", "line 2 of \"/3D/3dmodel.model\" in it is no XML"},
+        {"", "\"/3D/3dmodel.model\" in it is no XML"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
@@ -259,15 +277,37 @@ static void damaged_files(void **state)
     add_entry(&file, "3D/3dmodel.model", MODEL("", ""));
     file.bytes[30 + 16] = 7; /* no kind of block */
     expect_refusal(finish(&file, "damaged.3mf"), "\"3D/3dmodel.model\" in it is damaged");
+    archive wrong = {0};
+    add_entry(&wrong, "3D/3dmodel.model", MODEL("", ""));
+    wrong.bytes[30 + 16 + 9]++; /* not as its checksum says */
+    expect_refusal(finish(&wrong, "damaged.3mf"), "\"3D/3dmodel.model\" in it is damaged");
+}
+
+/* Entities are not resolved, neither those of other files nor the part's own. */
+static void entities_stay_out(void **state)
+{
+    (void)state;
+    expect_refusal(plain_file("entity.3mf",
+                              "<!DOCTYPE model [<!ENTITY one SYSTEM \"entity.txt\">]>"
+                              "<model><resources>" OBJECT(
+                                  "&one;", "", MESH(TRIANGLE(""))) "</resources></model>"),
+                   "in it is no XML");
+    expect_refusal(plain_file("entity.3mf",
+                              "<!DOCTYPE model [<!ENTITY one \"1\">]><model>"
+                              "<resources>" OBJECT("&one;", "", "") "</resources></model>"),
+                   "a <object> in it has no usable \"id\"");
+    cs_scene scene = load_well(
+        plain_file("amp.3mf", MODEL(OBJECT("&#49;", "", MESH(TRIANGLE(""))), ITEM("1", ""))));
+    assert_int_equal(scene.indices.count, 1);
+    cs_scene_free(&scene);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(components_in_their_places),
-        cmocka_unit_test(colours_of_triangles),
-        cmocka_unit_test(parts_of_their_own),
-        cmocka_unit_test(damaged_files),
+        cmocka_unit_test(components_in_their_places), cmocka_unit_test(colours_of_triangles),
+        cmocka_unit_test(parts_of_their_own),         cmocka_unit_test(damaged_files),
+        cmocka_unit_test(entities_stay_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

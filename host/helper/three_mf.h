@@ -2,9 +2,9 @@
 #ifndef CS_HELPER_THREE_MF_H
 #define CS_HELPER_THREE_MF_H
 
-#include "helper/zip.h"
 #include "import/index_map.h"
 #include "import/model.h"
+#include "import/text.h"
 
 int cs_is_3mf(const char *path);
 
@@ -61,7 +61,8 @@ typedef struct mf_object {
 typedef struct mf_reader {
     cs_model *model;
     cs_error *error;
-    cs_zip zip;
+    struct zip *archive;  /* libzip's */
+    size_t archive_bytes; /* its size */
     cs_index_map parts;   /* names, char[CS_MATERIAL_NAME]; the first one is the root */
     cs_index_map ids;     /* mf_id of the objects */
     cs_array numbers;     /* size_t: for each of them, its place in `objects` */
@@ -79,8 +80,11 @@ typedef struct mf_reader {
     int has_wrong_colour; /* some triangle names a colour that is not there */
 } mf_reader;
 
+/* The name of the part that is being read. */
+const char *mf_part_name(const mf_reader *reader);
+
 /* Reads the text of a part into the lists. */
-clshear_status mf_read_part(mf_reader *reader, const char *text);
+clshear_status mf_read_part(mf_reader *reader, const cs_bytes *text);
 
 /* Places what is to be built into the model. */
 clshear_status mf_build(mf_reader *reader);
