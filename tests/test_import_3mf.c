@@ -214,6 +214,17 @@ static void colours_of_triangles(void **state)
     import_warned("has paint of a slicer, which is not supported");
     cs_scene_free(&scene);
     scene = load_well(plain_file(
+        "fading.3mf",
+        MODEL(BASE OBJECT("1", "", MESH(TRIANGLE(" pid=\"5\" p1=\"0\" p2=\"2\" p3=\"1\""))),
+              ITEM("1", ""))));
+    const cs_colour *colours = scene.colours.items;
+    expect_close(colours[import_corners(&scene, 0)[1]].value, 0, 1, 0);
+    assert_true(fabsf(colours[import_corners(&scene, 0)[1]].alpha - 128.0f / 255.0f) < 1e-5f);
+    assert_true(colours[import_corners(&scene, 0)[0]].alpha == 1.0f);
+    assert_int_equal(import_material(&scene, 0)->flags, CS_MATERIAL_BLEND);
+    assert_string_equal(import_warnings, "");
+    cs_scene_free(&scene);
+    scene = load_well(plain_file(
         "wrong.3mf",
         MODEL(BASE OBJECT("1", " pid=\"5\" pindex=\"9\"", MESH(TRIANGLE(""))), ITEM("1", ""))));
     import_warned("some triangles name colours that are not there");

@@ -54,9 +54,10 @@ static clshear_status material_of(const mf_reader *reader, mf_colour *colour, ui
     return CLSHEAR_OK;
 }
 
-/* Corners of a triangle get positions of its own, with a colour each. */
+/* Corners of a triangle get positions of its own, with a colour and an opacity each. material: the
+ * triangle's. */
 static clshear_status colour_corners(mf_reader *reader, mf_id group, const long long *places,
-                                     cs_corner *corners)
+                                     uint32_t material, cs_corner *corners)
 {
     cs_model *model = reader->model;
     for (int i = 0; i < 3; i++) {
@@ -68,10 +69,15 @@ static clshear_status colour_corners(mf_reader *reader, mf_id group, const long 
         corners[i].position = (uint32_t)index;
         const mf_colour *colour = find_colour(reader, group, places[i]);
         if (colour == NULL) continue;
-        const clshear_status status =
-            cs_model_set_colour(model, index, colour->value, reader->error);
+        clshear_status status = cs_model_set_colour(model, index, colour->value, reader->error);
+        if (status == CLSHEAR_OK && colour->value[3] < 1.0f) {
+            cs_material_description *faded =
+                (cs_material_description *)model->materials.items + material;
+            faded->alpha_mode = CS_ALPHA_BLEND;
+            faded->fades = 1;
+            status = cs_model_set_opacity(model, index, colour->value[3], reader->error);
+        }
         if (status != CLSHEAR_OK) return status;
-        model->fades |= colour->value[3] < 1.0f;
     }
     return CLSHEAR_OK;
 }
@@ -105,7 +111,7 @@ static clshear_status colour_triangle(mf_reader *reader, const mf_object *object
     if (find_colour(reader, group, places[0]) == NULL) return CLSHEAR_OK;
     if (*white == CS_NO_INDEX) status = white_material(reader, white);
     *material = *white;
-    return status == CLSHEAR_OK ? colour_corners(reader, group, places, corners) : status;
+    return status == CLSHEAR_OK ? colour_corners(reader, group, places, *white, corners) : status;
 }
 
 /* The positions of an object in its place. */
