@@ -256,38 +256,61 @@ void look_up(const ImageBuf &source, const std::vector<uint16_t> &table, uint16_
         }
 }
 
+/* Room for the texels of an image of this size. */
+void reserve(const ImageSpec &spec, cs_texels *texels)
+{
+    texels->width = static_cast<uint32_t>(spec.width);
+    texels->height = static_cast<uint32_t>(spec.height);
+    texels->halves =
+        static_cast<uint16_t *>(std::malloc(spec.image_pixels() * 4 * sizeof(uint16_t)));
+    if (texels->halves == nullptr) throw std::bad_alloc();
+}
+
+/* Texels of an image of integers that is open, by their table. */
+clshear_status read_by_table(const Source &from, ImageBuf &source, int part,
+                             const std::vector<uint16_t> &table, cs_texels *texels, cs_error *error)
+{
+    const TypeDesc type = source.nativespec().format;
+    const clshear_status status = read_part(from, source, part, type, error);
+    if (status != CLSHEAR_OK) return status;
+    reserve(source.spec(), texels);
+    if (type == TypeDesc::UINT8)
+        look_up<uint8_t>(source, table, texels->halves);
+    else
+        look_up<uint16_t>(source, table, texels->halves);
+    return CLSHEAR_OK;
+}
+
+/* Texels of any image that is open. */
+clshear_status read_by_floats(const Source &from, ImageBuf &&source, int part,
+                              const cs_texel_use &use, Curve curve, cs_texels *texels,
+                              cs_error *error)
+{
+    ImageBuf rgba;
+    const clshear_status status = read_rgba(from, std::move(source), part, curve, rgba, error);
+    if (status != CLSHEAR_OK) return status;
+    convert_texels(use, rgba);
+    reserve(rgba.spec(), texels);
+    if (store_halves(std::move(rgba), texels->halves)) return CLSHEAR_OK;
+    std::free(texels->halves);
+    texels->halves = nullptr;
+    return cs_fail(error, CLSHEAR_BAD_FILE, "%s: its texels are not to be had", from.label);
+}
+
 clshear_status read_texels(const Source &from, const cs_texel_use &use, cs_texels *texels,
                            cs_error *error)
 {
     const Curve given = use.is_srgb != 0 ? Curve::srgb : Curve::files;
     const Curve curve = use.kind == CS_TEXELS_COLOUR ? given : Curve::none;
     OIIO::Filesystem::IOMemReader reader(const_cast<void *>(from.memory), from.size);
-    ImageBuf source, rgba;
+    ImageBuf source;
     int part = 0;
-    clshear_status status =
+    const clshear_status status =
         open_image(from, from.memory != nullptr ? &reader : nullptr, source, part, error);
     if (status != CLSHEAR_OK) return status;
-    const TypeDesc type = source.nativespec().format;
     const std::vector<uint16_t> table = table_of(source, use, curve);
-    status = table.empty() ? read_rgba(from, std::move(source), part, curve, rgba, error)
-                           : read_part(from, source, part, type, error);
-    if (status != CLSHEAR_OK) return status;
-    const ImageSpec &spec = table.empty() ? rgba.spec() : source.spec();
-    texels->width = static_cast<uint32_t>(spec.width);
-    texels->height = static_cast<uint32_t>(spec.height);
-    auto *halves = static_cast<uint16_t *>(std::malloc(spec.image_pixels() * 4 * sizeof(uint16_t)));
-    if (halves == nullptr) throw std::bad_alloc();
-    texels->halves = halves;
-    if (table.empty())
-        convert_texels(use, rgba);
-    else if (type == TypeDesc::UINT8)
-        look_up<uint8_t>(source, table, halves);
-    else
-        look_up<uint16_t>(source, table, halves);
-    if (!table.empty() || store_halves(std::move(rgba), halves)) return CLSHEAR_OK;
-    std::free(halves);
-    texels->halves = nullptr;
-    return cs_fail(error, CLSHEAR_BAD_FILE, "%s: its texels are not to be had", from.label);
+    return table.empty() ? read_by_floats(from, std::move(source), part, use, curve, texels, error)
+                         : read_by_table(from, source, part, table, texels, error);
 }
 
 /* Reduces by summing whole blocks of texels, which preserves the total light. */

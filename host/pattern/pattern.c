@@ -197,15 +197,10 @@ int cs_sampler_is_progressive(cs_u32 number)
 
 int cs_sampler_is_net(cs_u32 number)
 {
-#define CS_NET(identifier, name, draw, light, extra, shape, table, progressive, about) \
-    case CS_SAMPLER_##identifier:                                                      \
-        return 1;
-    switch (number) {
-        CS_SAMPLER_LIST_NETS(CS_NET)
-    default:
-        return 0;
-    }
-#undef CS_NET
+#define CS_OR_NET(identifier, name, draw, light, extra, shape, table, progressive, about) \
+    || number == CS_SAMPLER_##identifier
+    return 0 CS_SAMPLER_LIST_NETS(CS_OR_NET);
+#undef CS_OR_NET
 }
 
 clshear_status cs_sampler_find(const char *name, cs_u32 *number, cs_error *error)

@@ -68,10 +68,10 @@ static void add_triangle(const cs_scene *scene, const mapped_triangle *triangle,
     for (int k = 0; k < 3; k++) {
         const float *given = vertices[triangle->corner[k]].normal;
         const float length = sqrtf(cs_vec_dot(given, given));
-        float normal[3], across[3];
-        for (int axis = 0; axis < 3 && length > 0.0f; axis++)
-            normal[axis] = given[axis] / length;
-        if (!(length > 0.0f) || !turn_across(triangle->along, normal, across)) continue;
+        if (!(length > 0.0f)) continue;
+        const float normal[3] = {given[0] / length, given[1] / length, given[2] / length};
+        float across[3];
+        if (!turn_across(triangle->along, normal, across)) continue;
         const float angle = angle_at(triangle, k, normal);
         cs_tangent *sum = &all[2 * (size_t)triangle->corner[k] + (size_t)triangle->is_mirrored];
         for (int axis = 0; axis < 3; axis++)
