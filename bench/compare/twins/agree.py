@@ -57,6 +57,7 @@ def of_mitsuba(options, scene):
 
 
 def keep(folder, name, ours, theirs):
+    pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
     for word, image in (("ours", ours), ("theirs", theirs)):
         mi.Bitmap(image.astype(np.float32)).convert(
             mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.UInt8, True).write(
