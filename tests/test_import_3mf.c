@@ -231,6 +231,43 @@ static void colours_of_triangles(void **state)
     cs_scene_free(&scene);
 }
 
+/* Expects that the first triangle's colour is told to be wrong, and that it has none. */
+static void expect_plain(const char *model)
+{
+    cs_scene scene = load_well(plain_file("plain.3mf", model));
+    import_warned("some triangles name colours that are not there");
+    expect_close(import_material(&scene, 0)->diffuse, 0.5f, 0.5f, 0.5f);
+    cs_scene_free(&scene);
+}
+
+/* Numbers that are not whole, or below 0, are no others that happen to lie near. */
+static void numbers_that_are_wrong(void **state)
+{
+    (void)state;
+    expect_plain(
+        MODEL(BASE OBJECT("1", "", MESH(TRIANGLE(" pid=\"5\" p1=\"0.3\""))), ITEM("1", "")));
+    expect_plain(
+        MODEL(BASE OBJECT("1", " pid=\"5\" pindex=\"-1\"", MESH(TRIANGLE(""))), ITEM("1", "")));
+    expect_plain(MODEL(BASE "<basematerials id=\"x\"><base displaycolor=\"#FF0000\"/>"
+                            "</basematerials>" OBJECT("1", " pid=\"5\" pindex=\"1\"",
+                                                      MESH(TRIANGLE(" pid=\"5.2\" p1=\"0\""))),
+                       ITEM("1", "")));
+}
+
+/* What two tags stand for is told once. */
+static void volumes_are_told_once(void **state)
+{
+    static const char words[] = "has volumes, which are not supported; left out";
+    (void)state;
+    cs_scene scene = load_well(plain_file(
+        "volumes.3mf",
+        MODEL("<volumetricstack id=\"3\"/><volumedata/>" OBJECT("1", "", MESH(TRIANGLE(""))),
+              ITEM("1", ""))));
+    import_warned(words);
+    assert_null(strstr(strstr(import_warnings, words) + 1, words));
+    cs_scene_free(&scene);
+}
+
 /* Objects in parts of their own, as slicers write them, packed or not, with fields of 64 bits. */
 static void parts_of_their_own(void **state)
 {
@@ -267,6 +304,10 @@ static void damaged_files(void **state)
          "triangle 0 of object 1 names vertex 4, but there are 4"},
         {MODEL(OBJECT("1", "", MESH("<triangle v1=\"0\" v2=\"1\" v3=\"-1\"/>")), ITEM("1", "")),
          "a <triangle> in it has no usable \"v3\": line 2 of \"/3D/3dmodel.model\""},
+        {MODEL(OBJECT("1", "", MESH("<triangle v1=\"0\" v2=\"1.3\" v3=\"2\"/>")), ITEM("1", "")),
+         "a <triangle> in it has no usable \"v2\""},
+        {MODEL(OBJECT("1.2", "", MESH(TRIANGLE(""))), ITEM("1", "")),
+         "a <object> in it has no usable \"id\""},
         {MODEL("", ITEM("9", "")), "names object 9, which is not there"},
         {MODEL(OBJECT("1", "", MESH(TRIANGLE(""))), ""), "nothing in it is to be built"},
         {MODEL(OBJECT("1", "", "<components><component objectid=\"1\"/></components>"),
@@ -317,6 +358,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(components_in_their_places), cmocka_unit_test(colours_of_triangles),
+        cmocka_unit_test(numbers_that_are_wrong),     cmocka_unit_test(volumes_are_told_once),
         cmocka_unit_test(parts_of_their_own),         cmocka_unit_test(damaged_files),
         cmocka_unit_test(entities_stay_out),
     };

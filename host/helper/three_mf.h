@@ -12,8 +12,9 @@ clshear_status cs_read_3mf(cs_bytes *bytes, cs_model *model, cs_error *error);
 
 /* ----- Within the reader ----- */
 
-/* In place of a number that the file does not give. */
+/* In place of a number that the file does not give, and of one that is not whole, or below 0. */
 #define MF_NONE (-1)
+#define MF_WRONG (-2)
 
 /* Positions are multiplied as rows, from the left; the last three numbers are the translation. */
 typedef struct mf_matrix {
@@ -40,8 +41,8 @@ typedef struct mf_colour {
 
 typedef struct mf_triangle {
     uint32_t vertex[3];
-    long long group;     /* or MF_NONE */
-    long long colour[3]; /* places in the group, or MF_NONE */
+    long long group;     /* or MF_NONE, MF_WRONG */
+    long long colour[3]; /* places in the group, or MF_NONE, MF_WRONG */
 } mf_triangle;
 
 /* An object, or a copy of one, in its place. */
@@ -52,7 +53,7 @@ typedef struct mf_component {
 
 typedef struct mf_object {
     mf_id id;
-    long long group, colour; /* of triangles that have none, or MF_NONE */
+    long long group, colour; /* of triangles that have none, or MF_NONE, MF_WRONG */
     size_t first_vertex, vertices;
     size_t first_triangle, triangles;
     size_t first_component, components;

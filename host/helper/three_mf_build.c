@@ -31,7 +31,7 @@ static mf_matrix product(const mf_matrix *inner, const mf_matrix *outer)
 static mf_colour *find_colour(mf_reader *reader, mf_id id, long long place)
 {
     const mf_group *groups = reader->groups.items;
-    size_t i = reader->groups.count;
+    size_t i = id.number != MF_WRONG ? reader->groups.count : 0;
     while (i > 0 && (groups[i - 1].id.part != id.part || groups[i - 1].id.number != id.number))
         i--;
     if (i > 0 && groups[i - 1].count == 0) return NULL; /* told already */

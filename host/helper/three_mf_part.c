@@ -36,12 +36,13 @@ static int number_of(const mf_xml *xml, const char *name, double *value)
     return text != NULL && cs_parse_number(text, text + strlen(text), value) != text;
 }
 
-/* A whole number of 0 or more, or MF_NONE. */
+/* A whole number of 0 or more, MF_NONE or MF_WRONG. */
 static long long whole_of(const mf_xml *xml, const char *name)
 {
     double value;
-    if (!number_of(xml, name, &value) || !(value >= 0.0 && value < 4294967295.0)) return MF_NONE;
-    return (long long)value == (long long)(value + 0.5) ? (long long)value : MF_NONE;
+    if (mf_xml_value(xml, name) == NULL) return MF_NONE;
+    if (!number_of(xml, name, &value) || !(value >= 0.0 && value < 4294967295.0)) return MF_WRONG;
+    return (double)(long long)value == value ? (long long)value : MF_WRONG;
 }
 
 /* The part that a component names, or else the one that is being read; MF_NONE without memory. */
@@ -98,7 +99,7 @@ static mf_object *object_of(const mf_reader *reader)
 static clshear_status begin_object(mf_reader *reader, const mf_xml *xml)
 {
     const mf_id id = {reader->part, whole_of(xml, "id")};
-    if (id.number == MF_NONE) return complain(reader, xml, "id");
+    if (id.number < 0) return complain(reader, xml, "id");
     const uint32_t number = cs_index_map_add(&reader->ids, &id);
     mf_object *object = cs_model_extend(&reader->objects, 1);
     if (number == UINT32_MAX || object == NULL) return full(reader);
@@ -134,7 +135,7 @@ static clshear_status add_triangle(mf_reader *reader, const mf_xml *xml)
     triangle->group = whole_of(xml, "pid");
     for (int i = 0; i < 3; i++) {
         const long long vertex = whole_of(xml, vertices[i]);
-        if (vertex == MF_NONE) return complain(reader, xml, vertices[i]);
+        if (vertex < 0) return complain(reader, xml, vertices[i]);
         triangle->vertex[i] = (uint32_t)vertex;
         triangle->colour[i] = whole_of(xml, colours[i]);
         if (triangle->colour[i] == MF_NONE) triangle->colour[i] = triangle->colour[0];
@@ -151,7 +152,7 @@ static clshear_status add_component(mf_reader *reader, const mf_xml *xml, cs_arr
     static const mf_matrix identity = {{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}};
     const mf_id object = {part_of(reader, xml), whole_of(xml, "objectid")};
     if (object.part == MF_NONE) return full(reader);
-    if (object.number == MF_NONE) return complain(reader, xml, "objectid");
+    if (object.number < 0) return complain(reader, xml, "objectid");
     mf_component *component = cs_model_extend(list, 1);
     if (component == NULL) return full(reader);
     *component = (mf_component){object, identity};
@@ -173,14 +174,15 @@ static clshear_status add_component(mf_reader *reader, const mf_xml *xml, cs_arr
 static const struct {
     const char *tag;
     const char *what;
+    unsigned bit; /* of mf_reader.left_out; 0 is the paint's */
     int is_group;
-} others[] = {{"texture2dgroup", "textures", 1},
-              {"compositematerials", "mixed materials", 1},
-              {"multiproperties", "several properties of triangles", 1},
-              {"beamlattice", "lattices of beams", 0},
-              {"displacementmesh", "displacements", 0},
-              {"volumetricstack", "volumes", 0},
-              {"volumedata", "volumes", 0}};
+} others[] = {{"texture2dgroup", "textures", 1, 1},
+              {"compositematerials", "mixed materials", 2, 1},
+              {"multiproperties", "several properties of triangles", 3, 1},
+              {"beamlattice", "lattices of beams", 4, 0},
+              {"displacementmesh", "displacements", 5, 0},
+              {"volumetricstack", "volumes", 6, 0},
+              {"volumedata", "volumes", 6, 0}};
 
 static clshear_status take_in_object(mf_reader *reader, const mf_xml *xml)
 {
@@ -199,7 +201,7 @@ static clshear_status take(mf_reader *reader, const mf_xml *xml)
     }
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (mf_xml_is(xml, others[i].tag)) {
-            leave_out(reader, (unsigned)i + 1, others[i].what);
+            leave_out(reader, others[i].bit, others[i].what);
             return others[i].is_group ? begin_group(reader, xml) : CLSHEAR_OK;
         }
     if (reader->is_in_object) return take_in_object(reader, xml);
