@@ -254,6 +254,31 @@ static void numbers_that_are_wrong(void **state)
                        ITEM("1", "")));
 }
 
+/* Among many groups each triangle finds its own, and the last one of those that share an id. */
+static void many_groups(void **state)
+{
+    char model[12288];
+    size_t used = (size_t)snprintf(model, sizeof model, "<model><resources>");
+    (void)state;
+    for (int i = 0; i < 120; i++)
+        used += (size_t)snprintf(model + used, sizeof model - used,
+                                 "<basematerials id=\"%d\"><base displaycolor=\"%s\"/>"
+                                 "</basematerials>",
+                                 i % 100, i < 100 ? "#FF0000" : "#0000FF");
+    snprintf(model + used, sizeof model - used, "%s",
+             OBJECT("1", "",
+                    MESH(TRIANGLE(" pid=\"19\" p1=\"0\"") OTHER(" pid=\"20\" p1=\"0\"") TRIANGLE(
+                        " pid=\"100\" p1=\"0\""))) "</resources>"
+                                                   "<build>" ITEM("1", "") "</build>"
+                                                                           "</model>");
+    cs_scene scene = load_well(plain_file("groups.3mf", model));
+    expect_close(import_material(&scene, 0)->diffuse, 0, 0, 1);
+    expect_close(import_material(&scene, 1)->diffuse, 1, 0, 0);
+    expect_close(import_material(&scene, 2)->diffuse, 0.5f, 0.5f, 0.5f);
+    import_warned("some triangles name colours that are not there");
+    cs_scene_free(&scene);
+}
+
 /* What two tags stand for is told once. */
 static void volumes_are_told_once(void **state)
 {
@@ -357,9 +382,13 @@ static void entities_stay_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(components_in_their_places), cmocka_unit_test(colours_of_triangles),
-        cmocka_unit_test(numbers_that_are_wrong),     cmocka_unit_test(volumes_are_told_once),
-        cmocka_unit_test(parts_of_their_own),         cmocka_unit_test(damaged_files),
+        cmocka_unit_test(components_in_their_places),
+        cmocka_unit_test(colours_of_triangles),
+        cmocka_unit_test(numbers_that_are_wrong),
+        cmocka_unit_test(volumes_are_told_once),
+        cmocka_unit_test(many_groups),
+        cmocka_unit_test(parts_of_their_own),
+        cmocka_unit_test(damaged_files),
         cmocka_unit_test(entities_stay_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

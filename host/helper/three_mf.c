@@ -22,8 +22,9 @@ int cs_is_3mf(const char *path)
 static void begin(mf_reader *reader)
 {
     cs_index_map_init(&reader->parts, CS_MATERIAL_NAME);
-    cs_index_map_init(&reader->ids, sizeof(mf_id));
-    reader->numbers.item_size = sizeof(size_t);
+    cs_index_map_init(&reader->of_objects.ids, sizeof(mf_id));
+    cs_index_map_init(&reader->of_groups.ids, sizeof(mf_id));
+    reader->of_objects.places.item_size = reader->of_groups.places.item_size = sizeof(size_t);
     reader->objects.item_size = sizeof(mf_object);
     reader->vertices.item_size = sizeof(double[3]);
     reader->triangles.item_size = sizeof(mf_triangle);
@@ -34,11 +35,18 @@ static void begin(mf_reader *reader)
 
 static void end(mf_reader *reader)
 {
-    cs_array *arrays[] = {&reader->numbers,    &reader->objects, &reader->vertices,
-                          &reader->triangles,  &reader->items,   &reader->groups,
-                          &reader->components, &reader->colours};
+    cs_array *arrays[] = {&reader->of_objects.places,
+                          &reader->of_groups.places,
+                          &reader->objects,
+                          &reader->vertices,
+                          &reader->triangles,
+                          &reader->items,
+                          &reader->groups,
+                          &reader->components,
+                          &reader->colours};
     cs_index_map_free(&reader->parts);
-    cs_index_map_free(&reader->ids);
+    cs_index_map_free(&reader->of_objects.ids);
+    cs_index_map_free(&reader->of_groups.ids);
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         cs_array_free(arrays[i]);
 }

@@ -27,9 +27,14 @@ typedef struct mf_id {
     long long number;
 } mf_id;
 
+/* Where what ids name stands in its list. Of what has the same id the last one counts. */
+typedef struct mf_places {
+    cs_index_map ids; /* mf_id */
+    cs_array places;  /* size_t, one for each */
+} mf_places;
+
 /* Colours that triangles name by their places. */
 typedef struct mf_group {
-    mf_id id;
     size_t first, count;
 } mf_group;
 
@@ -65,14 +70,14 @@ typedef struct mf_reader {
     struct zip *archive;  /* libzip's */
     size_t archive_bytes; /* its size */
     cs_index_map parts;   /* names, char[CS_MATERIAL_NAME]; the first one is the root */
-    cs_index_map ids;     /* mf_id of the objects */
-    cs_array numbers;     /* size_t: for each of them, its place in `objects` */
     cs_array objects;     /* mf_object */
-    cs_array vertices;    /* double[3] */
-    cs_array triangles;   /* mf_triangle */
-    cs_array components;  /* mf_component */
-    cs_array items;       /* mf_component: what is to be built */
-    cs_array groups;      /* mf_group */
+    mf_places of_objects;
+    cs_array vertices;   /* double[3] */
+    cs_array triangles;  /* mf_triangle */
+    cs_array components; /* mf_component */
+    cs_array items;      /* mf_component: what is to be built */
+    cs_array groups;     /* mf_group */
+    mf_places of_groups;
     cs_array colours;     /* mf_colour */
     long long part;       /* that is being read */
     int is_in_object;     /* the last of `objects` is being read */

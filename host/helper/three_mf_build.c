@@ -26,17 +26,23 @@ static mf_matrix product(const mf_matrix *inner, const mf_matrix *outer)
     return result;
 }
 
+/* What an id names, in the list that it belongs to; NULL for nothing. */
+static const void *find(const mf_places *names, const mf_id *id, const cs_array *list)
+{
+    const uint32_t number = cs_index_map_find(&names->ids, id);
+    if (number == UINT32_MAX) return NULL;
+    const size_t place = ((const size_t *)names->places.items)[number];
+    return (const char *)list->items + place * list->item_size;
+}
+
 /* The colour at a place of a group; NULL where there is none, or the group has none that are read.
  */
 static mf_colour *find_colour(mf_reader *reader, mf_id id, long long place)
 {
-    const mf_group *groups = reader->groups.items;
-    size_t i = id.number != MF_WRONG ? reader->groups.count : 0;
-    while (i > 0 && (groups[i - 1].id.part != id.part || groups[i - 1].id.number != id.number))
-        i--;
-    if (i > 0 && groups[i - 1].count == 0) return NULL; /* told already */
-    if (i > 0 && place >= 0 && (size_t)place < groups[i - 1].count)
-        return (mf_colour *)reader->colours.items + groups[i - 1].first + place;
+    const mf_group *group = find(&reader->of_groups, &id, &reader->groups);
+    if (group != NULL && group->count == 0) return NULL; /* told already */
+    if (group != NULL && place >= 0 && (size_t)place < group->count)
+        return (mf_colour *)reader->colours.items + group->first + place;
     reader->has_wrong_colour = 1;
     return NULL;
 }
@@ -161,16 +167,14 @@ static clshear_status place(mf_reader *reader, const mf_component *component,
                             const mf_matrix *outer, int depth)
 {
     const char *path = reader->model->path;
-    const uint32_t number = cs_index_map_find(&reader->ids, &component->object);
-    if (number == UINT32_MAX)
+    const mf_object *object = find(&reader->of_objects, &component->object, &reader->objects);
+    if (object == NULL)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: names object %lld, which is not there",
                        path, component->object.number);
     if (depth > MOST_DEPTH || ++reader->visits > MOST_VISITS)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: its components %s", path,
                        depth > MOST_DEPTH ? "lie within each other without an end"
                                           : "are more than a million");
-    const size_t index = ((const size_t *)reader->numbers.items)[number];
-    const mf_object *object = (const mf_object *)reader->objects.items + index;
     const mf_matrix matrix = product(&component->matrix, outer);
     clshear_status status = add_mesh(reader, object, &matrix);
     for (size_t i = 0; i < object->components && status == CLSHEAR_OK; i++)

@@ -56,14 +56,27 @@ static long long part_of(mf_reader *reader, const mf_xml *xml)
     return number == UINT32_MAX ? MF_NONE : (long long)number;
 }
 
+/* Notes where something stands in its list; 0 without memory. */
+static int remember(mf_places *names, const mf_id *id, size_t place)
+{
+    const uint32_t number = cs_index_map_add(&names->ids, id);
+    if (number == UINT32_MAX) return 0;
+    if (number == names->places.count && cs_model_extend(&names->places, 1) == NULL) return 0;
+    ((size_t *)names->places.items)[number] = place;
+    return 1;
+}
+
 /* ----- Colours ----- */
 
+/* A group whose id is no number is one that nothing names. */
 static clshear_status begin_group(mf_reader *reader, const mf_xml *xml)
 {
+    const mf_id id = {reader->part, whole_of(xml, "id")};
+    const size_t place = reader->groups.count;
     mf_group *group = cs_model_extend(&reader->groups, 1);
     if (group == NULL) return full(reader);
-    *group = (mf_group){{reader->part, whole_of(xml, "id")}, reader->colours.count, 0};
-    return CLSHEAR_OK;
+    *group = (mf_group){reader->colours.count, 0};
+    return id.number < 0 || remember(&reader->of_groups, &id, place) ? CLSHEAR_OK : full(reader);
 }
 
 /* #RRGGBB or #RRGGBBAA; white where it is anything else. */
@@ -100,12 +113,9 @@ static clshear_status begin_object(mf_reader *reader, const mf_xml *xml)
 {
     const mf_id id = {reader->part, whole_of(xml, "id")};
     if (id.number < 0) return complain(reader, xml, "id");
-    const uint32_t number = cs_index_map_add(&reader->ids, &id);
+    const size_t place = reader->objects.count;
     mf_object *object = cs_model_extend(&reader->objects, 1);
-    if (number == UINT32_MAX || object == NULL) return full(reader);
-    if (number == reader->numbers.count && cs_model_extend(&reader->numbers, 1) == NULL)
-        return full(reader);
-    ((size_t *)reader->numbers.items)[number] = reader->objects.count - 1;
+    if (object == NULL || !remember(&reader->of_objects, &id, place)) return full(reader);
     *object = (mf_object){.id = id,
                           .group = whole_of(xml, "pid"),
                           .colour = whole_of(xml, "pindex"),
