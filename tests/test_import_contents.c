@@ -51,6 +51,22 @@ static void morphs_of_colours_and_textures(void **state)
     cs_scene_free(&scene);
 }
 
+/* Bytes of colours are parts of 1, in the targets as in what they change, even if the accessor does
+ * not say so. */
+static void morphs_of_bytes(void **state)
+{
+    (void)state;
+    cs_scene scene = import_load(import_gltf_square(
+        "", "{}", "{\"mesh\":0}",
+        ",\"meshes\":[{\"weights\":[-0.5],\"primitives\":[{\"attributes\":{\"POSITION\":0,"
+        "\"COLOR_0\":1},\"targets\":[{\"COLOR_0\":1}]}]}],\"accessors\":["
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
+        "{\"bufferView\":0,\"byteOffset\":104,\"componentType\":5121,\"count\":3,\"type\":"
+        "\"VEC4\"}]"));
+    expect_close(import_colour(&scene, 0, 0), 0.5f, 0, 0.1f);
+    cs_scene_free(&scene);
+}
+
 /* ----- Scenes, points and lines ----- */
 
 static void what_is_not_shown(void **state)
@@ -207,9 +223,12 @@ static void what_materials_ask_for(void **state)
 static void short_attributes(void **state)
 {
     static const char *const files[][2] = {
-        {",\"NORMAL\":2", "meshes[0].primitives[0]: its NORMAL has 2 numbers a vertex"},
-        {",\"COLOR_0\":2", "meshes[0].primitives[0]: its COLOR_0 has 2 numbers a vertex"},
-        {",\"TEXCOORD_0\":3", "meshes[0].primitives[0]: its TEXCOORD_0 has 1 number a vertex"}};
+        {",\"NORMAL\":2",
+         "meshes[0].primitives[0]: its NORMAL has 2 numbers a vertex, but needs 3"},
+        {",\"COLOR_0\":2",
+         "meshes[0].primitives[0]: its COLOR_0 has 2 numbers a vertex, but needs 3"},
+        {",\"TEXCOORD_0\":3",
+         "meshes[0].primitives[0]: its TEXCOORD_0 has 1 number a vertex, but needs 2"}};
     (void)state;
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         import_refused(
@@ -276,6 +295,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(morphs_of_colours_and_textures),
+        cmocka_unit_test(morphs_of_bytes),
         cmocka_unit_test(what_is_not_shown),
         cmocka_unit_test(animations_by_pointers),
         cmocka_unit_test(curves_of_other_widths),

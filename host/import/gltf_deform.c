@@ -121,6 +121,7 @@ clshear_status gltf_morph(gltf_reader *reader, const json_t *primitive, const js
                           const char *attribute, size_t components, float *values, size_t count)
 {
     const json_t *targets = json_object_get(primitive, "targets");
+    const int is_colour = components == 4 && strcmp(attribute, "COLOR_0") == 0;
     for (size_t k = 0; k < json_array_size(targets) && k < json_array_size(weights); k++) {
         const float weight = (float)json_number_value(json_array_get(weights, k));
         const long long accessor = gltf_index(json_array_get(targets, k), attribute);
@@ -128,7 +129,8 @@ clshear_status gltf_morph(gltf_reader *reader, const json_t *primitive, const js
         size_t changed = 0, given = 0;
         if (weight == 0.0f || accessor == -1) continue;
         clshear_status status =
-            gltf_read_floats(reader, accessor, components, &change, &changed, &given);
+            is_colour ? gltf_read_colours(reader, accessor, &change, &changed, &given)
+                      : gltf_read_floats(reader, accessor, components, &change, &changed, &given);
         if (status == CLSHEAR_OK && changed != count)
             status = gltf_complain(reader, "accessors", accessor,
                                    "a morph target has %zu items for %zu vertices", changed, count);

@@ -32,8 +32,8 @@ static clshear_status check_width(const gltf_primitive *primitive, const char *a
 {
     if (given >= least) return CLSHEAR_OK;
     return gltf_complain(primitive->reader, primitive->place, -1,
-                         "its %s has %zu number%s a vertex", attribute, given,
-                         given == 1 ? "" : "s");
+                         "its %s has %zu number%s a vertex, but needs %zu", attribute, given,
+                         given == 1 ? "" : "s", least);
 }
 
 static clshear_status add_positions(gltf_primitive *primitive, long long accessor)

@@ -194,7 +194,7 @@ void gltf_skin_matrix(const gltf_skin *skin, size_t vertex, const double *of_nod
 void gltf_skin_close(gltf_skin *skin);
 
 /* Adds what the morph targets of a primitive change of an attribute whose `count` values have so
- * many components. weights: those of the node or its mesh, or NULL. */
+ * many components (COLOR_0: four). weights: those of the node or its mesh, or NULL. */
 clshear_status gltf_morph(gltf_reader *reader, const json_t *primitive, const json_t *weights,
                           const char *attribute, size_t components, float *values, size_t count);
 
