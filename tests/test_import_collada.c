@@ -180,6 +180,30 @@ static void opacity(void **state)
     import_warned("the opacity 0 of 1 material is taken as opaque");
 }
 
+/* The alpha of vertices' colours, which Collada's materials do not ask for. */
+static void alpha_of_vertices(void **state)
+{
+    static const char position[] = "<vertices id='v'><input semantic='POSITION' source='#p'/>";
+    char text[4096];
+    (void)state;
+    for (int fades = 0; fades < 2; fades++) {
+        snprintf(text, sizeof text,
+                 "<source id='c'><float_array id='c-a' count='12'>1 0 0 1 1 0 0 1 1 0 0 %s"
+                 "</float_array><technique_common><accessor source='#c-a' count='3' stride='4'>"
+                 "<param name='R' type='float'/><param name='G' type='float'/><param name='B' "
+                 "type='float'/><param name='A' type='float'/></accessor></technique_common>"
+                 "</source>%s<input semantic='COLOR' source='#c'/>",
+                 fades ? "0.5" : "1", position);
+        cs_scene scene = load(file_with(position, text));
+        expect_close(import_colour(&scene, 0, 0), 1, 0, 0);
+        if (fades)
+            import_warned("the alpha of its vertices is not used; set the material's opacity");
+        else
+            assert_string_equal(import_warnings, "");
+        cs_scene_free(&scene);
+    }
+}
+
 /* UTF-16 with a byte order mark, of both orders. */
 static void utf_16(void **state)
 {
@@ -260,6 +284,7 @@ int main(void)
         cmocka_unit_test(morph_targets),
         cmocka_unit_test(skins_as_bound),
         cmocka_unit_test(opacity),
+        cmocka_unit_test(alpha_of_vertices),
         cmocka_unit_test(utf_16),
         cmocka_unit_test(cameras_show_what_they_say),
     };

@@ -224,8 +224,8 @@ static void report_colours(const cs_model *model)
                 model->path, (double)most);
     if (model->fades)
         cs_warn(model->log,
-                "%s: the alpha of its vertices is not used: the format has no material that asks "
-                "for it",
+                "%s: the alpha of its vertices is not used; set the material's opacity, or export "
+                "glTF",
                 model->path);
 }
 
