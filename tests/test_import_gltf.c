@@ -220,7 +220,8 @@ static void signed_indices(void)
  * is installed. */
 static void numbers_of_versions(void)
 {
-    static const char *const texts[] = {"2.0", "2", "2.1", "\"2\""};
+    static const char *const texts[] = {"2.0", "2", "2.1", "\"2\"",
+                                        "\"2.1\",\"minVersion\":\"2.0\""};
     char asset[64];
     for (int with_commas = 0; with_commas < 2; with_commas++) {
         if (with_commas && setlocale(LC_ALL, "de_DE.UTF-8") == NULL) continue;
@@ -231,6 +232,10 @@ static void numbers_of_versions(void)
         }
         import_refused(test_file("old.gltf", "{\"asset\":{\"version\":1.5}}"), "version 1.5;");
         import_refused(test_file("new.gltf", "{\"asset\":{\"version\":20}}"), "version 20;");
+        import_refused(
+            test_file("least.gltf",
+                      triangle("", "", ",\"asset\":{\"version\":\"2.1\",\"minVersion\":\"2.1\"}")),
+            "needs a reader of glTF 2.1 (asset.minVersion); version 2.0 is read");
     }
     setlocale(LC_ALL, "C");
 }

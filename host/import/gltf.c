@@ -225,6 +225,25 @@ static void find_version(const json_t *root, char *version, size_t size)
                                        : "1.0");
 }
 
+/* Refuses another version, and a file that says that readers of 2.0 cannot understand it. */
+static clshear_status check_version(const gltf_reader *reader)
+{
+    char version[32];
+    const char *path = reader->model->path;
+    const json_t *least = json_object_get(json_object_get(reader->root, "asset"), "minVersion");
+    const char *text = json_is_string(least) ? json_string_value(least) : "";
+    double number = json_number_value(least); /* 0 where it is none */
+    find_version(reader->root, version, sizeof version);
+    if (version[0] != '2' || (version[1] != '.' && version[1] != '\0'))
+        return cs_fail(reader->error, CLSHEAR_BAD_FILE,
+                       "%s: is glTF of version %s; version 2.0 is read", path, version);
+    cs_parse_number(text, text + strlen(text), &number);
+    if (!(number > 2.0)) return CLSHEAR_OK;
+    return cs_fail(reader->error, CLSHEAR_BAD_FILE,
+                   "%s: needs a reader of glTF %s (asset.minVersion); version 2.0 is read", path,
+                   cs_format_number(version, sizeof version, number, 6));
+}
+
 /* Reads the JSON; if that fails, once more with its strings mended, since names in another coding
  * than UTF-8 are no harm. */
 static json_t *load_json(const gltf_reader *reader, char *text, size_t size, json_error_t *wrong)
@@ -243,7 +262,6 @@ static json_t *load_json(const gltf_reader *reader, char *text, size_t size, jso
 static clshear_status parse(gltf_reader *reader, char *text, size_t size)
 {
     const char *path = reader->model->path;
-    char version[32];
     json_error_t wrong;
     if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) { /* a byte order mark in a GLB */
         text += 3;
@@ -253,13 +271,9 @@ static clshear_status parse(gltf_reader *reader, char *text, size_t size)
     if (reader->root == NULL)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s:%d:%d: %s", path, wrong.line,
                        wrong.column, wrong.text);
-    find_version(reader->root, version, sizeof version);
     if (!json_is_object(reader->root))
         return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: is JSON, but no glTF", path);
-    if (version[0] != '2' || (version[1] != '.' && version[1] != '\0'))
-        return cs_fail(reader->error, CLSHEAR_BAD_FILE,
-                       "%s: is glTF of version %s; version 2.0 is read", path, version);
-    return CLSHEAR_OK;
+    return check_version(reader);
 }
 
 /* Extensions without which the file says it cannot be understood. */
