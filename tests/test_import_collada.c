@@ -122,6 +122,34 @@ static void morph_targets(void **state)
     cs_scene_free(&scene);
 }
 
+/* The triangle below a skew of its node. */
+static cs_scene skewed(const char *skew)
+{
+    char text[256];
+    snprintf(text, sizeof text, "<translate>0 0 5</translate>%s<instance_geometry url='#g'>", skew);
+    return load(file_with("<instance_geometry url='#g'>", text));
+}
+
+/* Of an angle and two axes: points move along the second, as far as they are along the first. */
+static void skews(void **state)
+{
+    (void)state;
+    cs_scene scene = skewed("<skew sid='s'>\n 45 0 2 0 3 0 0 </skew>");
+    expect_close(import_position(&scene, 0, 1), 1, 0, 5);
+    expect_close(import_position(&scene, 0, 2), 1, 1, 5);
+    assert_string_equal(import_warnings, "");
+    cs_scene_free(&scene);
+    scene = skewed("<skew>0 0 1 0 1 0 0</skew><skew>-45 1 0 0 0 0 1</skew>");
+    expect_close(import_position(&scene, 0, 1), 1, 0, 4);
+    expect_close(import_position(&scene, 0, 2), 0, 1, 5);
+    assert_string_equal(import_warnings, "");
+    cs_scene_free(&scene);
+    scene = skewed("<skew/><skew>45 0 0 0 1 0 0</skew><skew>45 0 1 0</skew>");
+    expect_close(import_position(&scene, 0, 2), 0, 1, 5);
+    import_warned("3 skews without an angle and two axes; left out");
+    cs_scene_free(&scene);
+}
+
 /* Skins are where they are bound, below their node; the targets of morphs may lie below. */
 static void skins_as_bound(void **state)
 {
@@ -282,6 +310,7 @@ int main(void)
         cmocka_unit_test(names_between_lines),
         cmocka_unit_test(polygons_with_holes),
         cmocka_unit_test(morph_targets),
+        cmocka_unit_test(skews),
         cmocka_unit_test(skins_as_bound),
         cmocka_unit_test(opacity),
         cmocka_unit_test(alpha_of_vertices),

@@ -1,8 +1,11 @@
 #include "helper/collada_edit.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/array.h"
+#include "base/number.h"
+#include "base/vec.h"
 #include "helper/xml.h"
 
 /* A part of the old text. */
@@ -142,6 +145,45 @@ static void edit_instance(editing *edit, const cs_xml_tag *tag, const char *at)
     if (tag->is_empty) end_instance(edit);
 }
 
+/* Reads `count` numbers; 0 where there are fewer. */
+static int read_numbers(const char *at, double *numbers, int count)
+{
+    const char *end = at + strcspn(at, "<");
+    for (int i = 0; i < count; i++) {
+        while (at < end && (unsigned char)*at <= ' ')
+            at++;
+        const char *after = cs_parse_number(at, end, &numbers[i]);
+        if (after == at) return 0;
+        at = after;
+    }
+    return 1;
+}
+
+/* A skew becomes a matrix: Assimp ends the program at it. As in RenderMan, points move along the
+ * second axis by the tangent of the angle times their distance along the first. */
+static void edit_skew(editing *edit, const cs_xml_tag *tag, const char **at)
+{
+    static const char matrix[] = "<matrix>", end_of_matrix[] = "</matrix>";
+    double numbers[7] = {0}, *first = numbers + 1, *second = numbers + 4;
+    char text[32];
+    const int is_whole = !tag->is_empty && read_numbers(*at, numbers, 7);
+    const double scale = cs_vec_dot_double(first, first) * cs_vec_dot_double(second, second);
+    if (!leave_out(edit, tag, "</skew>", at)) copy(edit, tag->begin, *at);
+    edit->lost.skews += !is_whole || !(scale > 0.0);
+    if (!is_whole || !(scale > 0.0)) return;
+    const double far = tan(numbers[0] * (acos(-1.0) / 180.0)) / sqrt(scale);
+    put(edit, matrix, sizeof matrix - 1);
+    for (int i = 0; i < 16; i++) {
+        const int row = i / 4, column = i % 4;
+        double value = row == column ? 1.0 : 0.0;
+        if (row < 3 && column < 3) value += far * second[row] * first[column];
+        cs_format_number(text, sizeof text, value, 9);
+        put(edit, text, strlen(text));
+        put(edit, " ", 1);
+    }
+    put(edit, end_of_matrix, sizeof end_of_matrix - 1);
+}
+
 static void edit_end(editing *edit, const cs_xml_tag *tag, const char *at)
 {
     if (cs_xml_is(tag, "ph")) {
@@ -167,6 +209,8 @@ static void edit_tag(editing *edit, const cs_xml_tag *tag, const char **at)
         edit->in_holes = 1;
     } else if (cs_xml_is(tag, "h") && edit->in_holes) {
         edit->lost.holes += (size_t)leave_out(edit, tag, "</h>", at);
+    } else if (cs_xml_is(tag, "skew")) {
+        edit_skew(edit, tag, at);
     } else if (cs_xml_is(tag, "library_controllers")) {
         leave_out(edit, tag, "</library_controllers>", at);
     } else if (cs_xml_is(tag, "instance_controller") && !edit->is_instance) {

@@ -317,6 +317,19 @@ static void turn_back(const struct aiScene *file, cs_model *model)
     file->mRootNode->mTransformation = back;
 }
 
+static void report_losses(const cs_model *model, const cs_collada_losses *lost)
+{
+    if (lost->holes > 0)
+        cs_warn(model->log, "%s: holes of polygons are not supported: %zu closed; export triangles",
+                model->path, lost->holes);
+    if (lost->morphs > 0)
+        cs_warn(model->log, "%s: morph targets are not supported: the first shape of %zu mesh%s",
+                model->path, lost->morphs, lost->morphs > 1 ? "es" : "");
+    if (lost->skews > 0)
+        cs_warn(model->log, "%s: %zu skew%s without an angle and two axes; left out", model->path,
+                lost->skews, lost->skews > 1 ? "s" : "");
+}
+
 /* Opens a file with Assimp. `file` becomes NULL where Assimp cannot read it. No step of Assimp's
  * post-processing runs, since these trust the indices of the file, which are checked later. */
 static clshear_status open_file(cs_bytes *bytes, const cs_model *model, const struct aiScene **file,
@@ -330,12 +343,7 @@ static clshear_status open_file(cs_bytes *bytes, const cs_model *model, const st
     clshear_status status = cs_collada_tidy(bytes, model->path, error);
     if (status == CLSHEAR_OK) status = cs_collada_edit(bytes, &lost, error);
     if (status == CLSHEAR_OK) status = cs_collada_edit_cameras(bytes, error);
-    if (lost.holes > 0)
-        cs_warn(model->log, "%s: holes of polygons are not supported: %zu closed; export triangles",
-                model->path, lost.holes);
-    if (lost.morphs > 0)
-        cs_warn(model->log, "%s: morph targets are not supported: the first shape of %zu mesh%s",
-                model->path, lost.morphs, lost.morphs > 1 ? "es" : "");
+    report_losses(model, &lost);
     if (status == CLSHEAR_OK)
         *file = aiImportFileFromMemory(bytes->data, (unsigned)bytes->size, 0, "dae");
     return status;
