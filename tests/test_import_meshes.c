@@ -50,6 +50,27 @@ static void layouts_of_ply(void **state)
     cs_scene_free(&scene);
 }
 
+/* The square as a fan; and one triangle behind -1, which goes round the other way. */
+static void fans_of_ply(void **state)
+{
+    (void)state;
+    cs_scene scene = import_text("fan.ply", PLY_HEAD "element trifans 1\nproperty list int int "
+                                                     "vertex_indices\nend_header\n" PLY_POINTS
+                                                     "8 0 1 2 3 -1 2 1 0\n");
+    assert_int_equal(scene.indices.count, 3);
+    assert_true(fabs(import_area(&scene) - 6.0) < 1e-6);
+    expect_close(import_position(&scene, 1, 0), -1, -1, 0);
+    expect_close(import_position(&scene, 1, 1), 1, 1, 0);
+    expect_close(import_position(&scene, 1, 2), -1, 1, 0);
+    expect_close(import_position(&scene, 2, 0), 1, 1, 0);
+    assert_string_equal(import_warnings, "");
+    cs_scene_free(&scene);
+    import_refused(test_file("fan.ply",
+                             PLY_HEAD "element trifans 1\nproperty list int int vertex_indices\n"
+                                      "end_header\n" PLY_POINTS "3 0 1 4\n"),
+                   "it names a vertex that is not there");
+}
+
 /* A triangle with its numbers in either order of bytes. */
 static void bytes_of_ply(void **state)
 {
@@ -168,9 +189,8 @@ static void kinds_of_stl(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(layouts_of_ply),
-        cmocka_unit_test(bytes_of_ply),
-        cmocka_unit_test(damaged_ply),
+        cmocka_unit_test(layouts_of_ply), cmocka_unit_test(fans_of_ply),
+        cmocka_unit_test(bytes_of_ply),   cmocka_unit_test(damaged_ply),
         cmocka_unit_test(kinds_of_stl),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,4 @@
-/* PLY: vertices, faces and triangle strips. */
+/* PLY: vertices, faces, strips and fans of triangles. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -113,9 +113,10 @@ done:
     return status;
 }
 
-/* A strip: each index makes a triangle with the two before it; -1 begins anew. */
+/* A strip: each index makes a triangle with the two before it; or a fan: with the first one and the
+ * one before it. -1 begins anew. */
 static clshear_status add_strip(cs_ply_reader *reader, const cs_ply_element *element, size_t item,
-                                size_t vertices)
+                                size_t vertices, int is_fan)
 {
     const cs_corner *corners = reader->corners.items;
     size_t length = 0;
@@ -129,6 +130,10 @@ static clshear_status add_strip(cs_ply_reader *reader, const cs_ply_element *ele
         if (++length < 3) continue;
         const size_t odd = (length - 3) & 1;
         cs_corner triangle[3] = {corners[i - 2 + odd], corners[i - 1 - odd], corners[i]};
+        if (is_fan) {
+            triangle[0] = corners[i + 1 - length];
+            triangle[1] = corners[i - 1];
+        }
         for (int k = 0; k < 3; k++) {
             if (reader->has_normals) triangle[k].normal = triangle[k].position;
             if (reader->has_coordinates) triangle[k].texture = triangle[k].position;
@@ -165,7 +170,8 @@ static clshear_status read_element(cs_ply_reader *reader, const cs_ply_element *
 {
     const int is_vertex = strcmp(element->name, "vertex") == 0;
     const int has_indices = cs_ply_has_role(element, CS_PLY_INDICES);
-    const int is_strip = strcmp(element->name, "tristrips") == 0 && has_indices;
+    const int is_fan = strcmp(element->name, "trifans") == 0 && has_indices;
+    const int is_strip = (is_fan || strcmp(element->name, "tristrips") == 0) && has_indices;
     const int is_face = strcmp(element->name, "face") == 0 && has_indices;
     if (element->property_count == 0) return CLSHEAR_OK;
     clshear_status status = check_count(reader, element);
@@ -184,7 +190,7 @@ static clshear_status read_element(cs_ply_reader *reader, const cs_ply_element *
         else if (is_face)
             status = add_face(reader, element, i, *vertices, &given);
         else if (is_strip)
-            status = add_strip(reader, element, i, *vertices);
+            status = add_strip(reader, element, i, *vertices, is_fan);
     }
     if (is_vertex) *vertices = reader->model->positions.count;
     return status;
