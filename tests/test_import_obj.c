@@ -281,6 +281,12 @@ static void names_with_comments(void **state)
         expect_material(&scene, i, colours[i]);
     assert_string_equal(import_warnings, "");
     cs_scene_free(&scene);
+    test_file("whole.mtl", "newmtl red # a\nKd 1 0 0\n");
+    scene = import_text("whole.obj", "mtllib whole.mtl\n" SQUARE
+                                     "usemtl red # a\nf 1 2 3\nusemtl red\nf 1 3 4\n");
+    expect_material(&scene, 0, "100");
+    import_warned("material \"red\" is not defined");
+    cs_scene_free(&scene);
 }
 
 /* Libraries whose names begin with the same 255 bytes are two. */
