@@ -34,11 +34,14 @@ static clshear_status point_into(gltf_reader *reader, const json_t *json, long l
     size_t size = 0, stride = 0;
     const size_t item = span->components * size_of(span->type);
     const long long offset = gltf_index(json, "byteOffset");
-    clshear_status status =
-        gltf_view(reader, gltf_index(json, "bufferView"), &span->data, &size, &stride);
+    const long long view = gltf_index(json, "bufferView");
+    clshear_status status = gltf_view(reader, view, &span->data, &size, &stride);
     if (status != CLSHEAR_OK) return status;
     const size_t begin = offset > 0 ? (size_t)offset : 0;
     span->stride = stride > 0 ? stride : item;
+    /* Only the extension says that items are filled up, in a view without a stride of its own. */
+    if (stride == 0 && gltf_packed_stride(reader, view) > item)
+        span->stride = gltf_packed_stride(reader, view);
     if (offset == -2 || span->stride < item)
         return gltf_complain(reader, "accessors", accessor,
                              "its byteOffset or byteStride cannot be");

@@ -73,6 +73,13 @@ int gltf_is_packed(const json_t *view)
     return gltf_extension(view, meshopt_name) != NULL;
 }
 
+size_t gltf_packed_stride(const gltf_reader *reader, long long index)
+{
+    const json_t *packed = gltf_extension(gltf_at(reader, "bufferViews", index), meshopt_name);
+    const long long stride = gltf_index(packed, "byteStride");
+    return stride > 0 ? (size_t)stride : 0;
+}
+
 /* ----- Primitives ----- */
 
 static const char draco_name[] = "KHR_draco_mesh_compression";

@@ -143,6 +143,9 @@ clshear_status gltf_read_indices(gltf_reader *reader, long long index, uint32_t 
 /* Whether meshoptimizer has compressed a buffer view (EXT_meshopt_compression). */
 int gltf_is_packed(const json_t *view);
 
+/* The bytes from one item to the next in such a buffer view; 0 in another. */
+size_t gltf_packed_stride(const gltf_reader *reader, long long index);
+
 /* The bytes of one that is, unpacked: number `index`. */
 clshear_status gltf_packed_view(gltf_reader *reader, long long index, const json_t *view,
                                 const unsigned char **data, size_t *size);
