@@ -60,6 +60,7 @@ done
 expect 2 "--out is empty: give FILE, or leave it out" -- "$cornell" --out=
 expect 2 "--out needs a value" -- "$cornell" --out
 expect 2 "--out picture.bmp: must be a name that ends in" -- "$cornell" --out picture.bmp
+expect 2 "--out .png: must be a name that ends in" -- "$cornell" --out .png
 
 # Failures: 1.
 refuse 1 "nowhere.obj: cannot be opened: No such file" -- nowhere.obj

@@ -73,9 +73,9 @@ static int store_texts(program_options *options, const program_flag *row, text_l
         const char *item = options_text(options, "%.*s", (int)length, text);
         list->items[list->count++] = item;
         if (length == 0) return 0;
-        if (*row->form != '\0' && !has_word(row->form, item, length) &&
-            !has_ending(row->form, item))
-            return 0;
+        /* A form lists words, or endings, which are no names by themselves. */
+        const int is_word = *item != '.' && has_word(row->form, item, length);
+        if (*row->form != '\0' && !is_word && !has_ending(row->form, item)) return 0;
         text += length;
         if (*text == '\0') return 1;
         text += strspn(text, blanks);
