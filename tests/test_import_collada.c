@@ -303,6 +303,67 @@ static void cameras_show_what_they_say(void **state)
                   0.0f, 3.0f);
 }
 
+/* Adds `added` to a text before the first `place` in it. */
+static void splice(char *text, size_t size, const char *place, const char *added)
+{
+    char *at = strstr(text, place);
+    assert_non_null(at);
+    assert_true(strlen(text) + strlen(added) < size);
+    memmove(at + strlen(added), at, strlen(at) + 1);
+    memcpy(at, added, strlen(added));
+}
+
+/* Expects that the texture of a triangle has at its corner 1 the coordinates (s, t). It has two
+ * sets of these numbers, with (1, 0) and (0, 1) there. Its material calls one of them U with
+ * `digits`, and binds number `bound` to this name, or nothing where that is negative. */
+static void expect_set(const int numbers[2], const char *digits, int bound, float s, float t)
+{
+    static const char binding[] = "<bind_vertex_input semantic='U%s' input_semantic='TEXCOORD' "
+                                  "input_set='%d'/>";
+    char text[8192], added[512];
+    snprintf(text, sizeof text, "%s",
+             COLLADA("", "1 1 1 1</color><texture texture='i' texcoord='U'/><color>1 1 1 1"));
+    splice(text, sizeof text, "'/><color>", digits);
+    splice(text, sizeof text, "<vertices",
+           SOURCE("a", "0 0 0 1 0 0 0 1 0") SOURCE("b", "0 0 0 0 1 0 1 0 0"));
+    snprintf(added, sizeof added,
+             "<input semantic='TEXCOORD' source='#a' offset='0' set='%d'/>"
+             "<input semantic='TEXCOORD' source='#b' offset='0' set='%d'/>",
+             numbers[0], numbers[1]);
+    splice(text, sizeof text, "<p>", added);
+    memcpy(strstr(text, "' target='#m'/>"), "' target='#m' >", 15);
+    snprintf(added, sizeof added, bound < 0 ? "" : binding, digits, bound);
+    splice(text, sizeof text, "</technique_common></bind_material>", added);
+    splice(text, sizeof text, "</technique_common></bind_material>", "</instance_material>");
+    memcpy(strstr(text, "none"), "some", 4); /* which another test does not find */
+    import_picture("some.png");
+    cs_scene scene = load(test_file("sets.dae", text));
+    assert_string_equal(import_warnings, "");
+    expect_st(&scene, 1, s, t);
+    cs_scene_free(&scene);
+}
+
+/* Sets of texture coordinates are found by what materials bind, or else by the digits in a name,
+ * wherever the numbers begin. */
+static void sets_of_coordinates(void **state)
+{
+    static const int pairs[][2] = {{0, 1}, {1, 2}, {3, 12}};
+    (void)state;
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        char digits[2][4];
+        for (int set = 0; set < 2; set++)
+            snprintf(digits[set], sizeof digits[set], "%d", pairs[i][set]);
+        for (int set = 0; set < 2; set++) {
+            const float s = set == 0 ? 1.0f : 0.0f;
+            expect_set(pairs[i], "", pairs[i][set], s, 1.0f - s);
+            expect_set(pairs[i], digits[!set], pairs[i][set], s, 1.0f - s);
+            expect_set(pairs[i], digits[set], -1, s, 1.0f - s);
+        }
+        expect_set(pairs[i], "", -1, 1, 0);
+        expect_set(pairs[i], "", 13, 0, 1); /* no such set: the one before it */
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -313,6 +374,7 @@ int main(void)
         cmocka_unit_test(skews),
         cmocka_unit_test(skins_as_bound),
         cmocka_unit_test(opacity),
+        cmocka_unit_test(sets_of_coordinates),
         cmocka_unit_test(alpha_of_vertices),
         cmocka_unit_test(utf_16),
         cmocka_unit_test(cameras_show_what_they_say),

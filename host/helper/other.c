@@ -13,6 +13,7 @@
 #include "helper/collada.h"
 #include "helper/collada_camera.h"
 #include "helper/collada_edit.h"
+#include "helper/collada_sets.h"
 #include "helper/node.h"
 #include "helper/three_mf.h"
 #include "import/find_file.h"
@@ -184,6 +185,16 @@ static clshear_status add_face(const importing *work, const struct aiMesh *sourc
                                 work->error);
 }
 
+/* The texture coordinates of a mesh that a material asks for, or what there is of the sets before:
+ * Assimp leaves no gap between a mesh's sets. NULL: it has none. */
+static const struct aiVector3D *coordinates_of(const struct aiMesh *mesh, const cs_map *placing)
+{
+    int set = placing != NULL ? placing->set : 0;
+    while (set > 0 && mesh->mTextureCoords[set] == NULL)
+        set--;
+    return mesh->mTextureCoords[set];
+}
+
 static clshear_status add_instance(void *user, const struct aiMesh *source,
                                    const struct aiMatrix4x4 *matrix)
 {
@@ -194,7 +205,7 @@ static clshear_status add_instance(void *user, const struct aiMesh *source,
     const cs_map *placing = NULL;
     if (source->mMaterialIndex < model->materials.count)
         placing = cs_material_placing(&materials[source->mMaterialIndex]);
-    const struct aiVector3D *st = source->mTextureCoords[placing != NULL ? placing->set : 0];
+    const struct aiVector3D *st = coordinates_of(source, placing);
     const cs_corner first = {(uint32_t)model->positions.count,
                              source->mNormals != NULL ? (uint32_t)model->normals.count
                                                       : CS_NO_INDEX,
@@ -343,6 +354,7 @@ static clshear_status open_file(cs_bytes *bytes, const cs_model *model, const st
     clshear_status status = cs_collada_tidy(bytes, model->path, error);
     if (status == CLSHEAR_OK) status = cs_collada_edit(bytes, &lost, error);
     if (status == CLSHEAR_OK) status = cs_collada_edit_cameras(bytes, error);
+    if (status == CLSHEAR_OK) status = cs_collada_number_sets(bytes, error);
     report_losses(model, &lost);
     if (status == CLSHEAR_OK)
         *file = aiImportFileFromMemory(bytes->data, (unsigned)bytes->size, 0, "dae");
