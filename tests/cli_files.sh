@@ -180,6 +180,33 @@ if "${user[@]}" test -w open && "${user[@]}" test -x "$program"; then
     [ "$(cat open/kept.png)" = kept ] || wrong "a protected file is replaced"
 fi
 
+# A file that is replaced hands on its owner, its group and its permissions. Where the group cannot be
+# given, the new group is allowed no more than others were.
+# replaced OWNER:GROUP MODE WORDS [SETPRIV'S FLAGS]: the file before, and what stat says of it after.
+replaced() {
+    local before="$1 $2" words=$3
+    echo old >open/kept.txt
+    chown "$1" open/kept.txt
+    chmod "$2" open/kept.txt
+    output=$(setpriv "${@:4}" "$program" points --n 4 --out open/kept.txt 2>&1) || wrong "replacing $before: $output"
+    output=$(stat -c '%u:%g %a' open/kept.txt)
+    [ "$output" = "$words" ] || wrong "$before became $output, not $words"
+    [ "$(cat open/kept.txt)" != old ] || wrong "$before is not replaced"
+}
+if [ "$(id -u)" -ne 0 ]; then
+    echo "skipped: files of other owners, which only root can make"
+elif ! "${user[@]}" test -x "$program"; then
+    echo "skipped: files of other owners, who may not run $program"
+else
+    other=(--reuid 65534 --regid 65534)
+    replaced 65534:65533 640 "65534:65533 640"
+    replaced 65534:65533 640 "65534:65534 600" "${other[@]}" --clear-groups
+    replaced 65534:65533 654 "65534:65534 644" "${other[@]}" --clear-groups
+    replaced 65534:65533 640 "65534:65533 640" "${other[@]}" --groups 65533
+    replaced 0:65533 660 "65534:65533 660" "${other[@]}" --groups 65533
+    replaced 0:65533 606 "65534:65534 666" "${other[@]}" --clear-groups
+fi
+
 # A full disk: one line, exit 1, the old picture untouched and nothing left behind.
 echo old >kept.exr
 (

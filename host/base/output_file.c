@@ -71,18 +71,46 @@ int cs_output_begin(const char *path, cs_output_file *file)
     return 0;
 }
 
-/* Opens the part. A file that it will replace has to allow that, and hands on its permissions, and
- * its owner where the process may give files away. */
+/* Opens the part so that nobody else can read it, not even one that is left from before. Returns
+ * NULL with errno if it cannot. */
+static FILE *open_private(const char *part)
+{
+    const int descriptor = open(part, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    if (descriptor < 0) return NULL;
+    FILE *stream = fchmod(descriptor, 0600) == 0 ? fdopen(descriptor, "wb") : NULL;
+    const int reason = errno;
+    if (stream == NULL) close(descriptor);
+    errno = reason;
+    return stream;
+}
+
+/* Hands on the group, and the owner where the process may give files away. Returns whether the file
+ * has the group. */
+static int hand_on_owner(int descriptor, const struct stat *old)
+{
+    return fchown(descriptor, old->st_uid, old->st_gid) == 0 ||
+           fchown(descriptor, (uid_t)-1, old->st_gid) == 0;
+}
+
+/* The permissions of a file that has another group than the old file: the group had to itself what
+ * it was allowed beyond others, so the new one is allowed what others are. */
+static mode_t without_group(mode_t mode)
+{
+    return (mode & 0707) | (mode & 07) << 3;
+}
+
+/* Opens the part. A file that it will replace has to allow that, and hands on its owner, its group
+ * and its permissions. These come last: until then the file may have another owner. */
 static FILE *open_part(const cs_output_file *file)
 {
     struct stat old;
     const int replaces = strcmp(file->part, file->target) != 0 && stat(file->target, &old) == 0;
-    if (replaces && access(file->target, W_OK) != 0) return NULL;
-    FILE *stream = fopen(file->part, "wb");
-    if (stream == NULL || !replaces) return stream;
-    const int is_given = fchown(fileno(stream), old.st_uid, old.st_gid) == 0;
-    (void)is_given;
-    fchmod(fileno(stream), old.st_mode & 0777);
+    if (!replaces) return fopen(file->part, "wb");
+    if (access(file->target, W_OK) != 0) return NULL;
+    FILE *stream = open_private(file->part);
+    if (stream == NULL) return NULL;
+    const int has_group = hand_on_owner(fileno(stream), &old);
+    fchmod(fileno(stream), has_group ? old.st_mode & 0777 : without_group(old.st_mode));
     return stream;
 }
 
