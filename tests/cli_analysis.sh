@@ -33,6 +33,10 @@ expect 1 "/dev/zero:1: this is no line of text, or has more than 4095 bytes" -- 
 printf '# %05000d\n0.25 0.5\n0.5 0.75' 0 >long.txt # a remark may be long, the last line without its end
 expect 0 "0.25 0.5" -- points --in long.txt --out -
 case $output in *"0.5 0.75"*) ;; *) wrong "points behind a long remark: $output" ;; esac
+printf '0.1 0.2\n# a byte\0 0\n0.3 0.4\n' >zero.txt
+expect 1 "zero.txt:2: this is no line of text, or has more than 4095 bytes" -- points --in zero.txt --out -
+printf '0.1 0.2\n# the end' >end.txt
+expect 0 "0.1" -- points --in end.txt --out -
 expect 0 "predicted as isotropic," -- predict --integrand step --sampler nrooks --n 16 --sets 50 --measure 50
 case $output in *"measured,"*) ;; *) wrong "not measured: $output" ;; esac
 expect 2 "give an --integrand" -- predict --n 16

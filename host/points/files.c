@@ -81,6 +81,14 @@ static void skip_rest(const char *line, FILE *stream)
         byte = getc(stream);
 }
 
+/* Whether `line`, as fgets gave it, is text up to the end of the line, or a comment that is longer
+ * than `size`. A line with a byte 0 is neither. */
+static int is_text(const char *line, size_t size, FILE *stream)
+{
+    if (strchr(line, '\n') != NULL || feof(stream)) return 1;
+    return line[0] == '#' && strlen(line) == size - 1;
+}
+
 /* Streams without an end of the line, such as /dev/zero, do not fill the memory. */
 static clshear_status read_lines(text_reader *reader, FILE *stream)
 {
@@ -88,11 +96,11 @@ static clshear_status read_lines(text_reader *reader, FILE *stream)
     char line[4096];
     while (status == CLSHEAR_OK && fgets(line, sizeof line, stream) != NULL) {
         reader->line++;
-        if (line[0] == '#') {
+        if (!is_text(line, sizeof line, stream)) {
+            status = complain(reader, "this is no line of text, or has more than 4095 bytes");
+        } else if (line[0] == '#') {
             skip_rest(line, stream);
             status = end_set(reader);
-        } else if (strchr(line, '\n') == NULL && !feof(stream)) {
-            status = complain(reader, "this is no line of text, or has more than 4095 bytes");
         } else {
             status = read_point(reader, line);
         }
