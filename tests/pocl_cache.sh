@@ -85,8 +85,8 @@ with() {
     code=$?
     refused "$2"
 }
-with POCL_CACHE_DIR= "\$POCL_CACHE_DIR is empty"
-with POCL_MAX_PTHREAD_COUNT=-1 "\$POCL_MAX_PTHREAD_COUNT is \"-1\", for which PoCL ends the process: unset it"
+with POCL_CACHE_DIR= "\$POCL_CACHE_DIR is empty, for which PoCL would end the process if it is among the drivers: unset it"
+with POCL_MAX_PTHREAD_COUNT=-1 "\$POCL_MAX_PTHREAD_COUNT is \"-1\", for which PoCL would end the process if it is among the drivers: unset it"
 with POCL_MAX_PTHREAD_COUNT=99999999999999999999 "set it to a number from 0 to 4096"
 with POCL_MAX_WORK_GROUP_SIZE=none "\$POCL_MAX_WORK_GROUP_SIZE is \"none\""
 with POCL_DEVICES=toaster "\$POCL_DEVICES is \"toaster\": unset it"

@@ -78,16 +78,16 @@ static clshear_status check_linker(cl_device_id device, cs_error *error)
                    "to it, or install binutils");
 }
 
-/* PoCL reads a number in its environment as strtol does, and what is none as 0. Its `least` and
- * `most` are those that it bears. */
+/* Fails if PoCL would end the process for the number in the variable `name`. PoCL reads it with
+ * strtol, which takes text without a number for 0. PoCL works with `least` to `most`. */
 static clshear_status check_number(const char *name, long least, long most, cs_error *error)
 {
     const char *text = getenv(name);
     const long value = text == NULL ? least : strtol(text, NULL, 10);
     if (value >= least && value <= most) return CLSHEAR_OK;
     return cs_fail(error, CLSHEAR_NO_DEVICE,
-                   "$%s is \"%.64s\", for which PoCL ends the process: unset it, or set it to a "
-                   "number from %ld to %ld",
+                   "$%s is \"%.64s\", for which PoCL would end the process if it is among the "
+                   "drivers: unset it, or set it to a number from %ld to %ld",
                    name, text, least, most);
 }
 
@@ -97,8 +97,8 @@ clshear_status cs_pocl_check_environment(cs_error *error)
     if (cache != NULL && *cache == '\0')
         return cs_fail(
             error, CLSHEAR_NO_DEVICE,
-            "$POCL_CACHE_DIR is empty, for which PoCL ends the process: unset it, or set "
-            "it to a folder");
+            "$POCL_CACHE_DIR is empty, for which PoCL would end the process if it is among the "
+            "drivers: unset it, or set it to a folder");
     clshear_status status = check_number("POCL_MAX_PTHREAD_COUNT", 0, MOST_THREADS, error);
     return status == CLSHEAR_OK ? check_number("POCL_MAX_WORK_GROUP_SIZE", 1, INT_MAX, error)
                                 : status;
