@@ -115,9 +115,10 @@ static inline void cs_map_at(const cs_scene_buffers *scene, cs_u32 number, cs_vf
     if (number > 0u) cs_texels(scene, number - 1u, s, t, wanted, colour);
 }
 
-/* The first axis of a normal map, at barycentrics (b1, b2) of a smooth face: its vertices' tangents
- * between them, or `flat`, that of the triangle itself, where they have none. mirrored: whether the
- * texture is. Both are across the normal, of any length. */
+/* Finds the first axis of a normal map at barycentrics (b1, b2) of a smooth face. `flat` holds the
+ * axis of the triangle, at right angles to the normal. Where the vertices have tangents, it becomes
+ * their interpolated tangent, which is only nearly at right angles to the normal. Both axes have
+ * any length. mirrored: 1 where the texture is mirrored, else 0. */
 static inline void cs_smooth_tangent(const cs_scene_buffers *scene, CS_GLOBAL const cs_face *face,
                                      cs_vfloat b1, cs_vfloat b2, cs_u32 mirrored, cs_vfloat *flat)
 {

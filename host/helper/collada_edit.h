@@ -4,16 +4,17 @@
 
 #include "import/text.h"
 
-/* What is not in the new text. */
+/* How many things the edit has taken out of the file. */
 typedef struct cs_collada_losses {
-    size_t holes;  /* of polygons, which are closed */
-    size_t morphs; /* meshes with morph targets, which have their first shape */
+    size_t holes;  /* in polygons; the polygons are whole now */
+    size_t morphs; /* instances of meshes with morph targets; only their first shape is left */
     size_t skews;  /* of nodes, without an angle and two axes */
 } cs_collada_losses;
 
-/* Colours of three numbers get a fourth, skews become matrices, polygons lose their holes, and
- * skins and meshes with morph targets become plain meshes, skins in the pose in which they are
- * bound, as Blender shows them. A file that is no text is left as it is. */
+/* Rewrites a Collada file's text in place. Colours of three numbers get a fourth. Skews become
+ * matrices. Polygons lose their holes. Meshes with morph targets become plain meshes of their first
+ * shape. Skins become plain meshes in the pose in which they were bound to their bones, as Blender
+ * shows them. A file that is no text stays as it is. Fails only without memory. */
 clshear_status cs_collada_edit(cs_bytes *bytes, cs_collada_losses *lost, cs_error *error);
 
 #endif
