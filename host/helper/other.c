@@ -157,7 +157,7 @@ static clshear_status add_vertices(const importing *work, const struct aiMesh *s
             textures[i][1] = st[i].y;
         }
         if (source->mColors[0] == NULL) continue;
-        model->fades |= has_alpha && source->mColors[0][i].a < 1.0f;
+        model->has_unused_alpha |= has_alpha && source->mColors[0][i].a < 1.0f;
         clshear_status status =
             cs_model_set_colour(model, first + i, &source->mColors[0][i].r, work->error);
         if (status != CLSHEAR_OK) return status;

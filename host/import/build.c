@@ -222,7 +222,7 @@ static void report_colours(const cs_model *model)
                 "%s: its vertices have colours up to %g: above 1 they reflect more light than "
                 "arrives; kept",
                 model->path, (double)most);
-    if (model->fades)
+    if (model->has_unused_alpha)
         cs_warn(model->log,
                 "%s: the alpha of its vertices is not used; set the material's opacity, or export "
                 "glTF",

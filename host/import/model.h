@@ -74,20 +74,20 @@ typedef struct cs_model {
     int is_played;                           /* whether the animation is */
     double time_s;                           /* of the animation */
     cs_array positions;                      /* double[3] */
-    cs_array colours;    /* float[3], linear, one for each position; or none at all */
-    cs_array opacities;  /* float, 0 to 1, of positions that have colours; of those beyond, 1 */
-    cs_array normals;    /* float[3] */
-    cs_array textures;   /* float[2] */
-    cs_array triangles;  /* cs_model_triangle */
-    cs_array materials;  /* cs_material_description */
-    cs_array images;     /* cs_image_source */
-    cs_array lights;     /* cs_model_light */
-    cs_array cameras;    /* cs_model_camera */
-    int z_up;            /* convention of the format: +Z is up and -Y in front; else +Y and +Z */
-    int up_is_open;      /* the format has no such convention, and +Y is a guess */
-    double cutting;      /* points that may still be looked at to cut polygons */
-    size_t without_area; /* faces with fewer than three corners: points and lines */
-    int fades;           /* some position has an alpha that the material does not use */
+    cs_array colours;     /* float[3], linear, one for each position; or none at all */
+    cs_array opacities;   /* float, 0 to 1, of positions that have colours; of those beyond, 1 */
+    cs_array normals;     /* float[3] */
+    cs_array textures;    /* float[2] */
+    cs_array triangles;   /* cs_model_triangle */
+    cs_array materials;   /* cs_material_description */
+    cs_array images;      /* cs_image_source */
+    cs_array lights;      /* cs_model_light */
+    cs_array cameras;     /* cs_model_camera */
+    int z_up;             /* convention of the format: +Z is up and -Y in front; else +Y and +Z */
+    int up_is_open;       /* the format has no such convention, and +Y is a guess */
+    double cutting;       /* points that may still be looked at to cut polygons */
+    size_t without_area;  /* faces with fewer than three corners: points and lines */
+    int has_unused_alpha; /* some position has an alpha that the material does not use */
 } cs_model;
 
 void cs_model_init(cs_model *model, const char *path, const cs_log *log);

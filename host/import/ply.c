@@ -45,8 +45,8 @@ static clshear_status add_vertex(cs_ply_reader *reader, const cs_ply_scalars *gi
         st[1] = (float)given->value[s + 1];
     }
     float colour[3];
-    model->fades |= given->is_there[CS_PLY_ALPHA] &&
-                    given->value[CS_PLY_ALPHA] < cs_ply_most(given->type[CS_PLY_ALPHA]);
+    model->has_unused_alpha |= given->is_there[CS_PLY_ALPHA] &&
+                               given->value[CS_PLY_ALPHA] < cs_ply_most(given->type[CS_PLY_ALPHA]);
     if (!cs_ply_colour(given, colour)) return CLSHEAR_OK;
     return cs_model_set_colour(model, model->positions.count - 1, colour, reader->error);
 }
