@@ -3,15 +3,12 @@
 #include <string.h>
 #include <strings.h>
 
+#include "helper/xml.h"
+
 int cs_is_collada(const char *path)
 {
     const char *dot = strrchr(path, '.');
     return dot != NULL && strcasecmp(dot, ".dae") == 0;
-}
-
-static int is_blank(char letter)
-{
-    return letter != '\0' && strchr(" \t\r\n", letter) != NULL;
 }
 
 clshear_status cs_collada_tidy(cs_bytes *bytes, const char *path, cs_error *error)
@@ -20,10 +17,11 @@ clshear_status cs_collada_tidy(cs_bytes *bytes, const char *path, cs_error *erro
     size_t kept = 0;
     if (status != CLSHEAR_OK) return status;
     for (size_t i = 0; i < bytes->size; i++) {
-        while (bytes->data[i] == '<' && kept > 0 && is_blank(bytes->data[kept - 1]))
+        while (bytes->data[i] == '<' && kept > 0 && cs_xml_is_blank(bytes->data[kept - 1]))
             kept--;
         const int is_behind_tag = kept > 0 && bytes->data[kept - 1] == '>';
-        if (!is_behind_tag || !is_blank(bytes->data[i])) bytes->data[kept++] = bytes->data[i];
+        if (!is_behind_tag || !cs_xml_is_blank(bytes->data[i]))
+            bytes->data[kept++] = bytes->data[i];
     }
     bytes->size = kept;
     bytes->data[kept] = '\0';

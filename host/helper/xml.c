@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-static int is_blank(char letter)
+int cs_xml_is_blank(char letter)
 {
     return letter == ' ' || letter == '\t' || letter == '\r' || letter == '\n';
 }
@@ -33,7 +33,7 @@ int cs_xml_next(const char **at, cs_xml_tag *tag)
     tag->begin = begin;
     tag->closes = begin[1] == '/';
     const char *name = begin + 1 + tag->closes, *end = name;
-    while (*end != '\0' && *end != '>' && *end != '/' && !is_blank(*end))
+    while (*end != '\0' && *end != '>' && *end != '/' && !cs_xml_is_blank(*end))
         end++;
     tag->name = pass_prefix(name, end);
     tag->length = (size_t)(end - tag->name);
@@ -59,10 +59,10 @@ const char *cs_xml_value(const cs_xml_tag *tag, const char *name, size_t *length
 {
     const size_t wanted = strlen(name);
     for (const char *at = tag->attributes; at < tag->end;) {
-        while (at < tag->end && (is_blank(*at) || *at == '/'))
+        while (at < tag->end && (cs_xml_is_blank(*at) || *at == '/'))
             at++;
         const char *key = at;
-        while (at < tag->end && *at != '=' && !is_blank(*at))
+        while (at < tag->end && *at != '=' && !cs_xml_is_blank(*at))
             at++;
         const char *local = pass_prefix(key, at), *stop = at;
         while (at < tag->end && *at != '"' && *at != '\'')

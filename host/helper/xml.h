@@ -17,6 +17,9 @@ typedef struct cs_xml_tag {
 /* The next tag at `*at`, which moves on; 0 at the end. Comments and the like are passed over. */
 int cs_xml_next(const char **at, cs_xml_tag *tag);
 
+/* Whether a letter is white space as XML has it: a blank, a tab or an end of a line. */
+int cs_xml_is_blank(char letter);
+
 int cs_xml_is(const cs_xml_tag *tag, const char *name);
 
 /* The value of an attribute, whatever its prefix, and its `*length`; NULL where it has none. */

@@ -144,7 +144,7 @@ static void leave_out(obj_reader *reader, const char *key)
 }
 
 /* Lines that OBJ files have besides vertices and faces. */
-static int is_empty(const char *key)
+static int makes_no_surface(const char *key)
 {
     static const char *const keys[] = {"mtllib", "usemtl", "o", "g", "s", "vt", "vn", "vp"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
@@ -163,7 +163,7 @@ static int is_free_form(const char *key)
 static clshear_status read_line(obj_reader *reader, const char *key, char *at)
 {
     cs_model *model = reader->model;
-    if (model->positions.count == 0) reader->empty += (size_t)is_empty(key);
+    if (model->positions.count == 0) reader->without_surface += (size_t)makes_no_surface(key);
     if (strcasecmp(key, "v") == 0) return read_position(reader, at);
     if (strcasecmp(key, "vt") == 0) return read_attribute(reader, &model->textures, 1, 2, at);
     if (strcasecmp(key, "vn") == 0) return read_attribute(reader, &model->normals, 3, 3, at);
@@ -195,7 +195,7 @@ static clshear_status check(const obj_reader *reader)
     if (model->without_area > 0)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE,
                        "%s: holds points and lines only; export faces", path);
-    if (model->positions.count == 0 && reader->empty > 0)
+    if (model->positions.count == 0 && reader->without_surface > 0)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE, "%s: has no vertices and no faces", path);
     if (model->positions.count == 0)
         return cs_fail(reader->error, CLSHEAR_BAD_FILE,

@@ -19,7 +19,7 @@ typedef struct obj_reader {
     cs_array waiting;         /* obj_face: those that name what comes later */
     cs_array waiting_corners; /* cs_corner */
     size_t missing;           /* libraries that are not there */
-    size_t empty;             /* lines of OBJ files that make no surface */
+    size_t without_surface;   /* lines of OBJ files that make no surface */
     size_t free_form;         /* lines of curves and surfaces */
     size_t painted;           /* positions that #MRGB has coloured */
     size_t left_out;          /* lines that name more, and are not obeyed */
