@@ -7,18 +7,6 @@
 
 #include "clshear/device/hash.h"
 
-static int set_up(void **state)
-{
-    *state = test_context();
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    clshear_context_free(*state);
-    return 0;
-}
-
 static float number_at(cs_u32 key, cs_u32 index)
 {
     return (float)(cs_key(key, index) >> 8) * 0x1p-24f;
@@ -157,7 +145,6 @@ static clshear_scene *floor_and_panel(clshear_context *context, const char *pane
 {
     const unsigned char texels[16] = {[8] = 255, 255, 255, 128};
     char text[256];
-    clshear_scene *scene = NULL;
     material_picture("grey.tga", texels);
     snprintf(text, sizeof text, "newmtl floor\nKd 0.5 0.5 0.5\nnewmtl panel\nKd 0 0 0\n%s\n",
              panel);
@@ -168,14 +155,12 @@ static clshear_scene *floor_and_panel(clshear_context *context, const char *pane
                                "v -1 1 1\nv 1 1 1\nv 1 1 -1\nv -1 1 -1\n"
                                "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
                                "usemtl floor\nf 1 2 3 4\nusemtl panel\nf 5/1 6/2 7/3 8/4\n");
-    test_ok(clshear_scene_load(context, path, NULL, &scene));
-    return scene;
+    return test_load(context, path);
 }
 
 /* The same floor and a panel of emission 2 whose vertices fade across, by their colours' alpha. */
 static clshear_scene *floor_and_fading_panel(clshear_context *context)
 {
-    clshear_scene *scene = NULL;
     material_gltf_fading("{}"); /* its buffer */
     const char *path = test_file(
         "panel.gltf",
@@ -193,8 +178,7 @@ static clshear_scene *floor_and_fading_panel(clshear_context *context)
         "{\"bufferView\":0,\"byteOffset\":144,\"componentType\":5121,\"count\":6,"
         "\"type\":\"SCALAR\"},{\"bufferView\":0,\"byteOffset\":80,\"componentType\":5126,"
         "\"count\":4,\"type\":\"VEC4\"}]}");
-    test_ok(clshear_scene_load(context, path, NULL, &scene));
-    return scene;
+    return test_load(context, path);
 }
 
 /* What varies over a panel, by an image or by alpha, lights the floor as rays alone find it; with
@@ -271,5 +255,5 @@ int main(void)
         cmocka_unit_test(the_studio_looks_at_images),
         cmocka_unit_test(what_shines_chooses_the_sampler),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, test_open_context, test_close_context);
 }
