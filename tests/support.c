@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "clshear/device/sampler/sampler.h"
+#include "image/image_io.h"
 
 static char warnings[8192];
 static char shown[8192];
@@ -106,6 +107,26 @@ const char *test_file(const char *name, const char *text)
     return test_bytes(name, text, strlen(text));
 }
 
+void test_colours(const char *path, int width, int height, const float *texels)
+{
+    const char *const names[3] = {"R", "G", "B"};
+    const size_t count = (size_t)width * (size_t)height;
+    float *planes = malloc(3 * count * sizeof *planes);
+    const float *const list[3] = {planes, planes + count, planes + 2 * count};
+    const cs_picture picture = {.width = width,
+                                .height = height,
+                                .full_width = width,
+                                .full_height = height,
+                                .channel_count = 3,
+                                .names = names,
+                                .planes = list};
+    cs_error error;
+    for (size_t i = 0; i < 3 * count; i++)
+        planes[i % 3 * count + i / 3] = texels[i];
+    if (cs_image_write(path, &picture, &error) != CLSHEAR_OK) fail_msg("%s", error.message);
+    free(planes);
+}
+
 const char *test_warnings(void)
 {
     memcpy(shown, warnings, sizeof shown);
@@ -137,6 +158,33 @@ void test_set(clshear_settings *settings, clshear_setting setting, const char *f
 void test_set_number(clshear_settings *settings, clshear_setting setting, double value)
 {
     test_ok(clshear_settings_set_numbers(settings, setting, &value, 1));
+}
+
+clshear_status test_set_all(clshear_settings *settings, clshear_setting setting, size_t count,
+                            double value)
+{
+    enum {
+        MOST = 12
+    };
+    double numbers[MOST];
+    assert_in_range(count, 1, MOST);
+    for (size_t i = 0; i < count; i++)
+        numbers[i] = value;
+    return clshear_settings_set_numbers(settings, setting, numbers, count);
+}
+
+int test_open_settings(void **state)
+{
+    clshear_settings *settings = NULL;
+    test_ok(clshear_settings_create(&settings));
+    *state = settings;
+    return 0;
+}
+
+int test_close_settings(void **state)
+{
+    clshear_settings_free(*state);
+    return 0;
 }
 
 clshear_film *test_render(clshear_scene *scene, const clshear_settings *settings)

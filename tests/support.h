@@ -65,6 +65,9 @@ const char *test_path(const char *name);
 const char *test_bytes(const char *name, const void *bytes, size_t size);
 const char *test_file(const char *name, const char *text);
 
+/* Writes a picture of linear colours: three floats a texel, row by row from the top. */
+void test_colours(const char *path, int width, int height, const float *texels);
+
 /* Joined warnings since the last call, of contexts made by test_context. Owned by this file. */
 const char *test_warnings(void);
 
@@ -75,6 +78,14 @@ clshear_settings *test_settings(const clshear_settings *base, int width, int hei
 void test_set(clshear_settings *settings, clshear_setting setting, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void test_set_number(clshear_settings *settings, clshear_setting setting, double value);
+
+/* Sets a value of `count` numbers, all of them `value`. At most 12. Returns what became of it. */
+clshear_status test_set_all(clshear_settings *settings, clshear_setting setting, size_t count,
+                            double value);
+
+/* Settings without values as a fixture: cmocka opens and closes it; *state is the settings. */
+int test_open_settings(void **state);
+int test_close_settings(void **state);
 
 /* Renders. Errors fail the test. */
 clshear_film *test_render(clshear_scene *scene, const clshear_settings *settings);

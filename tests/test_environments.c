@@ -1,14 +1,9 @@
 /* Environments: even, and images around a scene, against closed forms and quadrature. */
 #include "support.h"
 
-#include <fcntl.h>
-#include <locale.h>
 #include <math.h>
-#include <stdio.h>
-#include <sys/stat.h>
 
 #include "clshear/device/hash.h"
-#include "image/image_io.h"
 #include "kernels/light/lat_long.h"
 #include "scene/environment.h"
 
@@ -206,95 +201,6 @@ static void sky_stands_on_what_is_up(void **state)
     clshear_scene_free(scene);
 }
 
-/* Writes an image around everything, of texels row by row, in three channels. */
-static void write_image(const char *path, const float *texels)
-{
-    static float planes[3][WIDTH * HEIGHT];
-    const char *const names[3] = {"R", "G", "B"};
-    const float *const list[3] = {planes[0], planes[1], planes[2]};
-    const cs_picture picture = {.width = WIDTH,
-                                .height = HEIGHT,
-                                .full_width = WIDTH,
-                                .full_height = HEIGHT,
-                                .channel_count = 3,
-                                .names = names,
-                                .planes = list};
-    cs_error error;
-    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
-        planes[i % 3][i / 3] = texels[i];
-    assert_int_equal(cs_image_write(path, &picture, &error), CLSHEAR_OK);
-}
-
-/* Writes one of one colour. Its size in the file is always the same. */
-static void write_even_image(const char *path, float value)
-{
-    float texels[3 * WIDTH * HEIGHT];
-    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
-        texels[i] = value;
-    write_image(path, texels);
-}
-
-static double sky_of(clshear_scene *scene, const char *path, double strength)
-{
-    clshear_settings *settings = test_looking_down(0.0, 16);
-    test_set(settings, CLSHEAR_TARGET, "0,2,0");
-    test_set(settings, CLSHEAR_ENVIRONMENT, "%s", path);
-    test_set_number(settings, CLSHEAR_ENVIRONMENT_STRENGTH, strength);
-    return mean_of_render(scene, settings).mean;
-}
-
-/* A file that is gone is an error, and one that has changed is read again; one that cannot be told
- * from what was read, since its times and its size were put back, is not. */
-static void environment_files_are_kept(void **state)
-{
-    const char *path = test_path("kept.exr");
-    struct stat before;
-    FILE *file;
-    clshear_scene *scene = test_floor(*state, 1.0f, 0.5f);
-    write_even_image(path, 0.25f);
-    assert_near(sky_of(scene, path, 1.0), 0.25, 1e-6);
-    assert_int_equal(stat(path, &before), 0);
-    file = fopen(path, "r+");
-    assert_non_null(file);
-    assert_int_equal(fputs("no image", file) < 0, 0);
-    assert_int_equal(fclose(file), 0);
-    const struct timespec times[2] = {before.st_atim, before.st_mtim};
-    assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
-    assert_near(sky_of(scene, path, 2.0), 0.5, 1e-6);
-    write_even_image(path, 0.75f);
-    assert_near(sky_of(scene, path, 1.0), 0.75, 1e-6);
-    assert_int_equal(remove(path), 0);
-    clshear_settings *settings = test_looking_down(0.0, 16);
-    clshear_film *film = NULL;
-    test_set(settings, CLSHEAR_ENVIRONMENT, "%s", path);
-    test_refused(clshear_render(scene, settings, &film), CLSHEAR_BAD_FILE, "kept.exr");
-    clshear_settings_free(settings);
-    clshear_scene_free(scene);
-}
-
-/* Environments as text, and numbers in messages, have decimal points in a program whose locale has
- * commas. Skipped where no such locale is installed. */
-static void environments_know_no_locale(void **state)
-{
-    clshear_scene *scene = test_floor(*state, 1.0f, 0.5f);
-    if (setlocale(LC_ALL, "de_DE.UTF-8") == NULL) {
-        clshear_scene_free(scene);
-        skip();
-    }
-    assert_near(sky_of(scene, "0.25,0.25, 0.25", 1.0), 0.25, 1e-6);
-    assert_near(sky_of(scene, "gradient:0.5,0.5,0.5,0.5,0.5,0.5", 1.0), 0.5, 1e-6);
-    clshear_settings *settings = test_looking_down(0.0, 16);
-    clshear_film *film = NULL;
-    test_set(settings, CLSHEAR_ENVIRONMENT, "0,25");
-    test_refused(clshear_render(scene, settings, &film), CLSHEAR_BAD_FILE, "neither R,G,B");
-    test_set(settings, CLSHEAR_ENVIRONMENT, "0.5,0.5,0.5");
-    test_set(settings, CLSHEAR_SHUTTER_RAMPS, "0.75,0.5");
-    test_refused(clshear_render(scene, settings, &film), CLSHEAR_BAD_ARGUMENT, "0.75,0.5");
-    setlocale(LC_ALL, "C");
-    clshear_settings_free(settings);
-    clshear_scene_free(scene);
-}
-
 /* Mean, over ways that a surface can face, of the second moments that radiance times cosine by
  * density has: directions by the cosine, and by luminance. */
 static void second_moments(const cs_lat_long *image, double *by_cosine, double *by_luminance)
@@ -369,7 +275,7 @@ static void image_lights_a_floor(clshear_context *context, float brightest)
     const cs_lat_long image = cs_lat_long_of(&made.light, made.image.items);
     double irradiance = 0.0;
     fill_image(brightest, texels);
-    write_image(path, texels);
+    test_colours(path, WIDTH, HEIGHT, texels);
     for (int i = 0; i < STEPS * STEPS;
          i++) { /* uniform in the square of the sine: cosine-weighted */
         const double s = (i / STEPS + 0.5) / STEPS, a = (i % STEPS + 0.5) / STEPS * 2.0 * pi;
@@ -409,8 +315,6 @@ int main(void)
         cmocka_unit_test(texels_are_where_they_should_be),
         cmocka_unit_test(directions_follow_their_density),
         cmocka_unit_test(sky_stands_on_what_is_up),
-        cmocka_unit_test(environment_files_are_kept),
-        cmocka_unit_test(environments_know_no_locale),
         cmocka_unit_test(cells_are_for_uneven_images),
         cmocka_unit_test(image_around_a_floor),
     };

@@ -302,74 +302,6 @@ static void packed_files(void **state)
     }
 }
 
-/* Streams leave the count open. */
-static void stl_without_a_count(void **state)
-{
-    (void)state;
-    for (int bits = 0; bits < 2; bits++) {
-        unsigned char bytes[84 + 50] = "stream";
-        const float corners[9] = {0, 0, 0, 4, 0, 0, 0, 2, 0};
-        memset(bytes + 80, bits ? 0xff : 0, 4);
-        memcpy(bytes + 84 + 12, corners, sizeof corners);
-        cs_scene scene = import_load(test_bytes("stream.stl", bytes, sizeof bytes));
-        import_warned("does not say how many triangles it has; 1 fit");
-        assert_true(fabs(import_area(&scene) - 4.0) < 1e-6);
-        cs_scene_free(&scene);
-    }
-}
-
-/* Each face of a PLY file has the texture that its number says, -1 for none. */
-static void textures_of_ply_faces(void **state)
-{
-    (void)state;
-    import_picture("one.ppm");
-    import_picture("two.ppm");
-    cs_scene scene = import_text(
-        "textures.ply",
-        "ply\nformat ascii 1.0\ncomment TextureFile one.ppm\ncomment TextureFile two.ppm\n"
-        "element vertex 4\n" XYZ "property float texture_s\nproperty float texture_t\n"
-        "element face 3\n" LIST "property int texnumber\nend_header\n"
-        "-1 -1 0 0 0\n1 -1 0 1 0\n1 1 0 1 1\n-1 1 0 0 1\n3 0 1 2 1\n3 0 2 3 0\n3 0 1 3 -1\n");
-    assert_int_equal(import_material(&scene, 0)->texture, 1);
-    assert_int_equal(import_material(&scene, 1)->texture, 0);
-    assert_int_equal(import_material(&scene, 2)->texture, CS_NO_TEXTURE);
-    assert_string_equal(import_warnings, "");
-    cs_scene_free(&scene);
-}
-
-/* tx and ty are texture coordinates of some programs, and with tz the tangents of others. Of two
- * sets the first one counts. */
-static void texture_coordinates_of_ply(void **state)
-{
-    static const struct {
-        const char *properties;
-        const char *numbers; /* of each vertex */
-        int is_there;
-    } table[] = {{"s t tx ty tz", "3 4 1 0 0", 1}, {"tx ty tz s t", "1 0 0 3 4", 1},
-                 {"tx ty s t", "1 0 3 4", 1},      {"tx ty", "3 4", 1},
-                 {"tx ty tz", "1 0 0", 0},         {"u v texture_u texture_v", "3 4 7 8", 1}};
-    (void)state;
-    import_picture("one.ppm");
-    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
-        char text[1024] =
-            "ply\nformat ascii 1.0\ncomment TextureFile one.ppm\nelement vertex 4\n" XYZ;
-        char names[64], *rest = names;
-        snprintf(names, sizeof names, "%s", table[i].properties);
-        for (char *name = strtok_r(names, " ", &rest); name; name = strtok_r(NULL, " ", &rest))
-            snprintf(text + strlen(text), sizeof text - strlen(text), "property float %s\n", name);
-        strcat(text, "element face 1\n" LIST "end_header\n");
-        for (int k = 0; k < 4; k++)
-            snprintf(text + strlen(text), sizeof text - strlen(text), "%d %d 0 %s\n",
-                     k == 1 || k == 2 ? 1 : -1, k > 1 ? 1 : -1, table[i].numbers);
-        strcat(text, "4 0 1 2 3\n");
-        cs_scene scene = import_text("coordinates.ply", text);
-        assert_int_equal(*(const uint8_t *)scene.triangle_flags.items & CS_FACE_TEXTURED,
-                         table[i].is_there ? CS_FACE_TEXTURED : 0);
-        if (table[i].is_there) expect_st(&scene, 0, 3, 4);
-        cs_scene_free(&scene);
-    }
-}
-
 static void long_names_of_materials(void **state)
 {
     char mtl[512], obj[512], name[140];
@@ -383,43 +315,6 @@ static void long_names_of_materials(void **state)
     cs_scene scene = import_text("long.obj", obj);
     expect_close(import_material(&scene, 0)->diffuse, 1, 0, 0);
     expect_close(import_material(&scene, 1)->diffuse, 0, 1, 0);
-    cs_scene_free(&scene);
-}
-
-/* Remarks may have any length; other lines of a head may not. */
-static void long_remarks_of_ply(void **state)
-{
-    char remark[1024], text[4096];
-    (void)state;
-    memset(remark, 'x', sizeof remark - 1);
-    remark[sizeof remark - 1] = '\0';
-    snprintf(text, sizeof text,
-             "ply\ncomment %s\nobj_info %s\nformat ascii 1.0\nelement vertex 4\n" XYZ
-             "element face 1\n" LIST "end_header\n" POINTS "4 0 1 2 3\n",
-             remark, remark);
-    cs_scene scene = import_text("long.ply", text);
-    assert_int_equal(scene.triangle_flags.count, 2);
-    cs_scene_free(&scene);
-    snprintf(text, sizeof text, "ply\nformat %s\n", remark);
-    import_refused(test_file("long.ply", text), "long.ply:2: the head has a line of more than 511");
-}
-
-/* Returns alone end the lines of the head, and the first number begins with a line feed. */
-static void ply_with_returns_alone(void **state)
-{
-    static const char head[] = "ply\rformat binary_little_endian 1.0\relement vertex 3\r"
-                               "property float x\rproperty float y\rproperty float z\r"
-                               "element face 1\rproperty list uchar uchar vertex_indices\r"
-                               "end_header\r";
-    const float positions[9] = {0, 0, 0, 4, 0, 0, 0, 2, 0};
-    unsigned char bytes[512];
-    (void)state;
-    memcpy(bytes, head, sizeof head - 1);
-    memcpy(bytes + sizeof head - 1, positions, sizeof positions);
-    bytes[sizeof head - 1] = '\n';
-    memcpy(bytes + sizeof head - 1 + sizeof positions, "\3\0\1\2", 4);
-    cs_scene scene = import_load(test_bytes("mac.ply", bytes, sizeof head + 3 + sizeof positions));
-    assert_true(fabs(import_area(&scene) - 4.0) < 1e-6);
     cs_scene_free(&scene);
 }
 
@@ -440,12 +335,7 @@ int main(void)
         cmocka_unit_test(refusals_name_the_remedy),
         cmocka_unit_test(colours_below_0),
         cmocka_unit_test(packed_files),
-        cmocka_unit_test(stl_without_a_count),
-        cmocka_unit_test(textures_of_ply_faces),
-        cmocka_unit_test(texture_coordinates_of_ply),
         cmocka_unit_test(long_names_of_materials),
-        cmocka_unit_test(long_remarks_of_ply),
-        cmocka_unit_test(ply_with_returns_alone),
         cmocka_unit_test(controls_do_not_reach_terminals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

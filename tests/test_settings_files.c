@@ -6,20 +6,6 @@
 
 #include "clshear/analysis.h"
 
-static int open_settings(void **state)
-{
-    clshear_settings *settings = NULL;
-    test_ok(clshear_settings_create(&settings));
-    *state = settings;
-    return 0;
-}
-
-static int close_settings(void **state)
-{
-    clshear_settings_free(*state);
-    return 0;
-}
-
 static int take_other(void *user, const char *file, int line, const char *name, const char *value)
 {
     char *seen = user;
@@ -123,7 +109,8 @@ static void apertures_are_checked(void **state)
 
 int main(void)
 {
-#define WITH_SETTINGS(test) cmocka_unit_test_setup_teardown(test, open_settings, close_settings)
+#define WITH_SETTINGS(test) \
+    cmocka_unit_test_setup_teardown(test, test_open_settings, test_close_settings)
     const struct CMUnitTest tests[] = {
         WITH_SETTINGS(files_are_read),
         WITH_SETTINGS(errors_in_files_have_a_place),
