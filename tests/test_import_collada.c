@@ -208,23 +208,34 @@ static void opacity(void **state)
     import_warned("the opacity 0 of 1 material is taken as opaque");
 }
 
-/* The alpha of vertices' colours, which Collada's materials do not ask for. */
-static void alpha_of_vertices(void **state)
+/* The file with colours of its vertices, the last of this alpha, before their positions or behind.
+ */
+static const char *coloured_file(const char *alpha, int is_before)
 {
-    static const char position[] = "<vertices id='v'><input semantic='POSITION' source='#p'/>";
-    char text[4096];
+    static const char head[] = "<vertices id='v'>",
+                      colour[] = "<input semantic='COLOR' source='#c'/>";
+    static const char position[] = "<input semantic='POSITION' source='#p'/>";
+    char text[2048], plain[128];
+    snprintf(plain, sizeof plain, "%s%s", head, position);
+    snprintf(text, sizeof text,
+             "<source id='c'><float_array id='c-a' count='12'>1 0 0 1 1 0 0 1 1 0 0 %s"
+             "</float_array><technique_common><accessor source='#c-a' count='3' stride='4'>"
+             "<param name='R' type='float'/><param name='G' type='float'/><param name='B' "
+             "type='float'/><param name='A' type='float'/></accessor></technique_common>"
+             "</source>%s%s%s",
+             alpha, head, is_before ? colour : position, is_before ? position : colour);
+    return file_with(plain, text);
+}
+
+/* The alpha of vertices' colours, which Collada's materials do not ask for. */
+static void colours_of_vertices(void **state)
+{
     (void)state;
-    for (int fades = 0; fades < 2; fades++) {
-        snprintf(text, sizeof text,
-                 "<source id='c'><float_array id='c-a' count='12'>1 0 0 1 1 0 0 1 1 0 0 %s"
-                 "</float_array><technique_common><accessor source='#c-a' count='3' stride='4'>"
-                 "<param name='R' type='float'/><param name='G' type='float'/><param name='B' "
-                 "type='float'/><param name='A' type='float'/></accessor></technique_common>"
-                 "</source>%s<input semantic='COLOR' source='#c'/>",
-                 fades ? "0.5" : "1", position);
-        cs_scene scene = load(file_with(position, text));
+    for (int kind = 0; kind < 4; kind++) {
+        cs_scene scene = load(coloured_file(kind < 2 ? "0.5" : "1", kind & 1));
         expect_close(import_colour(&scene, 0, 0), 1, 0, 0);
-        if (fades)
+        expect_close(import_position(&scene, 0, 1), 1, 0, 0);
+        if (kind < 2)
             import_warned("the alpha of its vertices is not used; set the material's opacity");
         else
             assert_string_equal(import_warnings, "");
@@ -375,7 +386,7 @@ int main(void)
         cmocka_unit_test(skins_as_bound),
         cmocka_unit_test(opacity),
         cmocka_unit_test(sets_of_coordinates),
-        cmocka_unit_test(alpha_of_vertices),
+        cmocka_unit_test(colours_of_vertices),
         cmocka_unit_test(utf_16),
         cmocka_unit_test(cameras_show_what_they_say),
     };

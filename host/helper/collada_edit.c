@@ -26,9 +26,10 @@ typedef struct editing {
     cs_array text;      /* char: the new one */
     const char *copied; /* up to here the old text is in the new one, or left out */
     cs_array controllers;
-    int is_full;     /* memory ran out */
-    int in_holes;    /* within <ph> */
-    int is_instance; /* within an instance of a controller, which becomes one of its mesh */
+    int is_full;       /* memory ran out */
+    int in_holes;      /* within <ph> */
+    int is_instance;   /* within an instance of a controller, which becomes one of its mesh */
+    const char *moved; /* a tag that is in the new text already; or NULL */
     cs_collada_losses lost;
 } editing;
 
@@ -184,6 +185,24 @@ static void edit_skew(editing *edit, const cs_xml_tag *tag, const char **at)
     put(edit, end_of_matrix, sizeof end_of_matrix - 1);
 }
 
+/* Puts the positions before what else vertices have: Assimp asks for too much memory where they
+ * follow. */
+static void edit_vertices(editing *edit, const char *at)
+{
+    const char *inside = at, *first = NULL;
+    cs_xml_tag tag;
+    while (cs_xml_next(&inside, &tag) && cs_xml_is(&tag, "input") && tag.is_empty) {
+        const part semantic = value_of(&tag, "semantic");
+        if (first == NULL) first = tag.begin;
+        if (semantic.length != 8 || memcmp(semantic.at, "POSITION", 8) != 0) continue;
+        if (first == tag.begin) return;
+        copy(edit, at, at);
+        put(edit, tag.begin, (size_t)(inside - tag.begin));
+        edit->moved = tag.begin;
+        return;
+    }
+}
+
 static void edit_end(editing *edit, const cs_xml_tag *tag, const char *at)
 {
     if (cs_xml_is(tag, "ph")) {
@@ -209,6 +228,10 @@ static void edit_tag(editing *edit, const cs_xml_tag *tag, const char **at)
         edit->in_holes = 1;
     } else if (cs_xml_is(tag, "h") && edit->in_holes) {
         edit->lost.holes += (size_t)leave_out(edit, tag, "</h>", at);
+    } else if (tag->begin == edit->moved) {
+        copy(edit, tag->begin, *at);
+    } else if (cs_xml_is(tag, "vertices") && !tag->is_empty) {
+        edit_vertices(edit, *at);
     } else if (cs_xml_is(tag, "skew")) {
         edit_skew(edit, tag, at);
     } else if (cs_xml_is(tag, "library_controllers")) {
