@@ -3,14 +3,20 @@
 #include <math.h>
 #include <stdio.h>
 
-/* What the remarks are made from. */
-typedef struct survey {
+/* Pixels and what is known of them. */
+typedef struct part {
     size_t pixels;
     size_t lit;     /* pixels above 0 */
     size_t clipped; /* pixels whose three channels are above white */
-    size_t met;     /* pixels that see the scene */
-    float blur_px;  /* the widest circle of confusion */
     double log_sum; /* of the binary logarithms of the lit pixels' green */
+} part;
+
+/* What the remarks are made from. */
+typedef struct survey {
+    part all;
+    part scene;     /* pixels that see it */
+    size_t visible; /* pixels that are not nearly black */
+    float blur_px;  /* the widest circle of confusion */
 } survey;
 
 /* What files of 8 and 16 bits show as white, by the settings of the exposure; infinite if they
@@ -24,28 +30,38 @@ static float white_of(const clshear_settings *settings)
     return is_auto ? INFINITY : (float)exp2(-exposure);
 }
 
+/* Of white: the sRGB curve makes a twentieth of it. */
+#define FAINT 0.004f
+
+static void count(part *part, const float colour[3], float white)
+{
+    part->pixels++;
+    part->lit += colour[0] > 0.0f || colour[1] > 0.0f || colour[2] > 0.0f;
+    part->clipped += colour[0] > white && colour[1] > white && colour[2] > white;
+    if (colour[1] > 0.0f) part->log_sum += log2((double)colour[1]);
+}
+
 static survey look_at(const clshear_film *film, size_t pixels, float white)
 {
     const float *red = clshear_film_channel(film, "R"), *green = clshear_film_channel(film, "G");
     const float *blue = clshear_film_channel(film, "B"), *depth = clshear_film_channel(film, "Z");
     const float *blur = clshear_film_channel(film, "CoC");
-    survey found = {.pixels = pixels};
-    if (red == NULL || green == NULL || blue == NULL || depth == NULL || blur == NULL)
-        return (survey){0};
+    survey found = {0};
+    if (red == NULL || green == NULL || blue == NULL || depth == NULL || blur == NULL) return found;
     for (size_t i = 0; i < pixels; i++) {
-        found.lit += red[i] > 0.0f || green[i] > 0.0f || blue[i] > 0.0f;
-        found.clipped += red[i] > white && green[i] > white && blue[i] > white;
-        if (green[i] > 0.0f) found.log_sum += log2((double)green[i]);
-        found.met += isfinite(depth[i]);
+        const float colour[3] = {red[i], green[i], blue[i]};
+        count(&found.all, colour, white);
+        if (isfinite(depth[i])) count(&found.scene, colour, white);
+        found.visible += fmaxf(colour[0], fmaxf(colour[1], colour[2])) > FAINT * white;
         if (isfinite(depth[i])) found.blur_px = fmaxf(found.blur_px, blur[i]);
     }
     return found;
 }
 
 /* The exposure, in whole stops, that makes the log-average middle grey. */
-static int fitting_exposure(const survey *found)
+static int fitting_exposure(const part *part)
 {
-    return (int)floor(log2(0.18) - found->log_sum / (double)found->lit);
+    return (int)floor(log2(0.18) - part->log_sum / (double)part->lit);
 }
 
 /* Says where the camera sees nothing of the scene, or next to nothing: it is too far away, or looks
@@ -56,37 +72,52 @@ static int remark_on_view(const survey *found, const clshear_film_info *info)
     static const char help[] = "--orbit 0,0 frames it from its front, --eye and --target aim the "
                                "camera, --fov narrows its view";
     const int is_whole = info->width == info->full_width && info->height == info->full_height;
-    const int is_dark = 2 * found->lit < found->pixels;
-    if (found->met == 0 && found->lit == 0)
+    const int is_dark = 2 * found->all.lit < found->all.pixels;
+    if (found->scene.pixels == 0 && found->all.lit == 0)
         fprintf(stderr, "clshear: the picture is black: the camera does not see the scene; %s\n",
                 help);
-    else if (is_whole && found->met == 0 && !is_dark)
+    else if (is_whole && found->scene.pixels == 0 && !is_dark)
         fprintf(stderr, "clshear: the camera does not see the scene, only what is around it; %s\n",
                 help);
-    else if (is_whole && 1000 * found->met < found->pixels)
+    else if (is_whole && 1000 * found->scene.pixels < found->all.pixels)
         fprintf(stderr, "clshear: the scene fills less than a thousandth of the picture%s; %s\n",
                 is_dark ? ", the rest is black" : "", help);
-    return found->met == 0 && found->lit == 0;
+    return found->scene.pixels == 0 && found->all.lit == 0;
+}
+
+/* Says where most of the picture is white, or of the scene before a dark background, and where
+ * hardly anything of the scene is not nearly black. */
+static void remark_on_exposure(const survey *found, float white)
+{
+    const int is_all = 2 * found->all.clipped > found->all.pixels;
+    const part *bright = is_all ? &found->all : &found->scene;
+    if (2 * bright->clipped > bright->pixels)
+        fprintf(stderr,
+                "clshear: %.0f %% of the %s is brighter than white in all but .exr; --exposure %d "
+                "or --auto-exposure darkens it, weaker light (an environment by "
+                "--environment-strength) the .exr too\n",
+                100.0 * (double)bright->clipped / (double)bright->pixels,
+                is_all ? "picture" : "scene", fitting_exposure(bright));
+    if (found->all.lit > 0 && isfinite(white) && 1000 * found->scene.pixels >= found->all.pixels &&
+        1000 * found->visible < found->all.pixels)
+        fprintf(stderr,
+                "clshear: the picture is nearly black in all but .exr; --exposure %d or "
+                "--auto-exposure brightens it, stronger light the .exr too\n",
+                fitting_exposure(&found->all));
 }
 
 void remark_on_picture(const clshear_film *film, const clshear_settings *settings, int has_lens)
 {
     clshear_film_info info = {.struct_size = sizeof info};
     clshear_film_describe(film, &info);
-    const survey found =
-        look_at(film, (size_t)info.width * (size_t)info.height, white_of(settings));
-    if (found.pixels == 0) return;
-    if (!remark_on_view(&found, &info) && found.lit == 0)
+    const float white = white_of(settings);
+    const survey found = look_at(film, (size_t)info.width * (size_t)info.height, white);
+    if (found.all.pixels == 0) return;
+    if (!remark_on_view(&found, &info) && found.all.lit == 0)
         fprintf(stderr, "clshear: the picture is black: no light reaches what it shows; "
                         "--environment 1,1,1 adds light from all around\n");
-    if (2 * found.clipped > found.pixels)
-        fprintf(
-            stderr,
-            "clshear: %.0f %% of the picture is brighter than white in all but .exr; --exposure "
-            "%d or --auto-exposure darkens it, weaker light (an environment by "
-            "--environment-strength) the .exr too\n",
-            100.0 * (double)found.clipped / (double)found.pixels, fitting_exposure(&found));
-    if (has_lens && found.met > 0 && found.blur_px < 1.0f)
+    remark_on_exposure(&found, white);
+    if (has_lens && found.scene.pixels > 0 && found.blur_px < 1.0f)
         fprintf(stderr,
                 "clshear: everything is in focus, blurred by %.2g px at most; a larger "
                 "--lens-radius blurs more (with --fstop: check --unit)\n",

@@ -1,0 +1,110 @@
+"""Compares pictures of model files with those of Cycles, Blender's renderer: a row of a table each.
+
+Each program reads the file by itself, so that what the format means is compared: materials,
+textures and their coordinates, normals, nodes. An even white sky, a pinhole, the camera that
+clshear chooses. Blender reads OBJ, glTF, Collada, FBX, PLY and STL. Its surfaces are not those of
+glTF and MTL, so that means differ by some per cent; *look* marks those that differ by more than a
+twentieth. scripts/agreement --models runs it.
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import mitsuba as mi
+
+mi.set_variant("scalar_rgb")
+
+import numpy as np
+
+from agree import ROOT
+
+MOST_APART = 0.05
+BLOCKS = 8  # along each side of the picture
+
+
+def planes_of(path):
+    bitmap = mi.Bitmap(str(path))
+    planes = np.moveaxis(np.array(bitmap, dtype=np.float64), -1, 0)
+    channels = {field.name: plane for field, plane in zip(bitmap.struct_(), planes)}
+    return np.stack([channels[colour] for colour in "RGB"], axis=-1), bitmap.metadata()
+
+
+def of_clshear(options, model, picture):
+    """The picture, and the camera that was chosen."""
+    subprocess.run([options.program, model, "--environment", "1,1,1", "--lens-radius", "0",
+                    "--width", str(options.size), "--height", str(options.size), "--spp",
+                    str(options.spp), "--quiet", "--out", picture], check=True)
+    image, metadata = planes_of(picture)
+    camera = {name: [float(number) for number in str(metadata[f"clshear.{name}"]).split(",")]
+              for name in ("eye", "target", "up")}
+    return image, dict(camera, fov=float(metadata["clshear.fov"]))
+
+
+def of_cycles(options, model, camera, picture):
+    given = {"model": str(model.resolve()), "camera": camera, "size": options.size,
+             "spp": options.spp, "picture": str(picture)}
+    words = picture.with_suffix(".json")
+    words.write_text(json.dumps(given))
+    script = pathlib.Path(__file__).with_name("models_cycles.py")
+    subprocess.run([options.blender, "-b", "--factory-startup", "--python-exit-code", "1",
+                    "--python", script, "--", words], check=True, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
+    return planes_of(picture)[0]
+
+
+def blocks(image):
+    """Means over square parts of the picture."""
+    side = len(image) // BLOCKS
+    return image.reshape(BLOCKS, side, BLOCKS, side, 3).mean(axis=(1, 3))
+
+
+def row(model, ours, theirs):
+    apart = abs(blocks(ours) - blocks(theirs)).max()
+    ratio = ours.mean() / theirs.mean()
+    print(f"| {model.name} | {ours.mean():.4f} | {theirs.mean():.4f} | {ratio:.3f} | "
+          f"{apart:.2f} | {'look' if abs(ratio - 1) > MOST_APART else ''} |", flush=True)
+
+
+def keep(folder, model, ours, theirs):
+    """Both pictures beside each other."""
+    pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
+    both = np.concatenate([ours, theirs], axis=1).astype(np.float32)
+    mi.Bitmap(both).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.UInt8, True).write(
+        str(pathlib.Path(folder) / f"{model.name}.png"))
+
+
+def main():
+    """Exits with 1 if a program cannot read a file."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("models", nargs="+", type=pathlib.Path, metavar="FILE")
+    parser.add_argument("--size", type=int, default=128, help=f"pixels along a side, {BLOCKS} times N")
+    parser.add_argument("--spp", type=int, default=64)
+    parser.add_argument("--keep", help="folder for pictures of both, side by side")
+    parser.add_argument("--blender", default="blender")
+    parser.add_argument("--program", default=str(ROOT / "build" / "clshear"))
+    options = parser.parse_args()
+    failed = 0
+    print("| model | mean of clshear | of Cycles | ratio | largest difference of a block | |")
+    print("|---|---|---|---|---|---|", flush=True)
+    for model in options.models:
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            try:
+                ours, camera = of_clshear(options, model, folder / "ours.exr")
+                theirs = of_cycles(options, model, camera, folder / "theirs.exr")
+            except subprocess.CalledProcessError as error:
+                print(f"| {model.name} | {pathlib.Path(error.cmd[0]).name} failed | | | | |",
+                      flush=True)
+                failed += 1
+                continue
+        row(model, ours, theirs)
+        if options.keep:
+            keep(options.keep, model, ours, theirs)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

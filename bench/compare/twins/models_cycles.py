@@ -1,0 +1,96 @@
+"""Renders a model file with Cycles, in Blender, for models.py:
+blender -b --factory-startup --python models_cycles.py -- JOB.json
+
+Lights and cameras of the file are left out; an even white sky lights it.
+"""
+import json
+import math
+import pathlib
+import sys
+
+import bpy
+import numpy
+from mathutils import Matrix, Vector
+
+# Blender 3.4's importer of glTF uses names that newer versions of numpy do not have.
+for name, kind in (("bool", bool), ("int", int), ("float", float)):
+    if name not in numpy.__dict__:
+        setattr(numpy, name, kind)
+
+CENTIMETRES = 0.01  # Blender reads the units of FBX as these
+
+
+def read(path):
+    """Reads the model; returns what turns clshear's coordinates, the file's, into Blender's."""
+    turned = Matrix.Rotation(math.radians(90), 4, "X")  # +Y up becomes +Z up
+    kind = path.suffix.lower()
+    if kind in (".gltf", ".glb"):
+        bpy.ops.import_scene.gltf(filepath=str(path))
+        return turned
+    if kind == ".obj":
+        bpy.ops.wm.obj_import(filepath=str(path))
+        return turned
+    if kind == ".fbx":
+        bpy.ops.import_scene.fbx(filepath=str(path))
+        return Matrix.Scale(CENTIMETRES, 4) @ turned
+    if kind == ".dae":
+        bpy.ops.wm.collada_import(filepath=str(path))
+        return Matrix.Identity(4) if b"Z_UP" in path.read_bytes() else turned
+    if kind == ".ply":
+        bpy.ops.import_mesh.ply(filepath=str(path))
+        return Matrix.Identity(4)
+    if kind == ".stl":
+        bpy.ops.import_mesh.stl(filepath=str(path))
+        return Matrix.Identity(4)
+    sys.exit(f"{path}: Blender has no importer for this kind")
+
+
+def add_camera(given, turn):
+    eye, target = (turn @ Vector(given[name]) for name in ("eye", "target"))
+    back = (eye - target).normalized()
+    right = (turn.to_3x3() @ Vector(given["up"])).cross(back).normalized()
+    camera = bpy.data.cameras.new("camera")
+    camera.sensor_fit = "HORIZONTAL"
+    camera.angle = math.radians(given["fov"])
+    camera.clip_start, camera.clip_end = 1e-3 * (eye - target).length, 1e3 * (eye - target).length
+    thing = bpy.data.objects.new("camera", camera)
+    frame = Matrix((right, back.cross(right), back)).transposed().to_4x4()
+    frame.translation = eye
+    thing.matrix_world = frame
+    bpy.context.collection.objects.link(thing)
+    bpy.context.scene.camera = thing
+
+
+def set_up(given):
+    scene = bpy.context.scene
+    scene.world = bpy.data.worlds.new("white")
+    scene.world.use_nodes = True
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (1, 1, 1, 1)
+    render, cycles = scene.render, scene.cycles
+    render.engine = "CYCLES"
+    render.resolution_x = render.resolution_y = given["size"]
+    render.resolution_percentage = 100
+    render.image_settings.file_format = "OPEN_EXR"
+    render.image_settings.color_depth = "32"
+    render.image_settings.color_mode = "RGB"
+    render.filepath = given["picture"]
+    cycles.samples, cycles.use_adaptive_sampling, cycles.use_denoising = given["spp"], False, False
+    cycles.pixel_filter_type = "BOX"
+    cycles.max_bounces, cycles.transparent_max_bounces = 8, 64
+    cycles.sample_clamp_indirect = 0.0
+
+
+def main():
+    given = json.loads(pathlib.Path(sys.argv[sys.argv.index("--") + 1]).read_text())
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    turn = read(pathlib.Path(given["model"]))
+    for thing in list(bpy.context.scene.objects):
+        if thing.type in ("LIGHT", "CAMERA"):
+            bpy.data.objects.remove(thing)
+    set_up(given)
+    add_camera(given["camera"], turn)
+    bpy.context.scene.frame_set(1)
+    bpy.ops.render.render(write_still=True)
+
+
+main()
