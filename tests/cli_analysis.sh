@@ -35,6 +35,8 @@ expect 0 "0.25 0.5" -- points --in long.txt --out -
 case $output in *"0.5 0.75"*) ;; *) wrong "points behind a long remark: $output" ;; esac
 printf '0.1 0.2\n# a byte\0 0\n0.3 0.4\n' >zero.txt
 expect 1 "zero.txt:2: this is no line of text, or has more than 4095 bytes" -- points --in zero.txt --out -
+printf '0.5 0.5\n0.1 0.2\0 0.3' >last.txt
+expect 1 "last.txt:2: this is no line of text" -- points --in last.txt --out -
 printf '0.1 0.2\n# the end' >end.txt
 expect 0 "0.1" -- points --in end.txt --out -
 expect 0 "predicted as isotropic," -- predict --integrand step --sampler nrooks --n 16 --sets 50 --measure 50

@@ -204,7 +204,7 @@ else
     replaced 65534:65533 654 "65534:65534 644" "${other[@]}" --clear-groups
     replaced 65534:65533 640 "65534:65533 640" "${other[@]}" --groups 65533
     replaced 0:65533 660 "65534:65533 660" "${other[@]}" --groups 65533
-    replaced 0:65533 606 "65534:65534 666" "${other[@]}" --clear-groups
+    replaced 0:65533 606 "65534:65534 600" "${other[@]}" --clear-groups
 fi
 
 # A full disk: one line, exit 1, the old picture untouched and nothing left behind.

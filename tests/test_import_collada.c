@@ -144,9 +144,10 @@ static void skews(void **state)
     expect_close(import_position(&scene, 0, 2), 0, 1, 5);
     assert_string_equal(import_warnings, "");
     cs_scene_free(&scene);
-    scene = skewed("<skew/><skew>45 0 0 0 1 0 0</skew><skew>45 0 1 0</skew>");
+    scene = skewed(
+        "<skew/><skew>45 0 0 0 1 0 0</skew><skew>45 0 1 0</skew ><skew>90 0 1 0 1 0 0</skew>");
     expect_close(import_position(&scene, 0, 2), 0, 1, 5);
-    import_warned("3 skews without an angle and two axes; left out");
+    import_warned("4 skews without an angle below 90 degrees and two axes; left out");
     cs_scene_free(&scene);
 }
 
@@ -236,7 +237,8 @@ static void colours_of_vertices(void **state)
         expect_close(import_colour(&scene, 0, 0), 1, 0, 0);
         expect_close(import_position(&scene, 0, 1), 1, 0, 0);
         if (kind < 2)
-            import_warned("the alpha of its vertices is not used; set the material's opacity");
+            import_warned(
+                "the alpha of its vertices is not used; export glTF, whose materials use it");
         else
             assert_string_equal(import_warnings, "");
         cs_scene_free(&scene);
@@ -373,6 +375,13 @@ static void sets_of_coordinates(void **state)
         expect_set(pairs[i], "", -1, 1, 0);
         expect_set(pairs[i], "", 13, 0, 1); /* no such set: the one before it */
     }
+    cs_scene scene = load(file_with("<library_visual_scenes>",
+                                    "<bind_vertex_input semantic='U' input_semantic='TEXCOORD' "
+                                    "input_set='0'/><bind_vertex_input semantic='U' "
+                                    "input_semantic='TEXCOORD' input_set='1'/>"
+                                    "<library_visual_scenes>"));
+    import_warned("give one name to several sets of texture coordinates");
+    cs_scene_free(&scene);
 }
 
 int main(void)

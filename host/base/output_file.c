@@ -71,13 +71,14 @@ int cs_output_begin(const char *path, cs_output_file *file)
     return 0;
 }
 
-/* Opens the part so that nobody else can read it, not even one that is left from before. Returns
- * NULL with errno if it cannot. */
+/* Makes the part anew, so that nobody else can read it: neither through its permissions nor through
+ * a file of that name that is left from before. Returns NULL with errno if it cannot. */
 static FILE *open_private(const char *part)
 {
-    const int descriptor = open(part, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    unlink(part);
+    const int descriptor = open(part, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
     if (descriptor < 0) return NULL;
-    FILE *stream = fchmod(descriptor, 0600) == 0 ? fdopen(descriptor, "wb") : NULL;
+    FILE *stream = fdopen(descriptor, "wb");
     const int reason = errno;
     if (stream == NULL) close(descriptor);
     errno = reason;
@@ -92,11 +93,12 @@ static int hand_on_owner(int descriptor, const struct stat *old)
            fchown(descriptor, (uid_t)-1, old->st_gid) == 0;
 }
 
-/* The permissions of a file that has another group than the old file: the group had to itself what
- * it was allowed beyond others, so the new one is allowed what others are. */
+/* The permissions of a file that has another group than the old file. Who was in the old group may
+ * be among the others now, and who was not in the new one: both may do what both could. */
 static mode_t without_group(mode_t mode)
 {
-    return (mode & 0707) | (mode & 07) << 3;
+    const mode_t both = mode & mode >> 3 & 07;
+    return (mode & 0700) | both << 3 | both;
 }
 
 /* Opens the part. A file that it will replace has to allow that, and hands on its owner, its group

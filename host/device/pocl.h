@@ -11,8 +11,8 @@ clshear_status cs_pocl_check(cl_device_id device, cs_error *error);
 
 /* Fails where PoCL would end the process as soon as it looks for its devices: its variables of the
  * environment have values that it does not bear. Call it before any function of OpenCL. It fails
- * without PoCL, too: the loader alone knows where the drivers are, and as it sorts several, it asks
- * them for their devices. */
+ * without PoCL, too: the loader alone knows where the drivers are, and it asks all of them for
+ * their devices to sort them. */
 clshear_status cs_pocl_check_environment(cs_error *error);
 
 #endif

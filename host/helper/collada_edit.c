@@ -5,6 +5,7 @@
 
 #include "base/array.h"
 #include "base/number.h"
+#include "base/pi.h"
 #include "base/vec.h"
 #include "helper/xml.h"
 
@@ -97,12 +98,25 @@ static size_t count_numbers(const char *at, const char *end)
     return count;
 }
 
-/* Leaves out an element, up to its end; `*at` moves there. */
-static int leave_out(editing *edit, const cs_xml_tag *tag, const char *closing, const char **at)
+/* The place behind an element that `tag` begins and whose content is at `at`; NULL where it does
+ * not end. No element is looked for that may hold others of its name. */
+static const char *end_of(const cs_xml_tag *tag, const char *at)
 {
-    const char *end = tag->is_empty ? NULL : strstr(*at, closing);
+    cs_xml_tag other;
+    if (tag->is_empty) return at;
+    while (cs_xml_next(&at, &other))
+        if (other.closes && other.length == tag->length &&
+            memcmp(other.name, tag->name, tag->length) == 0)
+            return at;
+    return NULL;
+}
+
+/* Leaves out an element; `*at` moves behind it. Returns 0 where it has no content or no end. */
+static int leave_out(editing *edit, const cs_xml_tag *tag, const char **at)
+{
+    const char *end = tag->is_empty ? NULL : end_of(tag, *at);
     if (end == NULL) return 0;
-    *at = end + strlen(closing);
+    *at = end;
     copy(edit, tag->begin, *at);
     return 1;
 }
@@ -160,19 +174,21 @@ static int read_numbers(const char *at, double *numbers, int count)
     return 1;
 }
 
-/* A skew becomes a matrix: Assimp ends the program at it. As in RenderMan, points move along the
- * second axis by the tangent of the angle times their distance along the first. */
+/* A skew becomes a matrix: Assimp ends the program at it. Points move along the second axis by the
+ * tangent of the angle times their distance along the first, as in RenderMan where the axes are at
+ * right angles. A right angle moves points to infinity. */
 static void edit_skew(editing *edit, const cs_xml_tag *tag, const char **at)
 {
     static const char matrix[] = "<matrix>", end_of_matrix[] = "</matrix>";
     double numbers[7] = {0}, *first = numbers + 1, *second = numbers + 4;
     char text[32];
-    const int is_whole = !tag->is_empty && read_numbers(*at, numbers, 7);
+    const int has_numbers = !tag->is_empty && read_numbers(*at, numbers, 7);
     const double scale = cs_vec_dot_double(first, first) * cs_vec_dot_double(second, second);
-    if (!leave_out(edit, tag, "</skew>", at)) copy(edit, tag->begin, *at);
-    edit->lost.skews += !is_whole || !(scale > 0.0);
-    if (!is_whole || !(scale > 0.0)) return;
-    const double far = tan(numbers[0] * (acos(-1.0) / 180.0)) / sqrt(scale);
+    const int is_whole = has_numbers && scale > 0.0 && fabs(numbers[0]) < 90.0;
+    if (!leave_out(edit, tag, at)) copy(edit, tag->begin, *at);
+    edit->lost.skews += !is_whole;
+    if (!is_whole) return;
+    const double far = tan(numbers[0] * (CS_PI_DOUBLE / 180.0)) / sqrt(scale);
     put(edit, matrix, sizeof matrix - 1);
     for (int i = 0; i < 16; i++) {
         const int row = i / 4, column = i % 4;
@@ -191,13 +207,15 @@ static void edit_vertices(editing *edit, const char *at)
 {
     const char *inside = at, *first = NULL;
     cs_xml_tag tag;
-    while (cs_xml_next(&inside, &tag) && cs_xml_is(&tag, "input") && tag.is_empty) {
+    while (cs_xml_next(&inside, &tag) && cs_xml_is(&tag, "input")) {
         const part semantic = value_of(&tag, "semantic");
+        if (tag.closes) continue;
         if (first == NULL) first = tag.begin;
         if (semantic.length != 8 || memcmp(semantic.at, "POSITION", 8) != 0) continue;
-        if (first == tag.begin) return;
+        const char *end = end_of(&tag, inside);
+        if (first == tag.begin || end == NULL) return;
         copy(edit, at, at);
-        put(edit, tag.begin, (size_t)(inside - tag.begin));
+        put(edit, tag.begin, (size_t)(end - tag.begin));
         edit->moved = tag.begin;
         return;
     }
@@ -227,15 +245,15 @@ static void edit_tag(editing *edit, const cs_xml_tag *tag, const char **at)
         copy(edit, tag->begin, *at);
         edit->in_holes = 1;
     } else if (cs_xml_is(tag, "h") && edit->in_holes) {
-        edit->lost.holes += (size_t)leave_out(edit, tag, "</h>", at);
+        edit->lost.holes += (size_t)leave_out(edit, tag, at);
     } else if (tag->begin == edit->moved) {
-        copy(edit, tag->begin, *at);
+        if (!leave_out(edit, tag, at)) copy(edit, tag->begin, *at);
     } else if (cs_xml_is(tag, "vertices") && !tag->is_empty) {
         edit_vertices(edit, *at);
     } else if (cs_xml_is(tag, "skew")) {
         edit_skew(edit, tag, at);
     } else if (cs_xml_is(tag, "library_controllers")) {
-        leave_out(edit, tag, "</library_controllers>", at);
+        leave_out(edit, tag, at);
     } else if (cs_xml_is(tag, "instance_controller") && !edit->is_instance) {
         edit_instance(edit, tag, *at);
     }

@@ -8,7 +8,7 @@
 typedef struct cs_collada_losses {
     size_t holes;  /* in polygons; the polygons are whole now */
     size_t morphs; /* instances of meshes with morph targets; only their first shape is left */
-    size_t skews;  /* of nodes, without an angle and two axes */
+    size_t skews;  /* of nodes, without an angle below 90 degrees and two axes */
 } cs_collada_losses;
 
 /* Rewrites a Collada file's text in place. Colours of three numbers get a fourth. The positions of

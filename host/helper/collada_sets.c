@@ -18,6 +18,7 @@ typedef struct numbering {
     unsigned long sets[AI_MAX_NUMBER_OF_TEXTURECOORDS]; /* from the lowest on */
     size_t count;
     cs_array bindings; /* binding: of each name the first one */
+    size_t conflicts;  /* bindings of a name to another set than the first one */
     int is_full;       /* memory ran out */
 } numbering;
 
@@ -72,10 +73,13 @@ static void bind(numbering *work, const cs_xml_tag *tag)
 {
     size_t length;
     const char *name = cs_xml_value(tag, "semantic", &length);
-    if (name == NULL || find_binding(work, name, length) != NULL) return;
+    const unsigned long number = number_in(tag, "input_set");
+    const binding *first = name != NULL ? find_binding(work, name, length) : NULL;
+    if (first != NULL) work->conflicts += first->number != number;
+    if (name == NULL || first != NULL) return;
     binding *made = cs_array_extend(&work->bindings, 1);
     work->is_full |= made == NULL;
-    if (made != NULL) *made = (binding){name, length, number_in(tag, "input_set")};
+    if (made != NULL) *made = (binding){name, length, number};
 }
 
 /* Collects the sets that meshes have, and the names; 0 if there are too many sets. */
@@ -112,7 +116,7 @@ static void write_place(cs_bytes *bytes, const char *value, size_t length, size_
     at[length - 1] = (char)('0' + place % 10);
 }
 
-clshear_status cs_collada_number_sets(cs_bytes *bytes, cs_error *error)
+clshear_status cs_collada_number_sets(cs_bytes *bytes, size_t *conflicts, cs_error *error)
 {
     numbering work = {.bindings = {.item_size = sizeof(binding)}};
     cs_xml_tag tag;
@@ -129,5 +133,6 @@ clshear_status cs_collada_number_sets(cs_bytes *bytes, cs_error *error)
         write_place(bytes, value, length, place_of(&work, number));
     }
     cs_array_free(&work.bindings);
+    *conflicts = work.conflicts;
     return work.is_full ? cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory") : CLSHEAR_OK;
 }

@@ -9,7 +9,8 @@
  * and so on; and writes these numbers where textures name a set. Assimp 5.2 takes the digits in the
  * name for the number, whatever set the material binds to it, and gives a mesh its sets without
  * gaps. Exporters of 3ds Max count from 1. A file with more sets than Assimp knows stays as it is.
- * Fails only without memory. */
-clshear_status cs_collada_number_sets(cs_bytes *bytes, cs_error *error);
+ * Of a name that is bound to several sets, the first binding in the file counts everywhere;
+ * `*conflicts` is the number of other ones. Fails only without memory. */
+clshear_status cs_collada_number_sets(cs_bytes *bytes, size_t *conflicts, cs_error *error);
 
 #endif

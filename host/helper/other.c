@@ -328,7 +328,7 @@ static void turn_back(const struct aiScene *file, cs_model *model)
     file->mRootNode->mTransformation = back;
 }
 
-static void report_losses(const cs_model *model, const cs_collada_losses *lost)
+static void report_losses(const cs_model *model, const cs_collada_losses *lost, size_t conflicts)
 {
     if (lost->holes > 0)
         cs_warn(model->log, "%s: holes of polygons are not supported: %zu closed; export triangles",
@@ -337,8 +337,14 @@ static void report_losses(const cs_model *model, const cs_collada_losses *lost)
         cs_warn(model->log, "%s: morph targets are not supported: the first shape of %zu mesh%s",
                 model->path, lost->morphs, lost->morphs > 1 ? "es" : "");
     if (lost->skews > 0)
-        cs_warn(model->log, "%s: %zu skew%s without an angle and two axes; left out", model->path,
-                lost->skews, lost->skews > 1 ? "s" : "");
+        cs_warn(model->log,
+                "%s: %zu skew%s without an angle below 90 degrees and two axes; left out",
+                model->path, lost->skews, lost->skews > 1 ? "s" : "");
+    if (conflicts > 0)
+        cs_warn(model->log,
+                "%s: its materials give one name to several sets of texture coordinates: the first "
+                "of them counts; give each set its own name",
+                model->path);
 }
 
 /* Opens a file with Assimp. `file` becomes NULL where Assimp cannot read it. No step of Assimp's
@@ -347,6 +353,7 @@ static clshear_status open_file(cs_bytes *bytes, const cs_model *model, const st
                                 cs_error *error)
 {
     cs_collada_losses lost = {0};
+    size_t conflicts = 0;
     if (!cs_is_collada(model->path)) {
         *file = aiImportFile(model->path, 0);
         return CLSHEAR_OK;
@@ -354,8 +361,8 @@ static clshear_status open_file(cs_bytes *bytes, const cs_model *model, const st
     clshear_status status = cs_collada_tidy(bytes, model->path, error);
     if (status == CLSHEAR_OK) status = cs_collada_edit(bytes, &lost, error);
     if (status == CLSHEAR_OK) status = cs_collada_edit_cameras(bytes, error);
-    if (status == CLSHEAR_OK) status = cs_collada_number_sets(bytes, error);
-    report_losses(model, &lost);
+    if (status == CLSHEAR_OK) status = cs_collada_number_sets(bytes, &conflicts, error);
+    report_losses(model, &lost, conflicts);
     if (status == CLSHEAR_OK)
         *file = aiImportFileFromMemory(bytes->data, (unsigned)bytes->size, 0, "dae");
     return status;

@@ -29,11 +29,13 @@ static void leave_out(mf_reader *reader, unsigned bit, const char *what)
     reader->left_out |= 1u << bit;
 }
 
-/* Returns 0 where there is no such attribute, or it is no number. */
+/* Returns 0 where there is no such attribute, or it is no number and nothing else. */
 static int number_of(const mf_xml *xml, const char *name, double *value)
 {
     const char *text = mf_xml_value(xml, name);
-    return text != NULL && cs_parse_number(text, text + strlen(text), value) != text;
+    if (text == NULL) return 0;
+    const char *end = text + strlen(text), *after = cs_parse_number(text, end, value);
+    return after != text && after + strspn(after, " \t\r\n") == end;
 }
 
 /* A whole number of 0 or more, MF_NONE or MF_WRONG. */

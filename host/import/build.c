@@ -224,8 +224,7 @@ static void report_colours(const cs_model *model)
                 model->path, (double)most);
     if (model->has_unused_alpha)
         cs_warn(model->log,
-                "%s: the alpha of its vertices is not used; set the material's opacity, or export "
-                "glTF",
+                "%s: the alpha of its vertices is not used; export glTF, whose materials use it",
                 model->path);
 }
 

@@ -81,12 +81,21 @@ static void skip_rest(const char *line, FILE *stream)
         byte = getc(stream);
 }
 
-/* Whether `line`, as fgets gave it, is text up to the end of the line, or a comment that is longer
- * than `size`. A line with a byte 0 is neither. */
+/* Whether `line`, which fgets wrote over line ends, is text up to the end of the line or the file,
+ * or a comment that is longer than `size`. A line with a byte 0 is neither. */
 static int is_text(const char *line, size_t size, FILE *stream)
 {
-    if (strchr(line, '\n') != NULL || feof(stream)) return 1;
-    return line[0] == '#' && strlen(line) == size - 1;
+    const size_t length = strlen(line);
+    if (strchr(line, '\n') != NULL) return 1;
+    if (feof(stream) && length + 1 < size) return line[length + 1] == '\n';
+    return line[0] == '#' && length == size - 1;
+}
+
+/* fgets, over line ends: what it has read ends where these begin. */
+static int read_line(char *line, int size, FILE *stream)
+{
+    memset(line, '\n', (size_t)size);
+    return fgets(line, size, stream) != NULL;
 }
 
 /* Streams without an end of the line, such as /dev/zero, do not fill the memory. */
@@ -94,7 +103,7 @@ static clshear_status read_lines(text_reader *reader, FILE *stream)
 {
     clshear_status status = CLSHEAR_OK;
     char line[4096];
-    while (status == CLSHEAR_OK && fgets(line, sizeof line, stream) != NULL) {
+    while (status == CLSHEAR_OK && read_line(line, sizeof line, stream)) {
         reader->line++;
         if (!is_text(line, sizeof line, stream)) {
             status = complain(reader, "this is no line of text, or has more than 4095 bytes");

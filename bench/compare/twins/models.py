@@ -2,13 +2,14 @@
 
 Each program reads the file by itself, so that what the format means is compared: materials,
 textures and their coordinates, normals, nodes. An even white sky, a pinhole, the camera that
-clshear chooses. Blender reads OBJ, glTF, Collada, FBX, PLY and STL. Its surfaces are not those of
+clshear chooses. Lights of the file are left out in Blender, but kept by clshear. Blender reads OBJ, glTF, Collada, FBX, PLY and STL. Its surfaces are not those of
 glTF and MTL, so that means differ by some per cent; *look* marks those that differ by more than a
 twentieth. scripts/agreement --models runs it.
 """
 import argparse
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -86,6 +87,10 @@ def main():
     parser.add_argument("--blender", default="blender")
     parser.add_argument("--program", default=str(ROOT / "build" / "clshear"))
     options = parser.parse_args()
+    if options.size < BLOCKS or options.size % BLOCKS:
+        parser.error(f"--size has to be a multiple of {BLOCKS}")
+    if shutil.which(options.blender) is None:
+        parser.error(f"there is no program {options.blender}; install it, or name it by --blender")
     failed = 0
     print("| model | mean of clshear | of Cycles | ratio | largest difference of a block | |")
     print("|---|---|---|---|---|---|", flush=True)

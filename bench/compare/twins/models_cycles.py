@@ -84,6 +84,8 @@ def main():
     given = json.loads(pathlib.Path(sys.argv[sys.argv.index("--") + 1]).read_text())
     bpy.ops.wm.read_factory_settings(use_empty=True)
     turn = read(pathlib.Path(given["model"]))
+    if not any(thing.type == "MESH" for thing in bpy.context.scene.objects):
+        sys.exit(f"{given['model']}: Blender finds no mesh in it")
     for thing in list(bpy.context.scene.objects):
         if thing.type in ("LIGHT", "CAMERA"):
             bpy.data.objects.remove(thing)

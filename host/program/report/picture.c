@@ -8,7 +8,7 @@ typedef struct part {
     size_t pixels;
     size_t lit;     /* pixels above 0 */
     size_t clipped; /* pixels whose three channels are above white */
-    double log_sum; /* of the binary logarithms of the lit pixels' green */
+    double log_sum; /* of the binary logarithms of the lit pixels' largest channels */
 } part;
 
 /* What the remarks are made from. */
@@ -35,10 +35,11 @@ static float white_of(const clshear_settings *settings)
 
 static void count(part *part, const float colour[3], float white)
 {
+    const float most = fmaxf(colour[0], fmaxf(colour[1], colour[2]));
     part->pixels++;
-    part->lit += colour[0] > 0.0f || colour[1] > 0.0f || colour[2] > 0.0f;
+    part->lit += most > 0.0f;
     part->clipped += colour[0] > white && colour[1] > white && colour[2] > white;
-    if (colour[1] > 0.0f) part->log_sum += log2((double)colour[1]);
+    if (most > 0.0f) part->log_sum += log2((double)most);
 }
 
 static survey look_at(const clshear_film *film, size_t pixels, float white)
@@ -85,25 +86,35 @@ static int remark_on_view(const survey *found, const clshear_film_info *info)
     return found->scene.pixels == 0 && found->all.lit == 0;
 }
 
-/* Says where most of the picture is white, or of the scene before a dark background, and where
- * hardly anything of the scene is not nearly black. */
-static void remark_on_exposure(const survey *found, float white)
+/* Says where most of the picture is white, or of the scene before a dark background. Returns
+ * whether it has. */
+static int remark_on_white(const survey *found)
 {
     const int is_all = 2 * found->all.clipped > found->all.pixels;
     const part *bright = is_all ? &found->all : &found->scene;
-    if (2 * bright->clipped > bright->pixels)
-        fprintf(stderr,
-                "clshear: %.0f %% of the %s is brighter than white in all but .exr; --exposure %d "
-                "or --auto-exposure darkens it, weaker light (an environment by "
-                "--environment-strength) the .exr too\n",
-                100.0 * (double)bright->clipped / (double)bright->pixels,
-                is_all ? "picture" : "scene", fitting_exposure(bright));
-    if (found->all.lit > 0 && isfinite(white) && 1000 * found->scene.pixels >= found->all.pixels &&
-        1000 * found->visible < found->all.pixels)
+    if (2 * bright->clipped <= bright->pixels) return 0;
+    fprintf(stderr,
+            "clshear: %.0f %% of the %s is brighter than white in all but .exr; --exposure %d "
+            "or --auto-exposure darkens it, weaker light (an environment by "
+            "--environment-strength) the .exr too\n",
+            100.0 * (double)bright->clipped / (double)bright->pixels, is_all ? "picture" : "scene",
+            fitting_exposure(bright));
+    return 1;
+}
+
+/* Says where hardly a pixel is visible. A small bright one, such as a lamp, needs no brightening.
+ */
+static void remark_on_dark(const survey *found, float white)
+{
+    const part *all = &found->all;
+    if (all->lit == 0 || 1000 * found->scene.pixels < all->pixels) return;
+    if (1000 * found->visible >= all->pixels || isinf(white)) return;
+    const int exposure = fitting_exposure(all);
+    if ((double)exposure > -log2((double)white))
         fprintf(stderr,
                 "clshear: the picture is nearly black in all but .exr; --exposure %d or "
                 "--auto-exposure brightens it, stronger light the .exr too\n",
-                fitting_exposure(&found->all));
+                exposure);
 }
 
 void remark_on_picture(const clshear_film *film, const clshear_settings *settings, int has_lens)
@@ -116,7 +127,7 @@ void remark_on_picture(const clshear_film *film, const clshear_settings *setting
     if (!remark_on_view(&found, &info) && found.all.lit == 0)
         fprintf(stderr, "clshear: the picture is black: no light reaches what it shows; "
                         "--environment 1,1,1 adds light from all around\n");
-    remark_on_exposure(&found, white);
+    if (!remark_on_white(&found)) remark_on_dark(&found, white);
     if (has_lens && found.scene.pixels > 0 && found.blur_px < 1.0f)
         fprintf(stderr,
                 "clshear: everything is in focus, blurred by %.2g px at most; a larger "
