@@ -87,9 +87,56 @@ CS_FORMAT(off)
 CS_FORMAT(gltf)
 CS_FORMAT(glb)
 
+static void put_number(uint8_t **at, size_t value, int count)
+{
+    for (int i = 0; i < count; i++, value >>= 8)
+        *(*at)++ = (uint8_t)value;
+}
+
+/* What the head of an entry and the directory have in common, from the version on. */
+static void put_head(uint8_t **at, size_t size, size_t name)
+{
+    put_number(at, 20, 2);
+    put_number(at, 0, 12); /* neither packed nor encrypted; time; the checksum as above */
+    put_number(at, size, 4);
+    put_number(at, size, 4);
+    put_number(at, name, 2);
+    put_number(at, 0, 2);
+}
+
+/* Writes an archive whose only part is this text, as it is, and returns its size. */
+static size_t put_archive(const uint8_t *text, size_t size, uint8_t *archive)
+{
+    static const char name[] = "3D/3dmodel.model";
+    const size_t length = sizeof name - 1;
+    uint8_t *at = archive;
+    at = (uint8_t *)memcpy(at, "PK\3\4", 4) + 4;
+    put_head(&at, size, length);
+    at = (uint8_t *)memcpy(at, name, length) + length;
+    at = (uint8_t *)memcpy(at, text, size) + size;
+    const size_t directory = (size_t)(at - archive);
+    at = (uint8_t *)memcpy(at, "PK\1\2\24\0", 6) + 6;
+    put_head(&at, size, length);
+    put_number(&at, 0, 14); /* no comment; the first disk; no attributes; where the entry is */
+    at = (uint8_t *)memcpy(at, name, length) + length;
+    const size_t end = (size_t)(at - archive);
+    at = (uint8_t *)memcpy(at, "PK\5\6\0\0\0\0\1\0\1\0", 12) + 12;
+    put_number(&at, end - directory, 4);
+    put_number(&at, directory, 4);
+    put_number(&at, 0, 2);
+    return (size_t)(at - archive);
+}
+
+/* An archive, or the text of a part: few changes of an archive leave it one. */
 void cs_fuzz_three_mf(const uint8_t *data, size_t size)
 {
-    read_scene(cs_fuzz_file("x.3mf", data, size), size);
+    uint8_t *archive = malloc(size + 256);
+    const int is_archive = size >= 2 && memcmp(data, "PK", 2) == 0;
+    if (archive == NULL) return;
+    if (is_archive) memcpy(archive, data, size);
+    const size_t whole = is_archive ? size : put_archive(data, size, archive);
+    read_scene(cs_fuzz_file("x.3mf", archive, whole), size);
+    free(archive);
 }
 
 /* As the material library of a fixed OBJ file. */
