@@ -37,8 +37,9 @@ static void layouts_of_ply(void **state)
                                             "1 1 0 255 0 0 9\n-1 1 0 510 0 0 255\n4 0 1 2 3\n");
     expect_close(import_colour(&scene, 0, 0), 1, 0, 0);
     import_warned("its vertices have colours up to 2: above 1");
-    import_warned("int.ply: the alpha of its vertices is not used; export glTF, whose materials use "
-                  "it");
+    import_warned(
+        "int.ply: the alpha of its vertices is not used; export glTF, whose materials use "
+        "it");
     cs_scene_free(&scene);
     scene =
         import_text("faces.ply", PLY_HEAD "element face 2\nproperty list uchar int vertex_index\n"
