@@ -238,6 +238,7 @@ remarks="black|thousandth|brighter|everything is in focus"
     if echo "$output" | grep -qE "$remarks"; then wrong "a remark on a dark exposure: $output"; fi
     expect 0 "of the scene is brighter than white" -- bare.obj $small --eye 0,0,30 --target 0,0,0 --light 0,0,9,1e6,1e6,1e6 --out k.exr
     expect 0 "nearly black in all but .exr; --exposure 1" -- bare.obj $small --environment 1e-4,1e-4,1e-4 --out k.exr
+    expect 0 "nearly black in all but .exr; --exposure 1" -- bare.obj $small --environment 1e-4,0,0 --out k.exr
     expect 0 "" -- bare.obj $small --environment 1e-4,1e-4,1e-4 --exposure 12 --out k.png
     if echo "$output" | grep -qE "$remarks"; then wrong "a remark on a bright exposure: $output"; fi
     expect 0 "everything is in focus" -- bare.obj $small --lens-radius 1e-6 --out k.exr

@@ -181,7 +181,7 @@ if "${user[@]}" test -w open && "${user[@]}" test -x "$program"; then
 fi
 
 # A file that is replaced hands on its owner, its group and its permissions. Where the group cannot be
-# given, the new group is allowed no more than others were.
+# given, the new group and others get the rights that both classes had.
 # replaced OWNER:GROUP MODE WORDS [SETPRIV'S FLAGS]: the file before, and what stat says of it after.
 replaced() {
     local before="$1 $2" words=$3

@@ -247,6 +247,8 @@ static void numbers_that_are_wrong(void **state)
     expect_plain(
         MODEL(BASE OBJECT("1", "", MESH(TRIANGLE(" pid=\"5\" p1=\"0.3\""))), ITEM("1", "")));
     expect_plain(
+        MODEL(BASE OBJECT("1", "", MESH(TRIANGLE(" pid=\"5\" p1=\"0 1\""))), ITEM("1", "")));
+    expect_plain(
         MODEL(BASE OBJECT("1", " pid=\"5\" pindex=\"-1\"", MESH(TRIANGLE(""))), ITEM("1", "")));
     expect_plain(MODEL(BASE "<basematerials id=\"x\"><base displaycolor=\"#FF0000\"/>"
                             "</basematerials>" OBJECT("1", " pid=\"5\" pindex=\"1\"",

@@ -210,14 +210,15 @@ static void opacity(void **state)
 }
 
 /* The file with colours of its vertices, the last of this alpha, before their positions or behind.
- */
+ * is_before: 1: before an empty tag, 2: before a pair of tags. */
 static const char *coloured_file(const char *alpha, int is_before)
 {
     static const char head[] = "<vertices id='v'>",
                       colour[] = "<input semantic='COLOR' source='#c'/>";
-    static const char position[] = "<input semantic='POSITION' source='#p'/>";
-    char text[2048], plain[128];
-    snprintf(plain, sizeof plain, "%s%s", head, position);
+    static const char plain[] = "<vertices id='v'><input semantic='POSITION' source='#p'/>";
+    const char *position = is_before > 1 ? "<input semantic='POSITION' source='#p'></input >"
+                                         : "<input semantic='POSITION' source='#p'/>";
+    char text[2048];
     snprintf(text, sizeof text,
              "<source id='c'><float_array id='c-a' count='12'>1 0 0 1 1 0 0 1 1 0 0 %s"
              "</float_array><technique_common><accessor source='#c-a' count='3' stride='4'>"
@@ -232,11 +233,11 @@ static const char *coloured_file(const char *alpha, int is_before)
 static void colours_of_vertices(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < 4; kind++) {
-        cs_scene scene = load(coloured_file(kind < 2 ? "0.5" : "1", kind & 1));
+    for (int kind = 0; kind < 6; kind++) {
+        cs_scene scene = load(coloured_file(kind < 3 ? "0.5" : "1", kind % 3));
         expect_close(import_colour(&scene, 0, 0), 1, 0, 0);
         expect_close(import_position(&scene, 0, 1), 1, 0, 0);
-        if (kind < 2)
+        if (kind < 3)
             import_warned(
                 "the alpha of its vertices is not used; export glTF, whose materials use it");
         else

@@ -93,8 +93,9 @@ static int hand_on_owner(int descriptor, const struct stat *old)
            fchown(descriptor, (uid_t)-1, old->st_gid) == 0;
 }
 
-/* The permissions of a file that has another group than the old file. Who was in the old group may
- * be among the others now, and who was not in the new one: both may do what both could. */
+/* Returns the permissions of a file that has another group than the old file. Members of the old
+ * group are among the others now, and others may be members of the new group. So both classes get
+ * only the rights that both classes had. */
 static mode_t without_group(mode_t mode)
 {
     const mode_t both = mode & mode >> 3 & 07;

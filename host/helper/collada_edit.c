@@ -201,8 +201,8 @@ static void edit_skew(editing *edit, const cs_xml_tag *tag, const char **at)
     put(edit, end_of_matrix, sizeof end_of_matrix - 1);
 }
 
-/* Puts the positions before what else vertices have: Assimp asks for too much memory where they
- * follow. */
+/* Moves the input of positions to the beginning of <vertices>, whose content is at `at`. Assimp
+ * asks for too much memory where positions follow another input. */
 static void edit_vertices(editing *edit, const char *at)
 {
     const char *inside = at, *first = NULL;

@@ -31,7 +31,7 @@ static int is_about_coordinates(const cs_xml_tag *tag, const char *attribute)
     return value != NULL && length == sizeof kind - 1 && memcmp(value, kind, length) == 0;
 }
 
-/* The number in an attribute; 0 where there is none. */
+/* Returns the number in an attribute, or 0 if the tag has no such attribute. */
 static unsigned long number_in(const cs_xml_tag *tag, const char *attribute)
 {
     size_t length;
@@ -39,7 +39,7 @@ static unsigned long number_in(const cs_xml_tag *tag, const char *attribute)
     return value != NULL ? strtoul(value, NULL, 10) : 0;
 }
 
-/* Where a number stands among the sets, or would. */
+/* Returns how many sets have lower numbers. */
 static size_t place_of(const numbering *work, unsigned long number)
 {
     size_t place = 0;
@@ -48,7 +48,7 @@ static size_t place_of(const numbering *work, unsigned long number)
     return place;
 }
 
-/* Puts a number to its place; 0 if there are too many. */
+/* Adds a number to the sets, in order. Returns 0 if there are too many. */
 static int take_in(numbering *work, unsigned long number)
 {
     const size_t place = place_of(work, number), behind = work->count - place;
@@ -60,7 +60,7 @@ static int take_in(numbering *work, unsigned long number)
     return 1;
 }
 
-/* What is bound to a name; NULL for nothing. */
+/* Returns the binding of a name of `length` bytes, or NULL if it has none. */
 static const binding *find_binding(const numbering *work, const char *name, size_t length)
 {
     const binding *all = work->bindings.items;
@@ -82,7 +82,7 @@ static void bind(numbering *work, const cs_xml_tag *tag)
     if (made != NULL) *made = (binding){name, length, number};
 }
 
-/* Collects the sets that meshes have, and the names; 0 if there are too many sets. */
+/* Collects the sets of all meshes, and the bindings. Returns 0 if there are too many sets. */
 static int collect(numbering *work, const char *text)
 {
     cs_xml_tag tag;
@@ -97,7 +97,8 @@ static int collect(numbering *work, const char *text)
     return 1;
 }
 
-/* The set that a texture's name for it means: what is bound to it, or its digits, or else 0. */
+/* Returns the number of the set that a texture calls by a name of `length` bytes: the number that
+ * is bound to the name, or else the digits in it, or else 0. */
 static unsigned long number_of(const numbering *work, const char *name, size_t length)
 {
     const binding *bound = find_binding(work, name, length);
@@ -108,7 +109,7 @@ static unsigned long number_of(const numbering *work, const char *name, size_t l
     return name < end ? strtoul(name, NULL, 10) : 0;
 }
 
-/* Writes a place over an attribute's value, filled up with zeros: no value is shorter. */
+/* Writes a place, one digit, over an attribute's value of `length` bytes, and zeros before it. */
 static void write_place(cs_bytes *bytes, const char *value, size_t length, size_t place)
 {
     char *at = bytes->data + (value - bytes->data);

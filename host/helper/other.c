@@ -185,8 +185,9 @@ static clshear_status add_face(const importing *work, const struct aiMesh *sourc
                                 work->error);
 }
 
-/* The texture coordinates of a mesh that a material asks for, or what there is of the sets before:
- * Assimp leaves no gap between a mesh's sets. NULL: it has none. */
+/* Returns the texture coordinates of the set that a material asks for. If the mesh lacks this set,
+ * the next lower set counts, since Assimp leaves no gap between a mesh's sets. Returns NULL if the
+ * mesh has no coordinates. */
 static const struct aiVector3D *coordinates_of(const struct aiMesh *mesh, const cs_map *placing)
 {
     int set = placing != NULL ? placing->set : 0;

@@ -27,7 +27,7 @@ typedef struct mf_id {
     long long number;
 } mf_id;
 
-/* Where what ids name stands in its list. Of what has the same id the last one counts. */
+/* Leads from an id to the index in a list of what has the id: the last one, if several have it. */
 typedef struct mf_places {
     cs_index_map ids; /* mf_id */
     cs_array places;  /* size_t, one for each */
@@ -75,7 +75,7 @@ typedef struct mf_reader {
     cs_array vertices;   /* double[3] */
     cs_array triangles;  /* mf_triangle */
     cs_array components; /* mf_component */
-    cs_array items;      /* mf_component: what is to be built */
+    cs_array items;      /* mf_component: the objects that the file's <build> lists */
     cs_array groups;     /* mf_group */
     mf_places of_groups;
     cs_array colours;     /* mf_colour */

@@ -2,9 +2,10 @@
 
 Each program reads the file by itself, so that what the format means is compared: materials,
 textures and their coordinates, normals, nodes. An even white sky, a pinhole, the camera that
-clshear chooses. Lights of the file are left out in Blender, but kept by clshear. Blender reads OBJ, glTF, Collada, FBX, PLY and STL. Its surfaces are not those of
-glTF and MTL, so that means differ by some per cent; *look* marks those that differ by more than a
-twentieth. scripts/agreement --models runs it.
+clshear chooses. Lights of the file are left out in Blender, but kept by clshear. Blender reads
+OBJ, glTF, Collada, FBX, PLY and STL. Its surfaces are not those of glTF and MTL, so that means
+differ by some per cent; *look* marks those that differ by more than --within.
+scripts/agreement --models runs it.
 """
 import argparse
 import json
@@ -21,16 +22,14 @@ mi.set_variant("scalar_rgb")
 import numpy as np
 
 from agree import ROOT
+from renderers import planes_of
 
-MOST_APART = 0.05
 BLOCKS = 8  # along each side of the picture
 
 
-def planes_of(path):
-    bitmap = mi.Bitmap(str(path))
-    planes = np.moveaxis(np.array(bitmap, dtype=np.float64), -1, 0)
-    channels = {field.name: plane for field, plane in zip(bitmap.struct_(), planes)}
-    return np.stack([channels[colour] for colour in "RGB"], axis=-1), bitmap.metadata()
+def colours_of(bitmap):
+    planes = planes_of(bitmap)
+    return np.stack([planes[colour] for colour in "RGB"], axis=-1)
 
 
 def of_clshear(options, model, picture):
@@ -38,10 +37,11 @@ def of_clshear(options, model, picture):
     subprocess.run([options.program, model, "--environment", "1,1,1", "--lens-radius", "0",
                     "--width", str(options.size), "--height", str(options.size), "--spp",
                     str(options.spp), "--quiet", "--out", picture], check=True)
-    image, metadata = planes_of(picture)
+    bitmap = mi.Bitmap(str(picture))
+    metadata = bitmap.metadata()
     camera = {name: [float(number) for number in str(metadata[f"clshear.{name}"]).split(",")]
               for name in ("eye", "target", "up")}
-    return image, dict(camera, fov=float(metadata["clshear.fov"]))
+    return colours_of(bitmap), dict(camera, fov=float(metadata["clshear.fov"]))
 
 
 def of_cycles(options, model, camera, picture):
@@ -53,7 +53,7 @@ def of_cycles(options, model, camera, picture):
     subprocess.run([options.blender, "-b", "--factory-startup", "--python-exit-code", "1",
                     "--python", script, "--", words], check=True, stdout=subprocess.DEVNULL,
                    stderr=subprocess.DEVNULL)
-    return planes_of(picture)[0]
+    return colours_of(mi.Bitmap(str(picture)))
 
 
 def blocks(image):
@@ -62,11 +62,14 @@ def blocks(image):
     return image.reshape(BLOCKS, side, BLOCKS, side, 3).mean(axis=(1, 3))
 
 
-def row(model, ours, theirs):
+def row(options, model, ours, theirs):
+    """Prints a row of the table; whether the means are near each other."""
     apart = abs(blocks(ours) - blocks(theirs)).max()
     ratio = ours.mean() / theirs.mean()
+    is_near = bool(abs(ratio - 1) <= options.within)
     print(f"| {model.name} | {ours.mean():.4f} | {theirs.mean():.4f} | {ratio:.3f} | "
-          f"{apart:.2f} | {'look' if abs(ratio - 1) > MOST_APART else ''} |", flush=True)
+          f"{apart:.2f} | {'' if is_near else 'look'} |", flush=True)
+    return is_near
 
 
 def keep(folder, model, ours, theirs):
@@ -78,11 +81,12 @@ def keep(folder, model, ours, theirs):
 
 
 def main():
-    """Exits with 1 if a program cannot read a file."""
+    """Exits with 1 if a program cannot read a file, or means differ by more than was asked for."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("models", nargs="+", type=pathlib.Path, metavar="FILE")
-    parser.add_argument("--size", type=int, default=128, help=f"pixels along a side, {BLOCKS} times N")
+    parser.add_argument("--size", type=int, default=128, help=f"of a side, N times {BLOCKS}")
     parser.add_argument("--spp", type=int, default=64)
+    parser.add_argument("--within", type=float, default=0.05, help="difference of means, relative")
     parser.add_argument("--keep", help="folder for pictures of both, side by side")
     parser.add_argument("--blender", default="blender")
     parser.add_argument("--program", default=str(ROOT / "build" / "clshear"))
@@ -91,7 +95,7 @@ def main():
         parser.error(f"--size has to be a multiple of {BLOCKS}")
     if shutil.which(options.blender) is None:
         parser.error(f"there is no program {options.blender}; install it, or name it by --blender")
-    failed = 0
+    apart = 0
     print("| model | mean of clshear | of Cycles | ratio | largest difference of a block | |")
     print("|---|---|---|---|---|---|", flush=True)
     for model in options.models:
@@ -103,12 +107,12 @@ def main():
             except subprocess.CalledProcessError as error:
                 print(f"| {model.name} | {pathlib.Path(error.cmd[0]).name} failed | | | | |",
                       flush=True)
-                failed += 1
+                apart += 1
                 continue
-        row(model, ours, theirs)
+        apart += not row(options, model, ours, theirs)
         if options.keep:
             keep(options.keep, model, ours, theirs)
-    return 1 if failed else 0
+    return 1 if apart else 0
 
 
 if __name__ == "__main__":

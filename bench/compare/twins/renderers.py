@@ -21,6 +21,12 @@ EYE, TARGET, FOV, LENS, FOCUS = [0.0, 3.0, 5.0], [0.0, 0.6, 0.0], 40.0, 0.05, 5.
 FACETS_OF_MITSUBA = {"POCL_EXTRA_BUILD_FLAGS": "-DCS_FACETS_OF_MITSUBA"}
 
 
+def planes_of(bitmap):
+    """Planes by the names of their channels, whose order is the reader's, not that of the file."""
+    planes = np.moveaxis(np.array(bitmap, dtype=np.float64), -1, 0)
+    return {field.name: plane for field, plane in zip(bitmap.struct_(), planes)}
+
+
 def run_clshear(options, folder, name, scene, flags, surroundings):
     """Planes of the picture by the names of their channels, and processor time in seconds, of
     loading and compiling too. `surroundings`: environment variables to add."""
@@ -40,11 +46,7 @@ def run_clshear(options, folder, name, scene, flags, surroundings):
     subprocess.run([str(word) for word in command], check=True,
                    env=dict(os.environ, **surroundings))
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    bitmap = mi.Bitmap(str(picture))
-    # The order of channels is the reader's; it is not that of the file.
-    planes = np.moveaxis(np.array(bitmap, dtype=np.float64), -1, 0)
-    channels = {field.name: plane for field, plane in zip(bitmap.struct_(), planes)}
-    return channels, (after.ru_utime + after.ru_stime) - (before.ru_utime + before.ru_stime)
+    return planes_of(mi.Bitmap(str(picture))), (after.ru_utime + after.ru_stime) - (before.ru_utime + before.ru_stime)
 
 
 def mesh(name, geometry, bsdf, emitter):

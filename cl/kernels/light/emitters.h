@@ -50,10 +50,9 @@ static inline cs_vfloat cs_emitters_density(const cs_scene_buffers *scene,
 }
 
 #if CS_HAS(MATERIALS)
-/* Multiplies the radiance of each lane's emitter by what varies over its triangle: the texture of
- * its emission, and the part of the surface that is there by its alpha (cs_covering). chosen: the
- * emitters' numbers. place: a point of the triangle, as two parts of its edges from the first
- * vertex, 0 to 1. colour: the radiance, three channels. */
+/* Multiplies `colour` by two factors at a point of each lane's emitter: the texel of its emission,
+ * and its opacity (cs_covering). chosen: the emitters' numbers. place: the point, as two parts of
+ * the triangle's edges from the first vertex, 0 to 1. colour: the radiance, three channels. */
 static inline void cs_vary_emission(const cs_scene_buffers *scene, cs_int_lanes chosen,
                                     const cs_vfloat *place, cs_vfloat *colour)
 {
