@@ -62,25 +62,36 @@ static inline cs_vfloat cs_gather(CS_GLOBAL const cs_f32 *table, cs_vint index)
 #undef CS_ONE
 }
 
-/* Four neighbours, from table[index] on, in each lane. */
-static inline void cs_gather_four(CS_GLOBAL const cs_f32 *table, cs_vint index, cs_vfloat *found)
-{
 #if CS_PACKET >= 8
-    /* Lanes 4 apart share a packet of rows: so numbers move within a quarter of a vector register,
-     * which is faster than a move across quarters. */
-    cs_int_lanes place;
-    place.all = index;
+/* Number i of the rows of all lanes, for i from 0 to 3. Lanes 4 apart share a packet of rows: so
+ * numbers move within a quarter of a vector register, which is faster than a move across quarters.
+ */
+static inline void cs_columns(const float4 *row, cs_vfloat *columns)
+{
     cs_vfloat rows[4];
-#define CS_ONE(i) vload4(0, table + place.lane[i])
+#define CS_ONE(i) row[i]
     rows[0] = CS_NEIGHBOURS(CS_ONE, 0);
     rows[1] = CS_NEIGHBOURS(CS_ONE, 1);
     rows[2] = CS_NEIGHBOURS(CS_ONE, 2);
     rows[3] = CS_NEIGHBOURS(CS_ONE, 3);
 #undef CS_ONE
-    found[0] = CS_TRANSPOSED(rows, 0, 4, 8, c);
-    found[1] = CS_TRANSPOSED(rows, 1, 5, 9, d);
-    found[2] = CS_TRANSPOSED(rows, 2, 6, a, e);
-    found[3] = CS_TRANSPOSED(rows, 3, 7, b, f);
+    columns[0] = CS_TRANSPOSED(rows, 0, 4, 8, c);
+    columns[1] = CS_TRANSPOSED(rows, 1, 5, 9, d);
+    columns[2] = CS_TRANSPOSED(rows, 2, 6, a, e);
+    columns[3] = CS_TRANSPOSED(rows, 3, 7, b, f);
+}
+#endif
+
+/* Four neighbours, from table[index] on, in each lane. */
+static inline void cs_gather_four(CS_GLOBAL const cs_f32 *table, cs_vint index, cs_vfloat *found)
+{
+#if CS_PACKET >= 8
+    cs_int_lanes place;
+    float4 row[CS_PACKET];
+    place.all = index;
+    for (int lane = 0; lane < CS_PACKET; lane++)
+        row[lane] = vload4(0, table + place.lane[lane]);
+    cs_columns(row, found);
 #else
     for (int i = 0; i < 4; i++)
         found[i] = cs_gather(table, index + i);
@@ -117,6 +128,38 @@ static inline void cs_blend_four(CS_GLOBAL const cs_f32 *table, cs_vint first, c
     cs_gather_four(table, second, other);
     for (int i = 0; i < 4; i++)
         found[i] += part * (other[i] - found[i]);
+}
+
+/* Blends four neighbours from table[corner[i]] on, for i from 0 to 3, in each lane: the second
+ * corner has weight `down` beside the first, the fourth beside the third, and what comes of the
+ * latter two has weight `across`. */
+static inline void cs_blend_corners(CS_GLOBAL const cs_f32 *table, const cs_vint *corner,
+                                    cs_vfloat across, cs_vfloat down, cs_vfloat *found)
+{
+#if defined(CS_DEVICE) && CS_PACKET >= 8
+    /* All four numbers of a lane at once. */
+    cs_int_lanes place[4];
+    cs_float_lanes to_right, to_lower;
+    float4 row[CS_PACKET];
+    for (int i = 0; i < 4; i++)
+        place[i].all = corner[i];
+    to_right.all = across;
+    to_lower.all = down;
+    for (int lane = 0; lane < CS_PACKET; lane++) {
+        float4 near = vload4(0, table + place[0].lane[lane]);
+        float4 far = vload4(0, table + place[2].lane[lane]);
+        near += to_lower.lane[lane] * (vload4(0, table + place[1].lane[lane]) - near);
+        far += to_lower.lane[lane] * (vload4(0, table + place[3].lane[lane]) - far);
+        row[lane] = near + to_right.lane[lane] * (far - near);
+    }
+    cs_columns(row, found);
+#else
+    cs_vfloat far[4];
+    cs_blend_four(table, corner[0], corner[1], down, found);
+    cs_blend_four(table, corner[2], corner[3], down, far);
+    for (int i = 0; i < 4; i++)
+        found[i] += across * (far[i] - found[i]);
+#endif
 }
 
 #endif

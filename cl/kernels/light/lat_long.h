@@ -254,11 +254,12 @@ static inline void cs_lat_long_radiance(const cs_lat_long *image, cs_vfloat x, c
     cs_vint upper = above * width, lower = above + 1 < height ? upper + width : upper;
     /* Each load reads four numbers, a texel has three. The tables, or one unused number, follow the
      * last texel. */
-    cs_vfloat near[4], far[4];
-    cs_blend_four(image->texels, 3 * (upper + left), 3 * (lower + left), down, near);
-    cs_blend_four(image->texels, 3 * (upper + right), 3 * (lower + right), down, far);
+    cs_vfloat found[4];
+    const cs_vint corner[4] = {3 * (upper + left), 3 * (lower + left), 3 * (upper + right),
+                               3 * (lower + right)};
+    cs_blend_corners(image->texels, corner, across, down, found);
     for (int c = 0; c < 3; c++)
-        radiance[c] = near[c] + across * (far[c] - near[c]);
+        radiance[c] = found[c];
 }
 
 #endif
