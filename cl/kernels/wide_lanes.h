@@ -36,10 +36,10 @@ static inline cs_u32 cs_mask_of_four(int4 mask)
  * top of a stack, and returns the number of children. The nearest child, or with `far_first` the
  * farthest, comes last, so that the walk takes it first. The order is the node's own for directions
  * of `octant`. Both arrays need room for CS_WIDE entries: entries after the last child are
- * overwritten with anything. */
-static inline int cs_push_children(CS_GLOBAL const cs_wide_node *node, int octant,
-                                   const int far_first, const cs_float_lanes *enter, cs_f32 limit,
-                                   cs_u32 *references, cs_f32 *enters)
+ * overwritten with anything. With `far_first` the distances need not be written. */
+CS_INLINED int cs_push_children(CS_GLOBAL const cs_wide_node *node, int octant, const int far_first,
+                                const cs_float_lanes *enter, cs_f32 limit, cs_u32 *references,
+                                cs_f32 *enters)
 {
     CS_GLOBAL const cs_u32 *words = node->order[far_first ? 7 - octant : octant];
     cs_u32 even = words[0], odd = words[1];
@@ -50,7 +50,8 @@ static inline int cs_push_children(CS_GLOBAL const cs_wide_node *node, int octan
     cs_vint child =
         __builtin_ia32_permvarsi512(*(CS_GLOBAL const cs_loose_int *)node->child, as_int16(order));
     ushort mask = __builtin_ia32_cvtd2mask512(ordered < limit);
-    *(cs_loose_float *)enters = __builtin_ia32_compresssf512_mask(ordered, ordered, mask);
+    if (!far_first)
+        *(cs_loose_float *)enters = __builtin_ia32_compresssf512_mask(ordered, ordered, mask);
     *(cs_loose_uint *)references = as_uint16(__builtin_ia32_compresssi512_mask(child, child, mask));
     return popcount((int)mask);
 }
@@ -110,9 +111,9 @@ static inline void cs_insert_child(ulong key, cs_u32 flip, int count, cs_u32 *re
 }
 
 /* As above, but the order is that of the distances, and `octant` is not used. */
-static inline int cs_push_children(CS_GLOBAL const cs_wide_node *node, int octant,
-                                   const int far_first, const cs_float_lanes *enter, cs_f32 limit,
-                                   cs_u32 *references, cs_f32 *enters)
+CS_INLINED int cs_push_children(CS_GLOBAL const cs_wide_node *node, int octant, const int far_first,
+                                const cs_float_lanes *enter, cs_f32 limit, cs_u32 *references,
+                                cs_f32 *enters)
 {
     const cs_u32 flip = far_first ? ~0u : 0u;
     ulong key[CS_FIRST_CHILDREN];

@@ -53,8 +53,8 @@ static inline cs_vfloat cs_wide_enters(CS_GLOBAL const cs_wide_node *node, int f
 }
 
 /* Meets the boxes of a node's children. */
-static inline void cs_wide_enter(CS_GLOBAL const cs_wide_node *nodes, cs_wide_ray *ray,
-                                 const int any_hit)
+CS_INLINED void cs_wide_enter(CS_GLOBAL const cs_wide_node *nodes, cs_wide_ray *ray,
+                              const int any_hit)
 {
     CS_GLOBAL const cs_wide_node *node = nodes + ray->next;
     float4 scale = *(CS_GLOBAL const cs_loose_four *)node->step * ray->inverse;
@@ -99,8 +99,8 @@ static inline cs_u32 cs_wide_distances(CS_GLOBAL const cs_wide_leaf *leaf, const
 }
 
 /* Meets the triangles of a leaf. */
-static inline void cs_wide_hit(CS_GLOBAL const cs_wide_leaf *leaves, cs_wide_ray *ray,
-                               const int any_hit)
+CS_INLINED void cs_wide_hit(CS_GLOBAL const cs_wide_leaf *leaves, cs_wide_ray *ray,
+                            const int any_hit)
 {
     union {
         float4 all;
@@ -127,14 +127,14 @@ typedef struct cs_wide_turn {
     int node_count, leaf_count;
 } cs_wide_turn;
 
-/* Takes what a ray meets next from its stack and asks for it. */
-static inline void cs_wide_pop(const cs_scene_buffers *scene, cs_wide_ray *ray, int lane,
-                               cs_wide_turn *turn)
+/* Takes what a ray meets next from its stack and asks for it. With `any_hit` all that is there is
+ * within its reach, which does not shrink. */
+CS_INLINED void cs_wide_pop(const cs_scene_buffers *scene, cs_wide_ray *ray, int lane,
+                            const int any_hit, cs_wide_turn *turn)
 {
-    int top = ray->top;
-    do
+    int top = ray->top - 1;
+    while (!any_hit && !(ray->enters[top] < ray->limit))
         top--;
-    while (!(ray->enters[top] < ray->limit));
     cs_u32 reference = ray->references[top], kind = reference >> 30;
     ray->top = top;
     reference &= (cs_u32)CS_LEAF - 1u;
@@ -153,8 +153,8 @@ static inline void cs_wide_pop(const cs_scene_buffers *scene, cs_wide_ray *ray, 
 }
 
 /* Lets all rays take turns until none is left. */
-static inline void cs_wide_take_turns(const cs_scene_buffers *scene, cs_wide_ray *rays,
-                                      cs_wide_turn *turns, const int any_hit)
+CS_INLINED void cs_wide_take_turns(const cs_scene_buffers *scene, cs_wide_ray *rays,
+                                   cs_wide_turn *turns, const int any_hit)
 {
     for (int now = 0; turns[now].node_count + turns[now].leaf_count > 0; now = 1 - now) {
         cs_wide_turn *turn = turns + now, *next = turns + 1 - now;
@@ -162,12 +162,12 @@ static inline void cs_wide_take_turns(const cs_scene_buffers *scene, cs_wide_ray
         for (int i = 0; i < turn->node_count; i++) {
             int lane = turn->nodes[i];
             cs_wide_enter(scene->wide_nodes, rays + lane, any_hit);
-            cs_wide_pop(scene, rays + lane, lane, next);
+            cs_wide_pop(scene, rays + lane, lane, any_hit, next);
         }
         for (int i = 0; i < turn->leaf_count; i++) {
             int lane = turn->leaves[i];
             cs_wide_hit(scene->wide_leaves, rays + lane, any_hit);
-            cs_wide_pop(scene, rays + lane, lane, next);
+            cs_wide_pop(scene, rays + lane, lane, any_hit, next);
         }
     }
 }
@@ -216,9 +216,9 @@ static inline int cs_wide_begin_all(cs_wide_ray *rays, const cs_ray *ray,
     return count;
 }
 
-/* As cs_traverse, each ray by itself. */
-static inline void cs_traverse_alone(const cs_scene_buffers *scene, const cs_ray *ray,
-                                     const int any_hit, cs_hit *hit)
+/* As cs_traverse, each ray by itself. `any_hit` must be a literal. */
+CS_INLINED void cs_traverse_alone(const cs_scene_buffers *scene, const cs_ray *ray,
+                                  const int any_hit, cs_hit *hit)
 {
     cs_wide_ray rays[CS_PACKET];
     cs_wide_turn turns[2];
@@ -242,6 +242,17 @@ static inline void cs_traverse_alone(const cs_scene_buffers *scene, const cs_ray
     }
     hit->distance = distance.all;
     hit->triangle = triangle.all;
+}
+
+/* Both are functions, so that each is compiled once, however often it is called. */
+static inline void cs_nearest_alone(const cs_scene_buffers *scene, const cs_ray *ray, cs_hit *hit)
+{
+    cs_traverse_alone(scene, ray, 0, hit);
+}
+
+static inline void cs_blocked_alone(const cs_scene_buffers *scene, const cs_ray *ray, cs_hit *hit)
+{
+    cs_traverse_alone(scene, ray, 1, hit);
 }
 
 /* Largest less smallest value among the lanes in `active`, of which there is one. */
@@ -280,7 +291,10 @@ CS_INLINED void cs_traverse_either(const cs_scene_buffers *scene, const cs_ray *
 #if CS_WALKS_WIDE
     cs_vint active = hit->distance > 0.0f;
     if (cs_any(active) && cs_is_scattered(scene, ray, active)) {
-        cs_traverse_alone(scene, ray, any_hit, hit);
+        if (any_hit)
+            cs_blocked_alone(scene, ray, hit);
+        else
+            cs_nearest_alone(scene, ray, hit);
         return;
     }
 #endif
