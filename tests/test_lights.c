@@ -69,19 +69,25 @@ static void spots_may_be_narrow_or_sharp(void **state)
 }
 
 /* A floor, and a half plane x < 0 at a height of 10: seen from (0, 0, 0), it hides half of a sun in
- * the zenith. */
-static clshear_scene *floor_and_half_plane(clshear_context *context)
+ * the zenith. A triangle below the floor, which nothing sees, has radiance `below`. */
+static clshear_scene *floor_and_half_plane(clshear_context *context, float below)
 {
+    static const float hidden[9] = {0, -5, 0, 1, -5, 0, 0, -5, 1};
     static const float floor_y[12] = {-50, 0, -50, 50, 0, -50, 50, 0, 50, -50, 0, 50};
     static const float half[12] = {-50, 10, -50, 0, 10, -50, 0, 10, 50, -50, 10, 50};
-    const clshear_mesh meshes[2] = {
+    const clshear_mesh meshes[3] = {
         {.positions = floor_y,
          .indices = quad,
          .vertex_count = 4,
          .triangle_count = 2,
          .diffuse = {0.5f, 0.5f, 0.5f}},
-        {.positions = half, .indices = quad, .vertex_count = 4, .triangle_count = 2}};
-    return test_meshes(context, meshes, 2);
+        {.positions = half, .indices = quad, .vertex_count = 4, .triangle_count = 2},
+        {.positions = hidden,
+         .indices = quad,
+         .vertex_count = 3,
+         .triangle_count = 1,
+         .emission = {below, below, below}}};
+    return test_meshes(context, meshes, 3);
 }
 
 /* A sun of radius a whose middle is hidden up to the angle b from the zenith: with s = sin b / sin
@@ -91,7 +97,7 @@ static clshear_scene *floor_and_half_plane(clshear_context *context)
 static void sun_behind_an_edge(void **state)
 {
     static const double places[] = {-1.5, -0.5, 0.0, 0.5, 1.5};
-    clshear_scene *scene = floor_and_half_plane(*state);
+    clshear_scene *scene = floor_and_half_plane(*state, 0.0f);
     const clshear_light light = {.kind = CLSHEAR_LIGHT_DIRECTIONAL,
                                  .direction = {0, 2, 0},
                                  .colour = {3, 3, 3},
@@ -120,7 +126,7 @@ static void sun_behind_an_edge(void **state)
  */
 static void light_is_paired_with_the_fibre(void **state)
 {
-    clshear_scene *scene = floor_and_half_plane(*state);
+    clshear_scene *scene = floor_and_half_plane(*state, 0.0f);
     const clshear_light light = {.kind = CLSHEAR_LIGHT_DIRECTIONAL,
                                  .direction = {0, 2, 0},
                                  .colour = {3, 3, 3},
@@ -255,6 +261,34 @@ static void studio_lights_the_inside(void **state)
     clshear_scene_free(scene);
 }
 
+/* Where no surface shines, the light that a path's last ray ends at is known before it is traced.
+ * An emissive triangle below the floor, which nothing sees, lets such rays be traced as others are:
+ * the same samples find the same, but for rounding. */
+static void last_rays_are_like_others(void **state)
+{
+    for (int bounces = 0; bounces < 2; bounces++) {
+        test_estimate found[2];
+        for (int shines = 0; shines < 2; shines++) {
+            clshear_scene *scene = floor_and_half_plane(*state, (float)shines);
+            clshear_settings *settings = test_looking_down(0.0, 1024);
+            test_set_number(settings, CLSHEAR_FOV, 60.0);
+            test_set_number(settings, CLSHEAR_BOUNCES, bounces);
+            test_set_number(settings, CLSHEAR_ADAPTIVE, 0);
+            test_set(settings, CLSHEAR_SUN, "0.3,2,0,3,3,3,30");
+            test_set(settings, CLSHEAR_SPHERE, "1,2,1,1,2,2,2");
+            test_set(settings, CLSHEAR_QUAD, "-4,1,-4,0,0,8,2,0,0,2,2,2");
+            test_set(settings, CLSHEAR_ENVIRONMENT, "gradient:0.5,0.5,0.5,1,1,1");
+            found[shines] = mean_of_render(scene, settings);
+            clshear_scene_free(scene);
+        }
+        print_message("%d bounces: %.6f and %.6f, errors %.6f and %.6f\n", bounces, found[0].mean,
+                      found[1].mean, found[0].error, found[1].error);
+        assert_above(found[0].error, 1e-5 * found[0].mean);
+        assert_near(found[0].mean, found[1].mean, 1e-5 * found[0].mean);
+        assert_near(found[0].error, found[1].error, 1e-3 * found[0].error);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -267,6 +301,7 @@ int main(void)
         cmocka_unit_test(studio_lights_the_inside),
         cmocka_unit_test(studio_leaves_the_open_to_the_sky),
         cmocka_unit_test(wrong_lights_are_refused),
+        cmocka_unit_test(last_rays_are_like_others),
     };
     return cmocka_run_group_tests(tests, test_open_context, test_close_context);
 }

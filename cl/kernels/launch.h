@@ -51,13 +51,14 @@ typedef struct cs_launch {
     cs_u32 lights;
     cs_u32 area_lights; /* lights that are sampled by a pair of the tuple, or only by rays */
     cs_u32 only_rays;   /* whether some surfaces shine that only rays are sure to find */
+    cs_u32 dark;        /* whether no surface shines on others: lights alone do */
     cs_u32 bounces;     /* surfaces after the first one that scatter light */
     cs_u32 see_through; /* whether some surfaces let rays pass: alpha */
     cs_f32 clamp;       /* most that a bounce adds to a channel; 0: no limit */
     cs_u32 planes;      /* of AOVs that are kept: a set of CS_PLANE_ numbers */
     cs_u32 goes_on;     /* 1: more samples follow the pattern's last, so it is not finished */
 } cs_launch;
-CS_SHARED_WORDS(cs_launch, 95);
+CS_SHARED_WORDS(cs_launch, 96);
 
 /* Whether tuples have a pair for the first surface's light: the place on area lights, and opposite
  * in the unit square, the direction that goes on. */

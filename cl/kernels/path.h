@@ -108,6 +108,12 @@ static inline void cs_path_advance(const cs_scene_buffers *scene, cs_paths *path
     path->facing = cs_environment_facing(scene, launch->lights, &surface);
 #endif
     path->alive = path->alive & ~alone;
+#if CS_HAS(LIGHTS)
+    if (last && launch->dark) {
+        cs_path_seek_lights(scene, paths, path);
+        path->alive = (cs_vint)(0);
+    }
+#endif
     paths->rays += path->alive ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
 }
 

@@ -40,6 +40,7 @@ cs_pass cs_job_pass(const cs_job *job)
                                 .lights = lighting->count,
                                 .area_lights = cs_area_lights(job),
                                 .only_rays = (cs_u32)shines_for_rays_only(job),
+                                .dark = job->scene->device_scene.emitters == 0,
                                 .see_through = (cs_u32)needs->see_through,
                                 .bounces = (cs_u32)cs_integer(&job->settings, BOUNCES),
                                 .clamp = (float)cs_number(&job->settings, CLAMP)},

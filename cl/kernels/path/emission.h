@@ -38,29 +38,39 @@ static inline void cs_path_add_emission(const cs_scene_buffers *scene, cs_paths 
 }
 
 #if CS_HAS(LIGHTS)
-/* Adds lights that the paths met, and what comes from beyond the scene. The camera does not see
- * suns. */
+/* Lanes of the path whose rays end at light number `i`, or beyond the scene in what it shines
+ * there. found: of these. The camera does not see suns. */
+static inline cs_vint cs_path_escape(const cs_scene_buffers *scene, const cs_path *path,
+                                     const cs_hit *hit, cs_u32 i, int from_camera,
+                                     cs_escaped *found)
+{
+    CS_GLOBAL const cs_light *light = scene->lights + i;
+    cs_vint escaped = path->alive & (hit->triangle == (cs_vint)(CS_NO_HIT));
+    if (cs_is_shape(light)) {
+        escaped = path->alive & (hit->triangle == (cs_vint)(cs_shape_hit(i)));
+        if (cs_any(escaped)) *found = cs_escape_to_shape(light, &path->ray);
+    } else if (light->kind == CS_LIGHT_ENVIRONMENT)
+        *found = cs_escape_to_environment(scene, light, &path->ray, path->cosine, path->facing,
+                                          !from_camera);
+    else if (light->kind == CS_LIGHT_SUN && !from_camera)
+        *found = cs_escape_to_sun(light, &path->ray);
+    else
+        escaped = (cs_vint)(0);
+    return escaped;
+}
+
+/* Adds lights that the paths met, and what comes from beyond the scene. */
 static inline void cs_path_add_escaped(const cs_scene_buffers *scene, cs_paths *paths,
                                        const cs_path *path, const cs_hit *hit)
 {
+    const int from_camera = paths->depth == 0u;
     if (!cs_any(path->alive & (hit->triangle < 0))) return;
     for (cs_u32 i = 0u; i < paths->launch->lights; i++) {
-        CS_GLOBAL const cs_light *light = scene->lights + i;
-        cs_vint escaped = path->alive & (hit->triangle == (cs_vint)(CS_NO_HIT));
         cs_escaped found;
-        if (cs_is_shape(light)) {
-            escaped = path->alive & (hit->triangle == (cs_vint)(cs_shape_hit(i)));
-            if (!cs_any(escaped)) continue;
-            found = cs_escape_to_shape(light, &path->ray);
-        } else if (light->kind == CS_LIGHT_ENVIRONMENT)
-            found = cs_escape_to_environment(scene, light, &path->ray, path->cosine, path->facing,
-                                             paths->depth > 0u);
-        else if (light->kind == CS_LIGHT_SUN && paths->depth > 0u)
-            found = cs_escape_to_sun(light, &path->ray);
-        else
-            continue;
+        cs_vint escaped = cs_path_escape(scene, path, hit, i, from_camera, &found);
+        if (!cs_any(escaped)) continue;
         cs_vfloat weight = (cs_vfloat)(1.0f);
-        if (paths->depth > 0u) weight = cs_power_weight(path->density, found.density);
+        if (!from_camera) weight = cs_power_weight(path->density, found.density);
         cs_path_add(paths, path, escaped ? weight : (cs_vfloat)(0.0f), found.colour);
     }
 }

@@ -1,10 +1,11 @@
-/* The light that lights' own samples bring to paths. Device only.
+/* The light that rays to lights bring to paths. Device only.
  *
  * Rays to lights wait for those of other packets, and are traced in packets of one octant. */
 #ifndef CS_PATH_SHADOW_H
 #define CS_PATH_SHADOW_H
 
 #include "kernels/light/suffice.h"
+#include "kernels/path/emission.h"
 #include "kernels/path/next_surface.h"
 #include "kernels/path/sort.h"
 
@@ -73,6 +74,27 @@ static inline void cs_trace_shadows(const cs_scene_buffers *scene, cs_paths *pat
     paths->shadows = 0;
 }
 
+/* Lets rays to lights wait, of which everything is filled in but what they share with the paths.
+ * wanted: lanes that have one. reach: in lengths of their directions. number: of the light, or that
+ * of lights. */
+static inline void cs_path_wait(const cs_scene_buffers *scene, cs_paths *paths, const cs_path *path,
+                                cs_u32 number, cs_vint wanted, cs_vfloat reach)
+{
+    cs_shadow *shadow = paths->shadow + paths->shadows;
+    shadow->reach = wanted ? reach : (cs_vfloat)(-1.0f);
+    shadow->home = path->home;
+#if CS_HAS(MATERIALS)
+    shadow->passing = cs_passing(paths, number + 1u, path);
+#endif
+#if CS_HAS(MOVING)
+    shadow->time = path->time;
+#endif
+    paths->shadow_light[paths->shadows] = number;
+    paths->rays += wanted ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
+    paths->shadows++;
+    if (paths->shadows == CS_SHADOWS) cs_trace_shadows(scene, paths);
+}
+
 /* Lets what light number `number` reflects towards the path wait for its shadow rays, as
  * cs_add_light adds it for direct light alone. alone: lanes in which the light's samples have the
  * whole weight, since no ray of the BSDF follows. */
@@ -94,26 +116,46 @@ static inline void cs_path_add_light(const cs_scene_buffers *scene, cs_paths *pa
         colour[c] = light->colour[c] * bsdf.colour[c];
     /* Where a polished surface leaves the sample no weight, its value may be infinite. */
     cs_vfloat weight = fabs(light->weight) * bsdf.scale * share;
-    facing = facing & (weight > 0.0f);
-    cs_path_carry(paths, path, weight, colour, shadow->light);
+    cs_path_carry(paths, path, paths->depth + 1u, weight, colour, shadow->light);
     cs_leave_towards(surface, origin, light->towards, shadow->ray.origin);
     for (int axis = 0; axis < 3; axis++) {
         cs_vfloat apart = light->reach < INFINITY ? surface->point[axis] - shadow->ray.origin[axis]
                                                   : (cs_vfloat)(0.0f);
         shadow->ray.direction[axis] = light->towards[axis] + apart;
     }
-    shadow->reach = facing ? (cs_vfloat)(light->reach) : (cs_vfloat)(-1.0f);
-    shadow->home = path->home;
-#if CS_HAS(MATERIALS)
-    shadow->passing = cs_passing(paths, number + 1u, path);
-#endif
-#if CS_HAS(MOVING)
-    shadow->time = path->time;
-#endif
-    paths->shadow_light[paths->shadows] = number;
-    paths->rays += facing ? (cs_vfloat)(1.0f) : (cs_vfloat)(0.0f);
-    paths->shadows++;
-    if (paths->shadows == CS_SHADOWS) cs_trace_shadows(scene, paths);
+    cs_path_wait(scene, paths, path, number, facing & (weight > 0.0f), (cs_vfloat)(light->reach));
 }
+
+#if CS_HAS(LIGHTS)
+/* Lets what the paths' last rays find wait like rays to lights, where no surface shines: at which
+ * light a ray ends is known before it is traced, and only what is in the way is not. */
+static inline void cs_path_seek_lights(const cs_scene_buffers *scene, cs_paths *paths,
+                                       const cs_path *path)
+{
+    const cs_u32 lights = paths->launch->lights;
+    cs_shadow *shadow = paths->shadow + paths->shadows;
+    cs_hit end;
+    end.distance = path->alive ? (cs_vfloat)(INFINITY) : (cs_vfloat)(-1.0f);
+    end.triangle = (cs_vint)(CS_NO_HIT);
+    cs_meet_shapes(scene, lights, &path->ray, 0, &end);
+    for (int c = 0; c < 3; c++)
+        shadow->light[c] = (cs_vfloat)(0.0f);
+    for (cs_u32 i = 0u; i < lights; i++) {
+        cs_escaped found;
+        cs_vfloat light[3];
+        cs_vint escaped = cs_path_escape(scene, path, &end, i, 0, &found);
+        if (!cs_any(escaped)) continue;
+        cs_vfloat weight = cs_power_weight(path->density, found.density);
+        cs_path_carry(paths, path, paths->depth + 1u, weight, found.colour, light);
+        for (int c = 0; c < 3; c++)
+            shadow->light[c] += escaped ? light[c] : (cs_vfloat)(0.0f);
+    }
+    cs_vint wanted = shadow->light[0] + shadow->light[1] + shadow->light[2] > 0.0f;
+    if (!cs_any(wanted)) return;
+    shadow->ray = path->ray;
+    /* Shorter by the rounding of distances: a shape must not hide itself. */
+    cs_path_wait(scene, paths, path, lights, wanted, 0.9999f * end.distance);
+}
+#endif
 
 #endif

@@ -118,16 +118,16 @@ static inline void cs_samples_add(cs_paths *paths, cs_vint home, cs_u32 met, cs_
     }
 }
 
-/* Radiance at the lens for `colour` times `weight` at the end of the paths; what `clamp` leaves of
- * it behind the first surface. */
-static inline void cs_path_carry(const cs_paths *paths, const cs_path *path, cs_vfloat weight,
-                                 const cs_vfloat *colour, cs_vfloat *light)
+/* Radiance at the lens for `colour` times `weight` at the end of the paths. met: surfaces that it
+ * met; of what met more than one, what `clamp` leaves. */
+static inline void cs_path_carry(const cs_paths *paths, const cs_path *path, cs_u32 met,
+                                 cs_vfloat weight, const cs_vfloat *colour, cs_vfloat *light)
 {
     cs_vfloat scale = (cs_vfloat)(1.0f);
     cs_f32 clamp = paths->launch->clamp;
     for (int c = 0; c < 3; c++)
         light[c] = path->throughput[c] * weight * colour[c];
-    if (clamp > 0.0f && paths->depth > 0u) {
+    if (clamp > 0.0f && met > 1u) {
         cs_vfloat most = cs_max(light[0], cs_max(light[1], light[2]));
         scale = most > clamp ? clamp / most : scale;
     }
@@ -140,7 +140,7 @@ static inline void cs_path_add(cs_paths *paths, const cs_path *path, cs_vfloat w
                                const cs_vfloat *colour)
 {
     cs_vfloat light[3];
-    cs_path_carry(paths, path, weight, colour, light);
+    cs_path_carry(paths, path, paths->depth, weight, colour, light);
     cs_samples_add(paths, path->home, paths->depth, weight > 0.0f, light);
 }
 
