@@ -55,6 +55,7 @@ static void only_motion_needs_a_pilot(void **state)
 {
     test_fixture *made = *state;
     clshear_settings *settings = test_settings(made->settings, SIZE, SIZE, 64);
+    test_set(settings, CLSHEAR_ADAPTIVE, "1"); /* by default another pilot asks whether it pays */
     clshear_film *film = test_render(made->scene, settings);
     const float *rule = clshear_film_channel(film, "Oracle");
     int front = 0;
@@ -342,6 +343,7 @@ static void sharing_out_is_the_default(void **state)
     test_fixture *made = *state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         clshear_settings *settings = test_settings(made->settings, SIZE, SIZE, 64);
+        test_set_number(settings, CLSHEAR_FOV, 90.0); /* much is background: it pays */
         test_set(settings, cases[k].setting, "%s", cases[k].value);
         clshear_film *film = test_render(made->scene, settings);
         const float *samples = clshear_film_channel(film, "Samples");
@@ -357,6 +359,30 @@ static void sharing_out_is_the_default(void **state)
     }
 }
 
+/* A floor under an even sky has the same noise everywhere: nothing is shared out without a word,
+ * which a pilot of a few samples finds. */
+static void even_noise_has_even_samples(void **state)
+{
+    test_fixture *made = *state;
+    clshear_scene *scene = test_floor(made->context, 100.0f, 0.5f);
+    clshear_settings *settings = test_looking_down(0.0, 64);
+    test_set_number(settings, CLSHEAR_WIDTH, SIZE);
+    test_set_number(settings, CLSHEAR_HEIGHT, SIZE);
+    test_set_number(settings, CLSHEAR_FOV, 40.0);
+    test_set_number(settings, CLSHEAR_REPLICATES, 2);
+    test_set(settings, CLSHEAR_ENVIRONMENT, "gradient:1,1,1,0,0,0");
+    clshear_film *film = test_render(scene, settings);
+    const float *samples = clshear_film_channel(film, "Samples");
+    for (int i = 0; i < PIXELS; i++)
+        assert_near(samples[i], 64.0f, 0);
+    const clshear_film_info info = test_film_info(film);
+    assert_above(info.pilot_samples, 0);
+    assert_at_most((double)info.pilot_samples, 0.02 * (double)info.samples);
+    clshear_film_free(film);
+    clshear_settings_free(settings);
+    clshear_scene_free(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -368,6 +394,7 @@ int main(void)
         cmocka_unit_test(what_is_rare_does_not_bias),
         cmocka_unit_test(gain_is_shown),
         cmocka_unit_test(sharing_out_is_the_default),
+        cmocka_unit_test(even_noise_has_even_samples),
         cmocka_unit_test(adaptive_allocation_is_unbiased_and_less_noisy),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);

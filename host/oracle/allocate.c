@@ -11,6 +11,11 @@ typedef struct surroundings {
     double contrast;  /* largest difference of intensity from the pixel */
 } surroundings;
 
+static int is_known(const cs_pilot_picture *pilot, size_t pixel)
+{
+    return !(pilot->variance[pixel] < 0.0f);
+}
+
 static surroundings surroundings_of(const cs_pilot_picture *pilot, size_t pixel)
 {
     const int width = pilot->width, height = pilot->height;
@@ -21,6 +26,7 @@ static surroundings surroundings_of(const cs_pilot_picture *pilot, size_t pixel)
         for (int i = x > 0 ? x - 1 : 0; i <= x + 1 && i < width; i++) {
             const size_t there = (size_t)j * (size_t)width + (size_t)i;
             const int own = there == pixel;
+            if (!is_known(pilot, there)) continue;
             const double weight = (i == x ? 2.0 : 1.0) * (j == y ? 2.0 : 1.0);
             const double intensity =
                 (double)(own ? pilot->intensity : pilot->near_intensity)[there];
@@ -67,11 +73,16 @@ static measure measure_of(const cs_pilot_picture *pilot, errors *all)
      * the variance contrast^2 / (n s). */
     measure by = {.overlooked =
                       0.2 / ((double)pilot->pattern * pilot->pattern * pilot->replicates)};
-    for (size_t i = 0; i < pixels; i++)
-        by.level += fabs((double)pilot->intensity[i]) / (double)pixels;
+    double known = 0.0;
+    for (size_t i = 0; i < pixels; i++) {
+        if (!is_known(pilot, i)) continue;
+        by.level += fabs((double)pilot->intensity[i]);
+        known++;
+    }
+    by.level /= known > 0.0 ? known : 1.0;
     by.dark = 1e-4 * by.level * by.level + 1e-30;
     for (size_t i = 0; i < pixels; i++) {
-        if (pilot->certain[i]) continue;
+        if (pilot->certain[i] || !is_known(pilot, i)) continue;
         all[i] = errors_of(pilot, &by, i);
         by.absolute += (double)all[i].v;
         by.relative += (double)all[i].v * (double)all[i].w;
@@ -97,6 +108,7 @@ typedef struct census {
     crowd bright[BINS];
     crowd dark[BINS];
     double certain; /* pixels */
+    double pixels;  /* in all */
 } census;
 
 /* The bin of a pixel with these errors, if `weight` is that of the relative error. */
@@ -125,6 +137,8 @@ static void count_pixels(const cs_pilot_picture *pilot, const measure *by, const
     const size_t pixels = (size_t)pilot->width * (size_t)pilot->height;
     memset(all, 0, sizeof *all);
     for (size_t i = 0; i < pixels; i++) {
+        if (!is_known(pilot, i)) continue;
+        all->pixels++;
         if (pilot->certain[i]) {
             all->certain++;
             continue;
@@ -184,9 +198,9 @@ static prospect prospect_of(const census *all, const plan *how)
 
 /* Finds the largest scale with which the range's samples are enough, to a hundred-thousandth of an
  * octave. */
-static prospect fit(const census *all, double pixels, const cs_range *range, plan *how)
+static prospect fit(const census *all, const cs_range *range, plan *how)
 {
-    const double budget = range->mean * pixels - range->certain * all->certain;
+    const double budget = range->mean * all->pixels - range->certain * all->certain;
     double low = -60.0, high = 160.0;
     for (int step = 0; step < 24; step++) {
         how->scale = 0.5 * (low + high);
@@ -206,11 +220,10 @@ static plan choose_plan(const cs_pilot_picture *pilot, const measure *by, const 
 {
     static const double weights[] = {1.0, 0.3, 0.1};
     const double clear = 1.03; /* the least gain for which bright pixels may have less than even */
-    const double pixels = (double)pilot->width * (double)pilot->height;
     plan best = {.least = range->even, .even = range->even, .weight = weights[0]};
     best.most = cs_power_of_two(range->most / 16 < range->mean ? range->most : 16 * range->mean);
     count_pixels(pilot, by, found, best.weight, all);
-    const prospect safe = fit(all, pixels, range, &best);
+    const prospect safe = fit(all, range, &best);
     const double enough = safe.absolute * safe.relative / (clear * clear);
     if (range->least >= range->even) return best;
     for (size_t k = 0; k < sizeof weights / sizeof *weights && best.least == range->even; k++) {
@@ -218,7 +231,7 @@ static plan choose_plan(const cs_pilot_picture *pilot, const measure *by, const 
         bold.least = range->least;
         bold.weight = weights[k];
         if (k > 0) count_pixels(pilot, by, found, bold.weight, all);
-        const prospect daring = fit(all, pixels, range, &bold);
+        const prospect daring = fit(all, range, &bold);
         if (daring.absolute <= safe.absolute && daring.relative <= safe.relative &&
             daring.absolute * daring.relative < enough)
             best = bold;
@@ -260,6 +273,29 @@ clshear_status cs_allocate_samples(const cs_pilot_picture *pilot, const cs_range
         const errors at = errors_of(pilot, &by, i);
         samples[i] = samples_of(&how, bin_of(&by, how.weight, at), at.is_dark);
     }
+done:
+    free(all);
+    free(found);
+    return status;
+}
+
+clshear_status cs_allocate_gain(const cs_pilot_picture *pilot, const cs_range *range, double *gain,
+                                cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const size_t pixels = (size_t)pilot->width * (size_t)pilot->height;
+    census *all = malloc(sizeof *all);
+    errors *found = malloc(pixels * sizeof *found);
+    CS_REQUIRE(all != NULL && found != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
+               pixels);
+    const measure by = measure_of(pilot, found);
+    const plan how = choose_plan(pilot, &by, found, range, all);
+    count_pixels(pilot, &by, found, how.weight, all);
+    const prospect shared = prospect_of(all, &how);
+    const double even = pow(range->mean, -1.4);
+    *gain = 1.0;
+    if (shared.absolute > 0.0 && shared.relative > 0.0)
+        *gain = even * sqrt(by.absolute / shared.absolute * (by.relative / shared.relative));
 done:
     free(all);
     free(found);

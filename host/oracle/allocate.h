@@ -11,7 +11,8 @@
 
 /* What is known of each pixel of a window before samples are shared out, row by row. */
 typedef struct cs_pilot_picture {
-    const cs_f32 *variance;  /* about that of the mean of a pattern, averaged over colours */
+    const cs_f32 *variance;  /* about that of the mean of a pattern, averaged over colours; */
+                             /* negative: nothing is known of the pixel */
     const cs_f32 *intensity; /* mean over colours */
     /* The same, as a pixel's neighbours see it. The same arrays, unless a part of a pixel's samples
      * must not decide how many it gets: these lack that part, which neighbours may know. */
@@ -55,6 +56,12 @@ cs_u32 cs_power_of_two(cs_u32 count);
  * 3 x 3 pixels and e a hundredth of the picture's. A and B are the sums of V and V W. */
 clshear_status cs_allocate_samples(const cs_pilot_picture *pilot, const cs_range *range,
                                    cs_u32 *samples, cs_error *error);
+
+/* How much less error that promises than as many samples for each pixel: a ratio of variances, the
+ * root of the product of absolute and relative ones; 1 where there is no variance. Fails when out
+ * of memory. */
+clshear_status cs_allocate_gain(const cs_pilot_picture *pilot, const cs_range *range, double *gain,
+                                cs_error *error);
 
 /* Bytes that it takes for each pixel while it runs. */
 size_t cs_allocate_bytes(void);

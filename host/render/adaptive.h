@@ -39,6 +39,7 @@ typedef struct cs_share {
 
 /* Start from zeros. */
 typedef struct cs_adaptive {
+    int is_unasked;   /* whether sharing out is this module's choice, which a pilot may revoke */
     cs_u32 begin;     /* samples of a beginning; 0: the job does not share out in this way */
     cs_u32 few;       /* samples of a beginning in a certain pixel */
     cs_u32 drawn;     /* beginnings that are complete */
@@ -67,7 +68,8 @@ int cs_adaptive_shares(const struct cs_job *job);
 size_t cs_adaptive_bytes(const struct cs_job *job);
 size_t cs_adaptive_begin_bytes(void);
 
-/* Reserves the host memory of sharing out; does nothing for a job with even samples. */
+/* Reserves the host memory of sharing out; does nothing for a job with even samples. Where nobody
+ * asked and it promises little, the setting becomes that of even samples. */
 clshear_status cs_adaptive_plan(struct cs_job *job, cs_error *error);
 void cs_adaptive_free(cs_adaptive *adaptive);
 

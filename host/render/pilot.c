@@ -10,14 +10,15 @@
 #include "oracle/choose_rule.h"
 #include "pattern/pattern.h"
 #include "render/background.h"
-#include "render/motion.h"
+#include "render/pilot_run.h"
 
 enum {
     CHOICE_SAMPLES = 32, /* patterns by which shears are judged */
     CHOICE_REPLICATES = 2,
     GAIN_SAMPLES = 32, /* patterns by which the gain is measured */
     GAIN_REPLICATES = 4,
-    GAIN_PLANES = 3 /* variances without and with the shear, and no shears */
+    PROMISE_SAMPLES = 16, /* of a pixel, by which the gain of sharing out is judged */
+    GAIN_PLANES = 3       /* variances without and with the shear, and no shears */
 };
 
 /* Fewer samples than this leave a pilot nothing to find out with. */
@@ -25,84 +26,6 @@ static const cs_u32 least_spp_for_pilot = 64;
 
 /* The part of the samples of the pixels that differ which the choice of shears may take. */
 static const double choice_budget = 0.06;
-
-/* Where a pilot's results go, for each pixel of the window: negative where it did not look. */
-typedef struct outcome {
-    cs_f32 *variance; /* of a pattern's mean, averaged over colours */
-    cs_f32 *intensity;
-} outcome;
-
-/* Of the pixels in `list`; NULL: of all. */
-static clshear_status read_outcome(const cs_job *job, const cs_pixels *pixels, const cs_u32 *list,
-                                   const outcome *result, cs_error *error)
-{
-    clshear_status status = CLSHEAR_OK;
-    cs_pixel *slice = malloc(CS_PIXEL_SLICE * sizeof *slice);
-    CS_REQUIRE(slice != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory");
-    for (size_t i = 0; i < job->pixel_count && list != NULL; i++)
-        result->variance[i] = -1.0f;
-    for (size_t first = 0; first < pixels->count; first += CS_PIXEL_SLICE) {
-        const size_t left = pixels->count - first,
-                     count = left < CS_PIXEL_SLICE ? left : CS_PIXEL_SLICE;
-        CS_TRY(cs_pixels_read(pixels, first, count, slice, error));
-        for (size_t i = 0; i < count; i++) {
-            const cs_pixel *p = &slice[i];
-            const size_t number = list != NULL ? list[first + i] : first + i;
-            cs_f32 m2 = 0.0f, sum = 0.0f;
-            for (int c = 0; c < 3; c++)
-                m2 += p->pattern_m2[c], sum += p->pattern_sum[c];
-            result->variance[number] = m2 / (3.0f * (cs_f32)(p->patterns - 1));
-            if (result->intensity != NULL)
-                result->intensity[number] = sum / (3.0f * (cs_f32)p->patterns);
-        }
-    }
-done:
-    free(slice);
-    return status;
-}
-
-/* How the pixels of a pilot are sheared. */
-typedef struct trial {
-    const cs_f32 *shears;
-    const uint8_t *rules; /* which say whether the velocity counts */
-} trial;
-
-/* Renders `replicates` patterns of `samples` for the listed pixels (NULL: all). */
-static clshear_status run(cs_job *job, const trial *how, const cs_u32 *list, size_t count,
-                          cs_u32 samples, cs_u32 replicates, const outcome *result, cs_error *error)
-{
-    clshear_status status = CLSHEAR_OK;
-    clshear_context *context = job->scene->context;
-    cs_buffer *shear_buffer = NULL, *velocities = NULL;
-    cs_pixels pixels = {0};
-    cs_batch batch = {0};
-    const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
-    const cs_pattern pattern = cs_pattern_of_length(&job->pattern, samples);
-    cs_pass pass = cs_job_pass(job);
-    if (count > 0) {
-        CS_TRY(cs_pixels_create(context, count, width, 0, &pixels, error));
-        CS_TRY(cs_buffer_create(context->device, job->pixel_count * sizeof *how->shears,
-                                how->shears, &shear_buffer, error));
-        CS_TRY(cs_motion_upload(job, how->rules, &velocities, error));
-        CS_TRY(cs_batch_create(context, &pattern, list, count, width, list != NULL, &batch, error));
-        pass.launch.seed = cs_key(job->seed, 0x70696c6fu); /* its own random numbers */
-        pass.shears = shear_buffer;
-        pass.velocities = velocities;
-        pass.pixels = &pixels;
-        pass.settings = &job->settings;
-        for (cs_u32 replicate = 0; replicate < replicates; replicate++)
-            CS_TRY(cs_pass_replicate(&pass, &batch, 1, replicate, error));
-        job->pilot_samples += pass.done;
-    }
-    CS_TRY(read_outcome(job, &pixels, list, result, error));
-done:
-    job->kernel_s += pass.kernel_s;
-    cs_batch_free(&batch);
-    cs_buffer_free(shear_buffer);
-    cs_buffer_free(velocities);
-    cs_pixels_free(&pixels);
-    return status;
-}
 
 /* Whether two shears make a difference that a pixel could notice. */
 static int differ(cs_f32 a, cs_f32 b)
@@ -208,11 +131,11 @@ static clshear_status try_rules(cs_job *job, choice *c, double part, cs_error *e
     for (int rule = 0; rule < CS_RULE_COUNT; rule++) {
         if (rule != (int)prior_rule && !is_candidate(job, rule)) continue;
         const size_t count = list_pixels(job, c, rule, part);
-        const outcome result = {.variance = c->variance[rule]};
+        const cs_outcome result = {.variance = c->variance[rule]};
         memset(c->rules, rule, job->pixel_count);
-        const trial how = {c->shears[rule], c->rules};
-        clshear_status status =
-            run(job, &how, c->list, count, CHOICE_SAMPLES, CHOICE_REPLICATES, &result, error);
+        const cs_trial how = {c->shears[rule], c->rules};
+        clshear_status status = cs_pilot_run(job, &how, c->list, count, CHOICE_SAMPLES,
+                                             CHOICE_REPLICATES, &result, error);
         if (status != CLSHEAR_OK) return status;
     }
     return CLSHEAR_OK;
@@ -276,8 +199,8 @@ clshear_status cs_pilot_samples(cs_job *job, cs_u32 *samples, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const int width = job->window[1] - job->window[0], height = job->window[3] - job->window[2];
-    outcome result = {.variance = malloc(job->pixel_count * sizeof(cs_f32)),
-                      .intensity = malloc(job->pixel_count * sizeof(cs_f32))};
+    cs_outcome result = {.variance = malloc(job->pixel_count * sizeof(cs_f32)),
+                         .intensity = malloc(job->pixel_count * sizeof(cs_f32))};
     uint8_t *certain = malloc(job->pixel_count);
     CS_REQUIRE(result.variance != NULL && result.intensity != NULL && certain != NULL,
                CLSHEAR_OUT_OF_MEMORY, "out of memory for the pilot of %zu pixels",
@@ -289,8 +212,8 @@ clshear_status cs_pilot_samples(cs_job *job, cs_u32 *samples, cs_error *error)
     const cs_u32 size = cs_sampler_count(sampler, job->spp < 256 ? 8 : 16);
     const cs_u32 patterns = job->spp / 16 / size;
     const cs_u32 replicates = patterns < 2 ? 2 : patterns > 4 ? 4 : patterns;
-    const trial how = {job->shear_px, job->rule};
-    CS_TRY(run(job, &how, NULL, job->pixel_count, size, replicates, &result, error));
+    const cs_trial how = {job->shear_px, job->rule};
+    CS_TRY(cs_pilot_run(job, &how, NULL, job->pixel_count, size, replicates, &result, error));
     const cs_pilot_picture picture = {.variance = result.variance,
                                       .intensity = result.intensity,
                                       .near_variance = result.variance,
@@ -313,6 +236,58 @@ done:
     return status;
 }
 
+/* Lists the pixels of blocks of 3 x 3, one block somewhere in each square of `side` x `side`, that
+ * are not certain. */
+static size_t list_blocks(const cs_job *job, const uint8_t *certain, cs_u32 side, cs_u32 *list)
+{
+    const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
+    const cs_u32 height = (cs_u32)(job->window[3] - job->window[2]);
+    size_t count = 0;
+    for (cs_u32 top = 0; top < height; top += side)
+        for (cs_u32 left = 0; left < width; left += side) {
+            const cs_u32 lot = cs_hash((top << 16 ^ left) + 1u);
+            const cs_u32 x = left + lot % (side - 2), y = top + (lot >> 16) % (side - 2);
+            for (cs_u32 k = 0; k < 9; k++) {
+                const cs_u32 column = x + k % 3, row = y + k / 3;
+                if (column >= width || row >= height) continue;
+                if (!certain[row * width + column]) list[count++] = row * width + column;
+            }
+        }
+    return count;
+}
+
+clshear_status cs_pilot_promise(cs_job *job, const uint8_t *certain, const cs_range *range,
+                                double *gain, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    const size_t pixels = job->pixel_count;
+    const size_t blocks = pixels / 144 < 1024 ? pixels / 144 + 1 : 1024;
+    const cs_u32 side = (cs_u32)ceil(sqrt((double)pixels / (double)blocks));
+    cs_u32 *list = malloc(pixels * sizeof *list);
+    cs_f32 *found = calloc(2 * pixels, sizeof *found);
+    CS_REQUIRE(list != NULL && found != NULL, CLSHEAR_OUT_OF_MEMORY,
+               "out of memory for the pilot of %zu pixels", pixels);
+    const cs_u32 size = cs_sampler_count(job->pattern.sampler, PROMISE_SAMPLES);
+    const cs_trial how = {job->shear_px, job->rule};
+    const cs_outcome result = {.variance = found, .intensity = found + pixels};
+    const size_t count = list_blocks(job, certain, side < 12 ? 12 : side, list);
+    CS_TRY(cs_pilot_run(job, &how, list, count, size, 1, &result, error));
+    const cs_pilot_picture picture = {.variance = found,
+                                      .intensity = found + pixels,
+                                      .near_variance = found,
+                                      .near_intensity = found + pixels,
+                                      .certain = certain,
+                                      .width = job->window[1] - job->window[0],
+                                      .height = job->window[3] - job->window[2],
+                                      .pattern = size,
+                                      .replicates = 1};
+    CS_TRY(cs_allocate_gain(&picture, range, gain, error));
+done:
+    free(list);
+    free(found);
+    return status;
+}
+
 clshear_status cs_pilot_gain(cs_job *job, cs_f32 *gain, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
@@ -322,11 +297,13 @@ clshear_status cs_pilot_gain(cs_job *job, cs_f32 *gain, cs_error *error)
     uint8_t *no_rules = malloc(pixels);
     CS_REQUIRE(memory != NULL && no_rules != NULL, CLSHEAR_OUT_OF_MEMORY,
                "out of memory for the gain of %zu pixels", pixels);
-    const outcome without = {.variance = memory + pixels}, with = {.variance = memory + 2 * pixels};
+    const cs_outcome without = {.variance = memory + pixels},
+                     with = {.variance = memory + 2 * pixels};
     memset(no_rules, CS_RULE_NONE, pixels);
-    const trial unsheared = {memory, no_rules}, chosen = {job->shear_px, job->rule};
-    CS_TRY(run(job, &unsheared, NULL, pixels, GAIN_SAMPLES, GAIN_REPLICATES, &without, error));
-    CS_TRY(run(job, &chosen, NULL, pixels, GAIN_SAMPLES, GAIN_REPLICATES, &with, error));
+    const cs_trial unsheared = {memory, no_rules}, chosen = {job->shear_px, job->rule};
+    CS_TRY(cs_pilot_run(job, &unsheared, NULL, pixels, GAIN_SAMPLES, GAIN_REPLICATES, &without,
+                        error));
+    CS_TRY(cs_pilot_run(job, &chosen, NULL, pixels, GAIN_SAMPLES, GAIN_REPLICATES, &with, error));
     for (size_t i = 0; i < pixels; i++) {
         const int x = (int)(i % (size_t)width), y = (int)(i / (size_t)width);
         const double before = cs_smoothed(without.variance, width, height, x, y);
@@ -372,7 +349,10 @@ cs_footprint cs_pilot_bytes(const cs_job *job)
     const cs_footprint run = run_bytes(job, 1.0);
     const cs_footprint gain = {.host = GAIN_PLANES * sizeof(cs_f32) + sizeof(uint8_t)};
     const cs_footprint samples = {.host = 2 * sizeof(cs_f32) + sizeof(uint8_t) + sizeof(cs_u32)};
+    const cs_footprint promise = {.host = sizeof(cs_u32) + 2 * sizeof(cs_f32) +
+                                          (double)cs_allocate_bytes()};
     cs_footprint most = {0};
+    if (cs_adaptive_shares(job)) most = cs_footprint_sum(promise, run_bytes(job, 9.0 / 144.0));
     if (cs_pilot_chooses_shears(job)) most = cs_footprint_larger(most, choice_bytes(job));
     if (cs_integer(&job->settings, GAIN) != 0)
         most = cs_footprint_larger(most, cs_footprint_sum(gain, run));

@@ -2,6 +2,7 @@
 #ifndef CS_RENDER_PILOT_H
 #define CS_RENDER_PILOT_H
 
+#include "oracle/allocate.h"
 #include "render/footprint.h"
 #include "render/render_job.h"
 
@@ -25,6 +26,11 @@ enum {
     CS_LEAST_SPP_TO_ALLOCATE = 128
 };
 clshear_status cs_pilot_samples(cs_job *job, cs_u32 *samples, cs_error *error);
+
+/* How much less error sharing samples out within `range` promises (cs_allocate_gain), by a look at
+ * 9 pixels in 144, at most 9216 of them, but for those that are `certain`. */
+clshear_status cs_pilot_promise(cs_job *job, const uint8_t *certain, const cs_range *range,
+                                double *gain, cs_error *error);
 
 /* Variance without shear over variance with the job's shears, of small patterns with the same
  * random numbers, each averaged over 5 x 5 pixels; a value for each pixel. Costs 256 samples a

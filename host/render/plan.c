@@ -127,13 +127,12 @@ done:
 static clshear_status plan_batches(cs_job *job, cs_error *error)
 {
     const cs_u32 width = (cs_u32)(job->window[1] - job->window[0]);
-    const int adaptive = cs_integer(&job->settings, ADAPTIVE) != 0;
-    if (adaptive) {
+    if (cs_integer(&job->settings, ADAPTIVE) != 0) {
         const clshear_status status = cs_adaptive_plan(job, error);
         if (status != CLSHEAR_OK || job->adaptive.begin > 0) return status;
     }
     const int shared = cs_pilot_chooses_samples(job);
-    if (adaptive && !shared)
+    if (cs_integer(&job->settings, ADAPTIVE) != 0 && !shared)
         cs_warn(&job->scene->context->log,
                 "%u samples per pixel are too few to allocate adaptively (from %d on)", job->spp,
                 CS_LEAST_SPP_TO_ALLOCATE);
