@@ -36,6 +36,15 @@ struct aiMatrix4x4 cs_node_matrix(const struct aiScene *file, const char *name)
     return matrix;
 }
 
+void cs_node_transform(const struct aiMatrix4x4 *m, const struct aiVector3D *v, double one,
+                       double *result)
+{
+    const double x = (double)v->x, y = (double)v->y, z = (double)v->z;
+    result[0] = (double)m->a1 * x + (double)m->a2 * y + (double)m->a3 * z + one * (double)m->a4;
+    result[1] = (double)m->b1 * x + (double)m->b2 * y + (double)m->b3 * z + one * (double)m->b4;
+    result[2] = (double)m->c1 * x + (double)m->c2 * y + (double)m->c3 * z + one * (double)m->c4;
+}
+
 typedef struct walk {
     const struct aiScene *file;
     clshear_status (*visit)(void *user, const struct aiMesh *mesh,

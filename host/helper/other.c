@@ -14,6 +14,7 @@
 #include "helper/collada_camera.h"
 #include "helper/collada_edit.h"
 #include "helper/collada_sets.h"
+#include "helper/light.h"
 #include "helper/node.h"
 #include "helper/three_mf.h"
 #include "import/find_file.h"
@@ -121,15 +122,6 @@ static clshear_status add_material(const importing *work, const struct aiMateria
 
 /* ----- Meshes ----- */
 
-static void transform(const struct aiMatrix4x4 *m, const struct aiVector3D *v, double one,
-                      double *result)
-{
-    const double x = (double)v->x, y = (double)v->y, z = (double)v->z;
-    result[0] = (double)m->a1 * x + (double)m->a2 * y + (double)m->a3 * z + one * (double)m->a4;
-    result[1] = (double)m->b1 * x + (double)m->b2 * y + (double)m->b3 * z + one * (double)m->b4;
-    result[2] = (double)m->c1 * x + (double)m->c2 * y + (double)m->c3 * z + one * (double)m->c4;
-}
-
 static clshear_status add_vertices(const importing *work, const struct aiMesh *source,
                                    const struct aiMatrix4x4 *matrix, const struct aiVector3D *st)
 {
@@ -145,10 +137,10 @@ static clshear_status add_vertices(const importing *work, const struct aiMesh *s
     if (positions == NULL || normals == NULL || textures == NULL)
         return cs_model_full(model, work->error);
     for (size_t i = 0; i < count; i++) {
-        transform(matrix, &source->mVertices[i], 1.0, positions[i]);
+        cs_node_transform(matrix, &source->mVertices[i], 1.0, positions[i]);
         if (source->mNormals != NULL) {
             double normal[3];
-            transform(&turn, &source->mNormals[i], 0.0, normal);
+            cs_node_transform(&turn, &source->mNormals[i], 0.0, normal);
             for (int axis = 0; axis < 3; axis++)
                 normals[i][axis] = isfinite(normal[axis]) ? (float)normal[axis] : 0.0f;
         }
@@ -223,28 +215,12 @@ static clshear_status add_instance(void *user, const struct aiMesh *source,
 
 static clshear_status add_light(const importing *work, const struct aiLight *source)
 {
-    const struct aiMatrix4x4 matrix = cs_node_matrix(work->file, source->mName.data);
-    cs_model_light light = {.kind = CS_MODEL_POINT};
-    double fade = (double)source->mAttenuationQuadratic;
-    snprintf(light.name, sizeof light.name, "%.*s", CS_MODEL_NAME - 1, source->mName.data);
-    if (source->mType == aiLightSource_DIRECTIONAL)
-        light.kind = CS_MODEL_DIRECTIONAL;
-    else if (source->mType == aiLightSource_SPOT)
-        light.kind = CS_MODEL_SPOT;
-    else if (source->mType != aiLightSource_POINT) {
+    cs_model_light light;
+    if (!cs_light_read(work->file, source, &light)) {
         cs_warn(work->model->log, "%s: light \"%s\" is of a kind that is not supported; left out",
                 work->model->path, light.name);
         return CLSHEAR_OK;
     }
-    light.is_even = light.kind != CS_MODEL_DIRECTIONAL && !(fade > 0.0);
-    if (light.kind == CS_MODEL_DIRECTIONAL || light.is_even) fade = 1.0;
-    transform(&matrix, &source->mPosition, 1.0, light.position);
-    transform(&matrix, &source->mDirection, 0.0, light.axis);
-    light.cone[0] = 0.5f * source->mAngleInnerCone;
-    light.cone[1] = 0.5f * source->mAngleOuterCone;
-    light.colour[0] = source->mColorDiffuse.r / (float)fade;
-    light.colour[1] = source->mColorDiffuse.g / (float)fade;
-    light.colour[2] = source->mColorDiffuse.b / (float)fade;
     cs_model_light *added = cs_model_extend(&work->model->lights, 1);
     if (added == NULL) return cs_model_full(work->model, work->error);
     *added = light;
@@ -258,9 +234,9 @@ static clshear_status add_camera(const importing *work, const struct aiCamera *s
     if (camera == NULL) return cs_model_full(work->model, work->error);
     const double aspect = source->mAspect > 0.0f ? (double)source->mAspect : 1.0;
     snprintf(camera->name, sizeof camera->name, "%.*s", CS_MODEL_NAME - 1, source->mName.data);
-    transform(&matrix, &source->mPosition, 1.0, camera->eye);
-    transform(&matrix, &source->mLookAt, 0.0, camera->forward);
-    transform(&matrix, &source->mUp, 0.0, camera->up);
+    cs_node_transform(&matrix, &source->mPosition, 1.0, camera->eye);
+    cs_node_transform(&matrix, &source->mLookAt, 0.0, camera->forward);
+    cs_node_transform(&matrix, &source->mUp, 0.0, camera->up);
     camera->height = 2.0 * (double)source->mOrthographicWidth / aspect;
     camera->fov = 2.0 * atan(tan(0.5 * (double)source->mHorizontalFOV) / aspect);
     if (cs_is_collada(work->model->path)) {
