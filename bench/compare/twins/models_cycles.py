@@ -10,6 +10,7 @@ import sys
 
 import bpy
 import numpy
+from io_scene_fbx import parse_fbx
 from mathutils import Matrix, Vector
 
 # Blender 3.4's importer of glTF uses names that newer versions of numpy do not have.
@@ -17,7 +18,20 @@ for name, kind in (("bool", bool), ("int", int), ("float", float)):
     if name not in numpy.__dict__:
         setattr(numpy, name, kind)
 
-CENTIMETRES = 0.01  # Blender reads the units of FBX as these
+CENTIMETRES = 0.01  # the unit of FBX, which a factor in the file multiplies
+
+
+def unit_of_fbx(path):
+    """In metres, which Blender's coordinates are."""
+    def find(element, name):
+        return next((inner for inner in element.elems if inner and inner.id == name), None)
+
+    root, _ = parse_fbx.parse(str(path), use_namedtuple=True)
+    settings = find(root, b"GlobalSettings")
+    properties = settings and find(settings, b"Properties70")
+    factors = [inner.props[-1] for inner in (properties.elems if properties else [])
+               if inner.props[0] == b"UnitScaleFactor"]
+    return CENTIMETRES * (factors[0] if factors else 1.0)
 
 
 def read(path):
@@ -32,10 +46,10 @@ def read(path):
         return turned
     if kind == ".fbx":
         bpy.ops.import_scene.fbx(filepath=str(path))
-        return Matrix.Scale(CENTIMETRES, 4) @ turned
+        return Matrix.Scale(unit_of_fbx(path), 4) @ turned
     if kind == ".dae":
         bpy.ops.wm.collada_import(filepath=str(path))
-        return Matrix.Identity(4) if b"Z_UP" in path.read_bytes() else turned
+        return turned  # clshear turns +Z up, as Blender turns +Y up; neither looks at units
     if kind == ".ply":
         bpy.ops.import_mesh.ply(filepath=str(path))
         return Matrix.Identity(4)
