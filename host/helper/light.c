@@ -16,39 +16,69 @@ static const struct aiMetadataEntry *find_entry(const struct aiScene *file, cons
     return NULL;
 }
 
-/* Whether the lights of an FBX file are those of Blender's exporter, in watts. Before Blender 2.80
- * lights had a distance at which they are half as bright, as Assimp takes them. */
+static const char *text_of(const struct aiScene *file, const char *key)
+{
+    const struct aiMetadataEntry *entry = find_entry(file, key);
+    if (entry == NULL || entry->mType != AI_AISTRING) return "";
+    return ((const struct aiString *)entry->mData)->data;
+}
+
+static int is_collada(const struct aiScene *file)
+{
+    return strcmp(text_of(file, AI_METADATA_SOURCE_FORMAT), "Collada Importer") == 0;
+}
+
+/* Whether the lights of a file are those of Blender's exporter of FBX or Collada, in watts. Before
+ * Blender 2.80 lights had a distance at which they are half as bright, as Assimp takes them. */
 static int has_watts(const struct aiScene *file)
 {
-    static const char exporter[] = "Blender (stable FBX IO) - ";
-    const struct aiMetadataEntry *entry = find_entry(file, AI_METADATA_SOURCE_GENERATOR);
+    const char *exporter = is_collada(file) ? "Blender " : "Blender (stable FBX IO) - ";
+    const char *name = text_of(file, AI_METADATA_SOURCE_GENERATOR);
     int major = 0, minor = 0;
-    if (entry == NULL || entry->mType != AI_AISTRING) return 0;
-    const char *name = ((const struct aiString *)entry->mData)->data;
-    if (strncmp(name, exporter, sizeof exporter - 1) != 0) return 0;
-    return sscanf(name + sizeof exporter - 1, "%4d.%4d", &major, &minor) == 2 &&
+    if (strncmp(name, exporter, strlen(exporter)) != 0) return 0;
+    return sscanf(name + strlen(exporter), "%4d.%4d", &major, &minor) == 2 &&
            (major > 2 || (major == 2 && minor >= 80));
 }
 
-/* How many of an FBX file's units are a metre: UnitScaleFactor is the unit in centimetres. */
+/* How many of the file's units are a metre, as far as light goes: UnitScaleFactor of FBX is the
+ * unit in centimetres; Collada has Blender's coordinates, in which watts count. */
 static double units_of_metre(const struct aiScene *file)
 {
     const struct aiMetadataEntry *entry = find_entry(file, "UnitScaleFactor");
     double unit = 1.0;
+    if (is_collada(file)) return 1.0;
     if (entry != NULL && entry->mType == AI_FLOAT) unit = (double)*(const float *)entry->mData;
     if (entry != NULL && entry->mType == AI_DOUBLE) unit = *(const double *)entry->mData;
     return unit > 0.0 && isfinite(unit) ? 100.0 / unit : 100.0;
 }
 
-/* The inner angle of a spot with as much light as Blender's has. Blender's inner angle is the part
- * `1 - blend` of the outer one, but its light falls in the part `blend` of the cosines, smoothly,
- * which leaves half of the light there; ours falls by the square, which leaves a third. */
-static float inner_of_blend(const float cone[2])
+/* Sets the angles of a spot that has as much light as Blender's. Blender's light falls in the part
+ * `blend` of the cosines, smoothly, which leaves half of the light there; ours falls by the square,
+ * which leaves a third. */
+static void blend_cone(double outer_angle, double blend, float cone[2])
 {
-    if (!(cone[1] > 0.0f)) return cone[0];
-    const double blend = fmin(fmax(1.0 - (double)cone[0] / (double)cone[1], 0.0), 1.0);
-    const double outer = cos((double)cone[1]);
-    return (float)acos(outer + 0.75 * blend * (1.0 - outer));
+    const double outer = cos(outer_angle);
+    cone[0] = (float)acos(outer + 0.75 * fmin(fmax(blend, 0.0), 1.0) * (1.0 - outer));
+    cone[1] = (float)outer_angle;
+}
+
+/* In Collada, Assimp has the outer angle as the inner one, and adds to it the angle whose cosine,
+ * to the power of `blend`, is a tenth: a right angle, within the digits, if `blend` is small. */
+static double blend_of_collada(const float cone[2])
+{
+    const double least = 0.2, usual = 0.15; /* Blender's own */
+    const double blend = log(0.1) / log(cos(2.0 * ((double)cone[1] - (double)cone[0])));
+    return blend >= least ? blend : usual;
+}
+
+/* In FBX, the inner angle is the part `1 - blend` of the outer one. */
+static void take_cone(const struct aiScene *file, cs_model_light *light)
+{
+    float *cone = light->cone;
+    if (is_collada(file))
+        blend_cone((double)cone[0], blend_of_collada(cone), cone);
+    else if (cone[1] > 0.0f)
+        blend_cone((double)cone[1], 1.0 - (double)cone[0] / (double)cone[1], cone);
 }
 
 /* Makes watts of a light in all directions, which Blender shows as the brightness of points and
@@ -63,7 +93,7 @@ static void take_watts(const struct aiScene *file, const struct aiLight *source,
     light->is_even = 0;
     for (int c = 0; c < 3; c++)
         light->colour[c] = (float)((double)colour[c] * scale);
-    if (light->kind == CS_MODEL_SPOT) light->cone[0] = inner_of_blend(light->cone);
+    if (light->kind == CS_MODEL_SPOT) take_cone(file, light);
 }
 
 static int take_kind(const struct aiLight *source, cs_model_light *light)

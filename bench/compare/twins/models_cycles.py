@@ -59,6 +59,26 @@ def read(path):
     sys.exit(f"{path}: Blender has no importer for this kind")
 
 
+def dress(kind):
+    """Gives surfaces what clshear takes where a file says nothing."""
+    plain = bpy.data.materials.new("plain")
+    plain.use_nodes = True
+    nodes = plain.node_tree.nodes
+    nodes.clear()
+    diffuse, output = nodes.new("ShaderNodeBsdfDiffuse"), nodes.new("ShaderNodeOutputMaterial")
+    grey = 1.0 if kind in (".gltf", ".glb") else 0.5
+    diffuse.inputs["Color"].default_value = (grey, grey, grey, 1)
+    plain.node_tree.links.new(diffuse.outputs[0], output.inputs[0])
+    for mesh in bpy.data.meshes:
+        if not any(mesh.materials):
+            mesh.materials.clear()
+            mesh.materials.append(plain)
+    for material in bpy.data.materials:
+        surface = material.use_nodes and material.node_tree.nodes.get("Principled BSDF")
+        if kind == ".fbx" and surface and surface.inputs["Alpha"].default_value == 0:
+            surface.inputs["Alpha"].default_value = 1  # which Blender makes of no opacity
+
+
 def add_camera(given, turn):
     eye, target = (turn @ Vector(given[name]) for name in ("eye", "target"))
     back = (eye - target).normalized()
@@ -66,7 +86,8 @@ def add_camera(given, turn):
     camera = bpy.data.cameras.new("camera")
     camera.sensor_fit = "HORIZONTAL"
     camera.angle = math.radians(given["fov"])
-    camera.clip_start, camera.clip_end = 1e-3 * (eye - target).length, 1e3 * (eye - target).length
+    # The target of a file's camera may be a step away, so that its distance is no size of the scene.
+    camera.clip_start, camera.clip_end = 1e-3 * (eye - target).length, 1e9 * (eye - target).length
     thing = bpy.data.objects.new("camera", camera)
     frame = Matrix((right, back.cross(right), back)).transposed().to_4x4()
     frame.translation = eye
@@ -103,6 +124,7 @@ def main():
     for thing in list(bpy.context.scene.objects):
         if thing.type in ("LIGHT", "CAMERA"):
             bpy.data.objects.remove(thing)
+    dress(pathlib.Path(given["model"]).suffix.lower())
     set_up(given)
     add_camera(given["camera"], turn)
     bpy.context.scene.frame_set(1)
