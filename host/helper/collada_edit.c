@@ -1,5 +1,6 @@
 #include "helper/collada_edit.h"
 
+#include <assimp/material.h>
 #include <math.h>
 #include <string.h>
 
@@ -221,9 +222,25 @@ static void edit_vertices(editing *edit, const char *at)
     }
 }
 
+/* Adds Assimp's default material at the end of the file. Assimp gives meshes without a material the
+ * first one in the order of names, which this is, since no XML name begins with an exclamation
+ * mark. */
+static void add_default(editing *edit, const cs_xml_tag *tag)
+{
+    static const char material[] =
+        "<library_effects><effect id=\"!\"><profile_COMMON><technique><lambert><diffuse>"
+        "<color>0.6 0.6 0.6 1</color></diffuse></lambert></technique></profile_COMMON></effect>"
+        "</library_effects><library_materials><material id=\"!\" name=\"" AI_DEFAULT_MATERIAL_NAME
+        "\"><instance_effect url=\"#!\"/></material></library_materials>";
+    copy(edit, tag->begin, tag->begin);
+    put(edit, material, sizeof material - 1);
+}
+
 static void edit_end(editing *edit, const cs_xml_tag *tag, const char *at)
 {
-    if (cs_xml_is(tag, "ph")) {
+    if (cs_xml_is(tag, "COLLADA")) {
+        add_default(edit, tag);
+    } else if (cs_xml_is(tag, "ph")) {
         copy(edit, tag->begin, at);
         edit->in_holes = 0;
     } else if (edit->is_instance && cs_xml_is(tag, "instance_controller")) {

@@ -14,8 +14,9 @@ typedef struct cs_collada_losses {
 /* Rewrites a Collada file's text in place. Colours of three numbers get a fourth. The positions of
  * vertices come before their other inputs. Skews become matrices. Polygons lose their holes. Meshes
  * with morph targets become plain meshes of their first shape. Skins become plain meshes in the
- * pose in which they were bound to their bones, as Blender shows them. A file that is no text stays
- * as it is. Fails only without memory. */
+ * pose in which they were bound to their bones, as Blender shows them. Meshes without a material
+ * get Assimp's default one, not the file's first. A file that is no text stays as it is. Fails only
+ * without memory. */
 clshear_status cs_collada_edit(cs_bytes *bytes, cs_collada_losses *lost, cs_error *error);
 
 #endif

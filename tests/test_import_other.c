@@ -1,4 +1,5 @@
-/* Lights of FBX and Collada files, as Blender's exporters write them. */
+/* What Assimp reads: lights of FBX and Collada, as Blender's exporters write them, and meshes
+ * without a material. */
 #include "import_support.h"
 
 #include <math.h>
@@ -100,7 +101,8 @@ static void edges_of_spots(void **state)
     cs_scene_free(&scene);
 }
 
-/* The same lamp as Collada; `kind` is the name of its element, which holds `cone`, too. */
+/* The same lamp as Collada; `kind` is the name of its element, which holds `cone`, too. The
+ * triangle has none of the file's materials. */
 static cs_scene read_collada(const char *tool, const char *kind, const char *cone)
 {
     char text[4096];
@@ -112,7 +114,10 @@ static cs_scene read_collada(const char *tool, const char *kind, const char *con
         "<library_lights><light id='l'><technique_common><%s><color>300 150 0</color>"
         "<constant_attenuation>1</constant_attenuation><linear_attenuation>0</linear_attenuation>"
         "<quadratic_attenuation>0.0016</quadratic_attenuation>%s</%s></technique_common></light>"
-        "</library_lights><library_geometries><geometry id='g'><mesh><source id='p'>"
+        "</library_lights><library_effects><effect id='e'><profile_COMMON><technique><lambert>"
+        "<diffuse><color>1 0 0 1</color></diffuse></lambert></technique></profile_COMMON></effect>"
+        "</library_effects><library_materials><material id='r'><instance_effect url='#e'/>"
+        "</material></library_materials><library_geometries><geometry id='g'><mesh><source id='p'>"
         "<float_array id='a' count='9'>0 0 0 1 0 0 0 1 0</float_array><technique_common>"
         "<accessor source='#a' count='3' stride='3'><param name='X' type='float'/>"
         "<param name='Y' type='float'/><param name='Z' type='float'/></accessor>"
@@ -165,12 +170,20 @@ static void edges_of_collada(void **state)
     }
 }
 
+static void meshes_without_material(void **state)
+{
+    (void)state;
+    cs_scene scene = read_collada("", "point", "");
+    expect_close(import_material(&scene, 0)->diffuse, 0.5f, 0.5f, 0.5f);
+    cs_scene_free(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lamps_of_blender), cmocka_unit_test(lamps_of_others),
         cmocka_unit_test(edges_of_spots),   cmocka_unit_test(lamps_of_collada),
-        cmocka_unit_test(edges_of_collada),
+        cmocka_unit_test(edges_of_collada), cmocka_unit_test(meshes_without_material),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
