@@ -141,16 +141,17 @@ static void expect_collada(const char *tool, const char *kind, double red)
     cs_scene_free(&scene);
 }
 
-/* Watts count in Blender's units, whatever the file says of metres. */
+/* Collada is in metres, whatever its unit; here the triangle's short sides are 0.01, and the light
+ * is where they meet. One that fades in its own way is as bright as the file says in the middle. */
 static void lamps_of_collada(void **state)
 {
     (void)state;
     expect_collada("Blender 3.4.1", "point", per_metre);
     expect_collada("Blender 2.93.4 commit date:2021-08-31, commit time:09:23", "spot", per_metre);
     expect_collada("Blender 3.4.1", "directional", 300.0);
-    expect_collada("Blender 2.79.0 commit date:2018-03-22, commit time:14:10", "point",
-                   300.0 / 0.0016);
-    expect_collada("FBX COLLADA exporter", "point", 300.0 / 0.0016);
+    const double square = 2e-4 / 4.0, old = 300.0 * square / (1.0 + 0.0016 * square);
+    expect_collada("Blender 2.79.0 commit date:2018-03-22, commit time:14:10", "point", old);
+    expect_collada("FBX COLLADA exporter", "spot", old);
 }
 
 /* Blender writes the blend as the exponent; one below 0.2 is taken for 0.15. */

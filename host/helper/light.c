@@ -90,7 +90,7 @@ static void take_watts(const struct aiScene *file, const struct aiLight *source,
     const double metre = units_of_metre(file), scale = metre * metre / (4.0 * CS_PI_DOUBLE);
     const float colour[3] = {source->mColorDiffuse.r, source->mColorDiffuse.g,
                              source->mColorDiffuse.b};
-    light->is_even = 0;
+    memset(light->fading, 0, sizeof light->fading);
     for (int c = 0; c < 3; c++)
         light->colour[c] = (float)((double)colour[c] * scale);
     if (light->kind == CS_MODEL_SPOT) take_cone(file, light);
@@ -104,22 +104,33 @@ static int take_kind(const struct aiLight *source, cs_model_light *light)
     return light->kind != CS_MODEL_POINT || source->mType == aiLightSource_POINT;
 }
 
+/* A light without attenuation does not fade. */
+static void take_fading(const struct aiLight *source, cs_model_light *light)
+{
+    const float fading[3] = {source->mAttenuationConstant, source->mAttenuationLinear,
+                             source->mAttenuationQuadratic};
+    double sum = 0.0;
+    for (int i = 0; i < 3; i++) {
+        light->fading[i] = fading[i] > 0.0f && isfinite(fading[i]) ? (double)fading[i] : 0.0;
+        sum += light->fading[i];
+    }
+    if (!(sum > 0.0)) light->fading[0] = 1.0;
+}
+
 int cs_light_read(const struct aiScene *file, const struct aiLight *source, cs_model_light *light)
 {
     const struct aiMatrix4x4 matrix = cs_node_matrix(file, source->mName.data);
-    double fade = (double)source->mAttenuationQuadratic;
     memset(light, 0, sizeof *light);
     snprintf(light->name, sizeof light->name, "%.*s", CS_MODEL_NAME - 1, source->mName.data);
     if (!take_kind(source, light)) return 0;
-    light->is_even = light->kind != CS_MODEL_DIRECTIONAL && !(fade > 0.0);
-    if (light->kind == CS_MODEL_DIRECTIONAL || light->is_even) fade = 1.0;
+    if (light->kind != CS_MODEL_DIRECTIONAL) take_fading(source, light);
     cs_node_transform(&matrix, &source->mPosition, 1.0, light->position);
     cs_node_transform(&matrix, &source->mDirection, 0.0, light->axis);
     light->cone[0] = 0.5f * source->mAngleInnerCone;
     light->cone[1] = 0.5f * source->mAngleOuterCone;
-    light->colour[0] = source->mColorDiffuse.r / (float)fade;
-    light->colour[1] = source->mColorDiffuse.g / (float)fade;
-    light->colour[2] = source->mColorDiffuse.b / (float)fade;
+    light->colour[0] = source->mColorDiffuse.r;
+    light->colour[1] = source->mColorDiffuse.g;
+    light->colour[2] = source->mColorDiffuse.b;
     if (light->kind != CS_MODEL_DIRECTIONAL && has_watts(file)) take_watts(file, source, light);
     return 1;
 }

@@ -20,16 +20,20 @@ static void make_cone(const cs_model_light *source, clshear_light *light)
         light->direction[i] = (float)source->axis[i];
 }
 
-/* What makes a light that does not fade with distance as bright at the middle of the scene, the
- * mean of its bounds, as one that does: the squared distance. */
+/* What makes a light that fades in its own way, or not at all, as bright at the middle of the
+ * scene, the mean of its bounds, as one that fades with the squared distance. */
 static float fading(const cs_model_light *source, const double bounds[2][3])
 {
+    const double *fading = source->fading;
     double square = 0.0;
+    if (!(fading[0] + fading[1] + fading[2] > 0.0)) return 1.0f;
+    if (!(fading[0] + fading[1] > 0.0)) return (float)(1.0 / fading[2]);
     for (int i = 0; i < 3; i++) {
         const double step = source->position[i] - 0.5 * (bounds[0][i] + bounds[1][i]);
         square += step * step;
     }
-    return source->is_even ? (float)square : 1.0f;
+    const double divisor = fading[0] + fading[1] * sqrt(square) + fading[2] * square;
+    return divisor > 0.0 ? (float)(square / divisor) : 0.0f;
 }
 
 static clshear_status build_light(const cs_model *model, const cs_model_light *source,

@@ -48,11 +48,13 @@ typedef struct cs_model_light {
     char name[CS_MODEL_NAME];
     cs_model_light_kind kind;
     double position[3];
-    double axis[3];  /* where a directional or spot light shines to; any length */
-    float colour[3]; /* radiant intensity; directional: irradiance */
-    float cone[2];   /* of a spot: inner and outer half angle, radians */
-    float range;     /* 0: none */
-    int is_even;     /* its colour is irradiance, at any distance, as light models of old have it */
+    double axis[3];   /* where a directional or spot light shines to; any length */
+    float colour[3];  /* radiant intensity, but for `fading`; directional: irradiance */
+    float cone[2];    /* of a spot: inner and outer half angle, radians */
+    float range;      /* 0: none */
+    double fading[3]; /* as light models of old have it, colour is irradiance, divided by the first
+                         number, the second times the distance and the third times its square;
+                         zeros: it is none of these */
 } cs_model_light;
 
 typedef struct cs_model_camera {

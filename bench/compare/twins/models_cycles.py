@@ -49,7 +49,7 @@ def read(path):
         return Matrix.Scale(unit_of_fbx(path), 4) @ turned
     if kind == ".dae":
         bpy.ops.wm.collada_import(filepath=str(path))
-        return turned  # clshear turns +Z up, as Blender turns +Y up; neither looks at units
+        return turned  # clshear turns +Z up, as Blender turns +Y up; both count in metres
     if kind == ".ply":
         bpy.ops.import_mesh.ply(filepath=str(path))
         return Matrix.Identity(4)
