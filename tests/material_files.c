@@ -25,7 +25,7 @@ void material_even_picture(const char *name, int red, int green, int blue, int a
 const char *material_mtl(const char *lines)
 {
     char text[1024];
-    snprintf(text, sizeof text, "newmtl m\n%s\n", lines);
+    snprintf(text, sizeof text, "%s%s\n", lines[0] == '#' ? "" : "newmtl m\n", lines);
     test_file("material.mtl", text);
     return test_file("material.obj", "mtllib material.mtl\nusemtl m\n"
                                      "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"

@@ -9,8 +9,8 @@ void material_picture(const char *name, const unsigned char texels[16]);
 void material_even_picture(const char *name, int red, int green, int blue, int alpha);
 
 /* Write a square from -1 to 1 in x and y, which faces +z and shows its textures once, with a
- * material of these lines (MTL) or this JSON (glTF, with ' for "); return the path. Textures 0 and
- * 1 of glTF are grey.tga and tone.tga. */
+ * material of these lines (MTL; all of the file if they begin with #) or this JSON (glTF, with '
+ * for "); return the path. Textures 0 and 1 of glTF are grey.tga and tone.tga. */
 const char *material_mtl(const char *lines);
 const char *material_gltf(const char *material);
 

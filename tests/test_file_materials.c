@@ -97,6 +97,25 @@ static void numbers_of_mtl(void **state)
     expect_all(all, sizeof all / sizeof *all, material_scene_mtl);
 }
 
+#define METAL "newmtl m\nNs 225\nKa 0.75 0.75 0.75\nKd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nillum 3\n"
+
+/* Metals by Blender from 2.80 on; older ones, whose Ni is 1, and others mean mirrors. */
+static void metals_of_blender(void **state)
+{
+    static const expectation all[] = {
+        {"# Blender MTL File: 'None'\n" METAL "Ni 1.45", PARAMETER(METALLIC), 0.75},
+        {"# Blender MTL File: 'None'\n" METAL "Ni 1.45", PARAMETER(ROUGHNESS), 0.5},
+        {"# Blender MTL File: 'None'\n" METAL "Ni 1.45", PARAMETER(F0), 0.04},
+        {"# Blender 3.4.1 MTL File: 'a.blend'\n" METAL "Ns 250\nNi 1.5", PARAMETER(ROUGHNESS), 0.5},
+        {"# Blender MTL File: 'a.blend'\n" METAL "Ni 1", PARAMETER(METALLIC), 0.0},
+        {"# Blender MTL File: 'a.blend'\n" METAL "Ni 1", PARAMETER(F0), 0.5},
+        {"# Made by another\n" METAL "Ni 1.45", PARAMETER(F0), 0.5},
+        {"# Blender MTL File: 'None'\n" METAL "Ni 1.45\nPm 0.25", PARAMETER(METALLIC), 0.25},
+    };
+    (void)state;
+    expect_all(all, sizeof all / sizeof *all, material_scene_mtl);
+}
+
 /* Files that ask for Lambert's surface have it, and the kernels that know no other. */
 static void lambert_stays_lambert(void **state)
 {
@@ -311,6 +330,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_of_gltf),
         cmocka_unit_test(numbers_of_mtl),
+        cmocka_unit_test(metals_of_blender),
         cmocka_unit_test(volumes_are_solids),
         cmocka_unit_test(lambert_stays_lambert),
         cmocka_unit_test(flags_of_materials),

@@ -20,6 +20,7 @@ typedef struct mtl_reader {
     cs_error *error;
     size_t line;
     size_t complaints;
+    float blender_most;            /* as in mtl_values */
     size_t turned;                 /* materials whose Tr of 1 is taken for opaque */
     char folders[2][CS_FILE_PATH]; /* of the library and of the model */
 } mtl_reader;
@@ -95,7 +96,7 @@ static void read_value(mtl_reader *reader, const value_line *entry,
     if (member == material->base_colour) reader->values.has_colour = 1;
 }
 
-/* `d -halo FACTOR`, whose halo is left out, illum, and what there is no place for. */
+/* `d -halo FACTOR`, whose halo is left out, illum, Ka, and what there is no place for. */
 static void read_other(mtl_reader *reader, const char *key, cs_material_description *material,
                        char *at)
 {
@@ -107,6 +108,7 @@ static void read_other(mtl_reader *reader, const char *key, cs_material_descript
     if (is_opacity) reader->values.opacity = (float)number;
     if (strcmp(key, "illum") == 0 && number >= 0.0 && number < 100.0)
         reader->values.model = (int)number;
+    if (strcmp(key, "Ka") == 0) reader->values.ambient = (float)number;
     if (strcmp(key, "aniso") == 0 && number != 0.0) cs_material_ask(material, "anisotropy");
 }
 
@@ -306,6 +308,15 @@ static void finish_material(mtl_reader *reader, cs_material_description *materia
     if (material != NULL && mtl_make_surface(&reader->values, material)) reader->turned++;
 }
 
+/* "# Blender MTL File: ...", and since 3.1 "# Blender 3.1.0 MTL File: ..." */
+static float blender_most_of(const char *comment)
+{
+    static const char name[] = "Blender ";
+    const char *word = comment + strspn(comment, " \t");
+    if (strncmp(word, name, sizeof name - 1) != 0) return 0.0f;
+    return strncmp(word + sizeof name - 1, "MTL", 3) == 0 ? 900.0f : 1000.0f;
+}
+
 static clshear_status read_lines(mtl_reader *reader, cs_bytes *bytes)
 {
     char name[CS_MATERIAL_NAME];
@@ -316,10 +327,13 @@ static clshear_status read_lines(mtl_reader *reader, cs_bytes *bytes)
          at = cs_lines_next(&lines)) {
         reader->line = lines.number;
         const char *key = cs_next_word(&at);
+        if (key != NULL && strcmp(key, "#") == 0 && lines.number == 1)
+            reader->blender_most = blender_most_of(at);
         if (key == NULL || key[0] == '#') continue;
         if (strcasecmp(key, "newmtl") == 0) {
             finish_material(reader, material);
             mtl_values_init(&reader->values);
+            reader->values.blender_most = reader->blender_most;
             material = cs_model_extend(reader->materials, 1);
             if (material == NULL) return cs_model_full(reader->model, reader->error);
             cs_mtl_key(cs_rest_of_line(at), name);

@@ -15,6 +15,8 @@ typedef struct mtl_values {
     float filter[3];    /* Tf: colour of what passes through */
     float roughness;    /* Pr */
     float metallic;     /* Pm */
+    float ambient;      /* Ka, of red */
+    float blender_most; /* Blender wrote the file, and this as Ns of roughness 0; else 0 */
     int model;          /* illum */
     int has_colour;     /* whether there is a Kd */
 } mtl_values;
@@ -24,6 +26,6 @@ void mtl_values_init(mtl_values *values);
 /* Completes a material whose lines are all read. Returns 1 where its Tr of 1, which would hide it,
  * is taken for opaque, as programs write it that mean what `d` does: nobody wants a material that
  * cannot be seen. */
-int mtl_make_surface(const mtl_values *values, cs_material_description *material);
+int mtl_make_surface(const mtl_values *written, cs_material_description *material);
 
 #endif
