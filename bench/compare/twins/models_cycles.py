@@ -59,20 +59,30 @@ def read(path):
     sys.exit(f"{path}: Blender has no importer for this kind")
 
 
-def dress(kind):
-    """Gives surfaces what clshear takes where a file says nothing."""
+def plain_material(grey, colours):
+    """Lambert's, grey, or with the colours of vertices that are called so."""
     plain = bpy.data.materials.new("plain")
     plain.use_nodes = True
-    nodes = plain.node_tree.nodes
+    nodes, links = plain.node_tree.nodes, plain.node_tree.links
     nodes.clear()
     diffuse, output = nodes.new("ShaderNodeBsdfDiffuse"), nodes.new("ShaderNodeOutputMaterial")
-    grey = 1.0 if kind in (".gltf", ".glb") else 0.5
     diffuse.inputs["Color"].default_value = (grey, grey, grey, 1)
-    plain.node_tree.links.new(diffuse.outputs[0], output.inputs[0])
+    links.new(diffuse.outputs[0], output.inputs[0])
+    if colours:
+        of_vertices = nodes.new("ShaderNodeVertexColor")
+        of_vertices.layer_name = colours
+        links.new(of_vertices.outputs["Color"], diffuse.inputs["Color"])
+    return plain
+
+
+def dress(kind):
+    """Gives surfaces what clshear takes where a file says nothing, or Blender does not listen."""
+    grey = 1.0 if kind in (".gltf", ".glb") else 0.5
     for mesh in bpy.data.meshes:
         if not any(mesh.materials):
+            colours = mesh.color_attributes[0].name if len(mesh.color_attributes) else ""
             mesh.materials.clear()
-            mesh.materials.append(plain)
+            mesh.materials.append(plain_material(grey, colours))
     for material in bpy.data.materials:
         surface = material.use_nodes and material.node_tree.nodes.get("Principled BSDF")
         if kind == ".fbx" and surface and surface.inputs["Alpha"].default_value == 0:
