@@ -58,6 +58,7 @@ static void expect_lamp(const char *creator, const char *unit, const char *lamp,
 
 #define NUMBER(name, number) "P: \"" name "\", \"Number\", \"\", \"A\"," number "\n"
 #define ENUM(name, number) "P: \"" name "\", \"enum\", \"\", \"\"," number "\n"
+#define UP(axis) "\nP: \"UpAxis\", \"int\", \"Integer\", \"\"," axis
 #define POINT ENUM("LightType", "0")
 #define SUN ENUM("LightType", "1")
 #define SPOT ENUM("LightType", "2")
@@ -167,6 +168,18 @@ static void edges_of_collada(void **state)
         const cs_light *light = scene.lights.items;
         const double width = 0.75 * blends[i] * (1.0 - sqrt(0.75));
         assert_float_equal(light->parameters[0], 0.5 / width, 1e-3 / width);
+        cs_scene_free(&scene);
+    }
+}
+
+/* FBX names the axis that is up by its number. */
+static void axes_of_fbx(void **state)
+{
+    static const char *const more[] = {"1", "1" UP("1"), "1" UP("2")};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        cs_scene scene = read_lamp("", more[i], POINT SQUARE);
+        assert_int_equal(scene.z_up, i == 2);
         cs_scene_free(&scene);
     }
 }

@@ -6,26 +6,12 @@
 #include <string.h>
 
 #include "base/pi.h"
+#include "helper/metadata.h"
 #include "helper/node.h"
-
-static const struct aiMetadataEntry *find_entry(const struct aiScene *file, const char *key)
-{
-    const struct aiMetadata *all = file->mMetaData;
-    for (unsigned i = 0; all != NULL && i < all->mNumProperties; i++)
-        if (strcmp(all->mKeys[i].data, key) == 0) return &all->mValues[i];
-    return NULL;
-}
-
-static const char *text_of(const struct aiScene *file, const char *key)
-{
-    const struct aiMetadataEntry *entry = find_entry(file, key);
-    if (entry == NULL || entry->mType != AI_AISTRING) return "";
-    return ((const struct aiString *)entry->mData)->data;
-}
 
 static int is_collada(const struct aiScene *file)
 {
-    return strcmp(text_of(file, AI_METADATA_SOURCE_FORMAT), "Collada Importer") == 0;
+    return strcmp(cs_metadata_text(file, AI_METADATA_SOURCE_FORMAT), "Collada Importer") == 0;
 }
 
 /* Whether the lights of a file are those of Blender's exporter of FBX or Collada, in watts. Before
@@ -33,22 +19,19 @@ static int is_collada(const struct aiScene *file)
 static int has_watts(const struct aiScene *file)
 {
     const char *exporter = is_collada(file) ? "Blender " : "Blender (stable FBX IO) - ";
-    const char *name = text_of(file, AI_METADATA_SOURCE_GENERATOR);
+    const char *name = cs_metadata_text(file, AI_METADATA_SOURCE_GENERATOR);
     int major = 0, minor = 0;
     if (strncmp(name, exporter, strlen(exporter)) != 0) return 0;
     return sscanf(name + strlen(exporter), "%4d.%4d", &major, &minor) == 2 &&
            (major > 2 || (major == 2 && minor >= 80));
 }
 
-/* How many of the file's units are a metre, as far as light goes: UnitScaleFactor of FBX is the
- * unit in centimetres; Collada has Blender's coordinates, in which watts count. */
+/* How many units of the scene are a metre: UnitScaleFactor of FBX is the unit in centimetres;
+ * Assimp turns Collada's units into metres. */
 static double units_of_metre(const struct aiScene *file)
 {
-    const struct aiMetadataEntry *entry = find_entry(file, "UnitScaleFactor");
-    double unit = 1.0;
     if (is_collada(file)) return 1.0;
-    if (entry != NULL && entry->mType == AI_FLOAT) unit = (double)*(const float *)entry->mData;
-    if (entry != NULL && entry->mType == AI_DOUBLE) unit = *(const double *)entry->mData;
+    const double unit = cs_metadata_number(file, "UnitScaleFactor", 1.0);
     return unit > 0.0 && isfinite(unit) ? 100.0 / unit : 100.0;
 }
 

@@ -15,6 +15,7 @@
 #include "helper/collada_edit.h"
 #include "helper/collada_sets.h"
 #include "helper/light.h"
+#include "helper/metadata.h"
 #include "helper/node.h"
 #include "helper/three_mf.h"
 #include "import/find_file.h"
@@ -294,11 +295,14 @@ done:
 }
 
 /* Assimp turns 3DS, in which +Z is up, so that +Y is. Turns it back: coordinates are the file's,
- * and a file that breaks the convention, as many do, is shown upright by --z-up=0. */
-static void turn_back(const struct aiScene *file, cs_model *model)
+ * and a file that breaks the convention, as many do, is shown upright by --z-up=0. FBX says which
+ * axis is up, and Assimp does not turn it. */
+static void set_upright(const struct aiScene *file, cs_model *model)
 {
     const char *dot = strrchr(model->path, '.');
     struct aiMatrix4x4 back = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1};
+    model->z_up = cs_metadata_number(file, "UpAxis", 1.0) == 2.0 &&
+                  cs_metadata_number(file, "UpAxisSign", 1.0) > 0.0;
     if (dot == NULL || strcasecmp(dot, ".3ds") != 0) return;
     model->z_up = 1;
     aiMultiplyMatrix4(&back, &file->mRootNode->mTransformation);
@@ -367,7 +371,7 @@ clshear_status cs_read_other(cs_bytes *bytes, cs_model *model, cs_error *error)
         return cs_fail(error, CLSHEAR_BAD_FILE, "%s: %.*s", model->path,
                        (int)strcspn(aiGetErrorString(), "\n"), aiGetErrorString());
     const importing work = {model, file, error};
-    turn_back(file, model);
+    set_upright(file, model);
     status = convert(&work);
     if (status == CLSHEAR_OK && model->triangles.count == 0)
         status = cs_fail(error, CLSHEAR_BAD_FILE, "%s: there are no triangles in it", model->path);
