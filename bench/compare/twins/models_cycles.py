@@ -78,8 +78,9 @@ def plain_material(grey, colours):
 def dress(kind):
     """Gives surfaces what clshear takes where a file says nothing, or Blender does not listen."""
     grey = 1.0 if kind in (".gltf", ".glb") else 0.5
-    for mesh in bpy.data.meshes:
-        if not any(mesh.materials):
+    for thing in bpy.context.scene.objects:
+        if thing.type == "MESH" and not any(slot.material for slot in thing.material_slots):
+            mesh = thing.data
             colours = mesh.color_attributes[0].name if len(mesh.color_attributes) else ""
             mesh.materials.clear()
             mesh.materials.append(plain_material(grey, colours))
