@@ -187,9 +187,11 @@ static void axes_of_fbx(void **state)
 static void meshes_without_material(void **state)
 {
     (void)state;
-    cs_scene scene = read_collada("", "point", "");
-    expect_close(import_material(&scene, 0)->diffuse, 0.5f, 0.5f, 0.5f);
-    cs_scene_free(&scene);
+    cs_scene scenes[] = {read_collada("", "point", ""), read_lamp("", "1", POINT SQUARE)};
+    for (int i = 0; i < 2; i++) {
+        expect_close(import_material(&scenes[i], 0)->diffuse, 0.5f, 0.5f, 0.5f);
+        cs_scene_free(&scenes[i]);
+    }
 }
 
 int main(void)

@@ -18,6 +18,7 @@
 #include "helper/metadata.h"
 #include "helper/node.h"
 #include "helper/three_mf.h"
+#include "import/colour.h"
 #include "import/find_file.h"
 
 typedef struct importing {
@@ -123,12 +124,29 @@ static clshear_status add_material(const importing *work, const struct aiMateria
 
 /* ----- Meshes ----- */
 
+/* Colours of vertices, of which `first` is the first. Programs write what they show, as in OBJ. */
+static clshear_status add_colours(const importing *work, const struct aiMesh *source, size_t first)
+{
+    cs_model *model = work->model;
+    const int has_alpha = cs_is_collada(model->path); /* other readers leave anything there */
+    const struct aiColor4D *colours = source->mColors[0];
+    clshear_status status = CLSHEAR_OK;
+    for (size_t i = 0; i < source->mNumVertices && colours != NULL && status == CLSHEAR_OK; i++) {
+        const float *rgb = &colours[i].r;
+        float colour[3];
+        for (int c = 0; c < 3; c++)
+            colour[c] = cs_colour_value((double)rgb[c], 1);
+        model->has_unused_alpha |= has_alpha && colours[i].a < 1.0f;
+        status = cs_model_set_colour(model, first + i, colour, work->error);
+    }
+    return status;
+}
+
 static clshear_status add_vertices(const importing *work, const struct aiMesh *source,
                                    const struct aiMatrix4x4 *matrix, const struct aiVector3D *st)
 {
     cs_model *model = work->model;
     const size_t count = source->mNumVertices, first = model->positions.count;
-    const int has_alpha = cs_is_collada(model->path); /* other readers leave anything there */
     struct aiMatrix4x4 turn = *matrix;
     aiMatrix4Inverse(&turn); /* normals transform by the inverse transpose */
     aiTransposeMatrix4(&turn);
@@ -149,13 +167,8 @@ static clshear_status add_vertices(const importing *work, const struct aiMesh *s
             textures[i][0] = st[i].x;
             textures[i][1] = st[i].y;
         }
-        if (source->mColors[0] == NULL) continue;
-        model->has_unused_alpha |= has_alpha && source->mColors[0][i].a < 1.0f;
-        clshear_status status =
-            cs_model_set_colour(model, first + i, &source->mColors[0][i].r, work->error);
-        if (status != CLSHEAR_OK) return status;
     }
-    return CLSHEAR_OK;
+    return add_colours(work, source, first);
 }
 
 static clshear_status add_face(const importing *work, const struct aiMesh *source,
@@ -250,14 +263,16 @@ static clshear_status add_camera(const importing *work, const struct aiCamera *s
     return CLSHEAR_OK;
 }
 
-/* Assimp's material for files without one is a grey of its own. */
+/* Assimp's material for files without one is a grey of its own, in FBX another. */
 static void make_default(const importing *work)
 {
     cs_material_description *all = work->model->materials.items;
-    for (size_t i = 0; i < work->model->materials.count; i++)
+    for (size_t i = 0; i < work->model->materials.count; i++) {
+        const float grey = all[i].base_colour[0];
         if (strcmp(all[i].name, AI_DEFAULT_MATERIAL_NAME) == 0 &&
-            !cs_map_is_used(&all[i].base_map) && all[i].base_colour[0] == 0.6f)
+            !cs_map_is_used(&all[i].base_map) && (grey == 0.6f || grey == 0.8f))
             cs_model_plain(work->model, all[i].name, &all[i]);
+    }
 }
 
 /* Exporters of Collada and others write an opacity of 0 for opaque. */
