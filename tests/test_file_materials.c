@@ -99,7 +99,7 @@ static void numbers_of_mtl(void **state)
 
 #define METAL "newmtl m\nNs 225\nKa 0.75 0.75 0.75\nKd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nillum 3\n"
 
-/* Metals by Blender from 2.80 on; older ones, whose Ni is 1, and others mean mirrors. */
+/* Metals by Blender from 2.80 on; older ones, whose Ni is 1, mean mirrors of Ka, others of Ks. */
 static void metals_of_blender(void **state)
 {
     static const expectation all[] = {
@@ -108,7 +108,7 @@ static void metals_of_blender(void **state)
         {"# Blender MTL File: 'None'\n" METAL "Ni 1.45", PARAMETER(F0), 0.04},
         {"# Blender 3.4.1 MTL File: 'a.blend'\n" METAL "Ns 250\nNi 1.5", PARAMETER(ROUGHNESS), 0.5},
         {"# Blender MTL File: 'a.blend'\n" METAL "Ni 1", PARAMETER(METALLIC), 0.0},
-        {"# Blender MTL File: 'a.blend'\n" METAL "Ni 1", PARAMETER(F0), 0.5},
+        {"# Blender MTL File: 'a.blend'\n" METAL "Ni 1", PARAMETER(F0), 0.75},
         {"# Made by another\n" METAL "Ni 1.45", PARAMETER(F0), 0.5},
         {"# Blender MTL File: 'None'\n" METAL "Ni 1.45\nPm 0.25", PARAMETER(METALLIC), 0.25},
     };

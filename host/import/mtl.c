@@ -100,15 +100,18 @@ static void read_value(mtl_reader *reader, const value_line *entry,
 static void read_other(mtl_reader *reader, const char *key, cs_material_description *material,
                        char *at)
 {
-    double number;
+    double numbers[3];
     char *word = at + strspn(at, " \t");
     const int is_opacity = strcasecmp(key, "d") == 0;
     if (is_opacity && strncmp(word, "-halo", 5) == 0) word += 5;
-    if (read_numbers(&word, &number, 1) == 0) return;
+    const int count = read_numbers(&word, numbers, 3);
+    if (count == 0) return;
+    const double number = numbers[0];
     if (is_opacity) reader->values.opacity = (float)number;
     if (strcmp(key, "illum") == 0 && number >= 0.0 && number < 100.0)
         reader->values.model = (int)number;
-    if (strcmp(key, "Ka") == 0) reader->values.ambient = (float)number;
+    for (int i = 0; i < 3 && strcmp(key, "Ka") == 0; i++)
+        reader->values.ambient[i] = (float)numbers[i < count ? i : 0];
     if (strcmp(key, "aniso") == 0 && number != 0.0) cs_material_ask(material, "anisotropy");
 }
 

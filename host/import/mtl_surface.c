@@ -15,7 +15,7 @@ void mtl_values_init(mtl_values *values)
                            .filter = {-1, -1, -1},
                            .roughness = -1,
                            .metallic = -1,
-                           .ambient = -1,
+                           .ambient = {-1, -1, -1},
                            .model = -1};
 }
 
@@ -133,14 +133,18 @@ static int is_black(const float *colour)
     return !(colour[0] > 0.0f || colour[1] > 0.0f || colour[2] > 0.0f);
 }
 
-/* Blender from 2.80 on writes metals as mirrors with their metalness as Ka. Older ones, which had
- * mirrors, left 1 as Ni, and newer ones 1.45. */
+/* Blender from 2.80 on writes metals as mirrors with their metalness as Ka, and 1.45 as Ni. Before,
+ * Ka was the colour of the mirror, Ks that of highlights, and Ni was 1. */
 static mtl_values take_blender(const mtl_values *written)
 {
     mtl_values values = *written;
-    if (!(values.blender_most > 0.0f) || values.model != 3 || !(values.ior > 1.0f)) return values;
-    if (values.metallic < 0.0f && values.ambient >= 0.0f)
-        values.metallic = limited(values.ambient, 1.0f);
+    if (!(values.blender_most > 0.0f) || values.model != 3) return values;
+    if (!(values.ambient[0] >= 0.0f)) return values;
+    if (!(values.ior > 1.0f)) {
+        memcpy(values.highlight, values.ambient, sizeof values.highlight);
+        return values;
+    }
+    if (values.metallic < 0.0f) values.metallic = limited(values.ambient[0], 1.0f);
     if (values.roughness < 0.0f && values.exponent >= 0.0f)
         values.roughness = 1.0f - sqrtf(limited(values.exponent / values.blender_most, 1.0f));
     return values;

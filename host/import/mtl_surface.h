@@ -15,7 +15,7 @@ typedef struct mtl_values {
     float filter[3];    /* Tf: colour of what passes through */
     float roughness;    /* Pr */
     float metallic;     /* Pm */
-    float ambient;      /* Ka, of red */
+    float ambient[3];   /* Ka */
     float blender_most; /* Blender wrote the file, and this as Ns of roughness 0; else 0 */
     int model;          /* illum */
     int has_colour;     /* whether there is a Kd */
