@@ -4,7 +4,8 @@ Each program reads the file by itself, so that what the format means is compared
 textures and their coordinates, normals, nodes. An even white sky, a pinhole, the camera that
 clshear chooses. Lights of the file are left out in Blender, but kept by clshear. Blender reads
 OBJ, glTF, Collada, FBX, PLY and STL. Its surfaces are not those of glTF and MTL, so that means
-differ by some per cent; *look* marks those that differ by more than --within.
+differ by some per cent; *look* marks those that differ by more than --within. Objects without a
+material have clshear's plain one in both.
 scripts/agreement --models runs it.
 """
 import argparse
