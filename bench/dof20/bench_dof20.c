@@ -24,14 +24,14 @@ typedef struct method {
     const char *name;
     const char *sampler; /* NULL: the default */
     const char *shear;
-    int adaptive;
+    int adaptive; /* -1: the default */
 } method;
 
 static const method methods[] = {
     {"random", "random", "none", 0},    {"mj", "mj", "none", 0},
     {"sobol", "sobol", "none", 0},      {"sz", "sz", "none", 0},
     {"shared", NULL, "none", 1},        {"even", NULL, "equal-area", 0},
-    {"adaptive", NULL, "equal-area", 1}};
+    {"adaptive", NULL, "equal-area", -1}};
 
 enum {
     METHODS = sizeof methods / sizeof *methods,
@@ -114,7 +114,8 @@ static clshear_film *render_with(const bench *b, const method *how, size_t sampl
     clshear_settings *settings = settings_of(b, samples, seed);
     bench_set_text(settings, CLSHEAR_SAMPLER, how->sampler);
     bench_set_text(settings, CLSHEAR_SHEAR, how->shear);
-    bench_set(settings, CLSHEAR_ADAPTIVE, how->adaptive);
+    clshear_settings_unset(settings, CLSHEAR_ADAPTIVE);
+    if (how->adaptive >= 0) bench_set(settings, CLSHEAR_ADAPTIVE, how->adaptive);
     clshear_film *film = bench_render(b->scene, settings);
     clshear_settings_free(settings);
     return film;
