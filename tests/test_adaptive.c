@@ -379,6 +379,10 @@ static void even_noise_has_even_samples(void **state)
     assert_above(info.pilot_samples, 0);
     assert_at_most((double)info.pilot_samples, 0.02 * (double)info.samples);
     clshear_film_free(film);
+    test_set(settings, CLSHEAR_ADAPTIVE, "1"); /* is not questioned */
+    film = test_render(scene, settings);
+    assert_int_equal(test_film_info(film).pilot_samples, 0);
+    clshear_film_free(film);
     clshear_settings_free(settings);
     clshear_scene_free(scene);
 }

@@ -1,5 +1,5 @@
-/* What Assimp reads: lights of FBX and Collada, as Blender's exporters write them, and meshes
- * without a material. */
+/* What Assimp reads: lights of FBX and Collada, as Blender's exporters and others write them, the
+ * axis that is up in FBX, and meshes without a material. */
 #include "import_support.h"
 
 #include <math.h>
@@ -86,6 +86,8 @@ static void lamps_of_others(void **state)
     expect_lamp("FBX SDK/FBX Plugins version 2020.3", "1", POINT SQUARE, 300.0 * 3125000.0);
     expect_lamp(BLENDER("2.79 (sub 0)"), "1", POINT SQUARE, 300.0 * 3125000.0);
     expect_lamp("Blender", "1", POINT SQUARE, 300.0 * 3125000.0);
+    /* without decay: as bright in the middle of the scene, at (0.5, 0.5, 0), as anywhere */
+    expect_lamp("FBX SDK", "1", POINT ENUM("DecayType", "0"), 300.0 * 40000.5);
 }
 
 /* The edge of Blender's spot holds half of its light: a cone of 60 degrees with the blend 0.5. The
@@ -200,6 +202,7 @@ int main(void)
         cmocka_unit_test(lamps_of_blender), cmocka_unit_test(lamps_of_others),
         cmocka_unit_test(edges_of_spots),   cmocka_unit_test(lamps_of_collada),
         cmocka_unit_test(edges_of_collada), cmocka_unit_test(meshes_without_material),
+        cmocka_unit_test(axes_of_fbx),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

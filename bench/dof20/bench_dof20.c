@@ -28,9 +28,9 @@ typedef struct method {
 } method;
 
 static const method methods[] = {
-    {"random", "random", "none", 0},    {"mj", "mj", "none", 0},
-    {"sobol", "sobol", "none", 0},      {"sz", "sz", "none", 0},
-    {"shared", NULL, "none", 1},        {"even", NULL, "equal-area", 0},
+    {"random", "random", "none", 0},     {"mj", "mj", "none", 0},
+    {"sobol", "sobol", "none", 0},       {"sz", "sz", "none", 0},
+    {"shared", NULL, "none", 1},         {"even", NULL, "equal-area", 0},
     {"adaptive", NULL, "equal-area", -1}};
 
 enum {

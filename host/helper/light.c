@@ -87,13 +87,16 @@ static int take_kind(const struct aiLight *source, cs_model_light *light)
     return light->kind != CS_MODEL_POINT || source->mType == aiLightSource_POINT;
 }
 
-/* A light without attenuation does not fade. */
-static void take_fading(const struct aiLight *source, cs_model_light *light)
+/* Collada's lights fade as the file says. Of other formats Assimp has no more than the square: its
+ * constant is a distance in FBX, and it fades linearly where the file says nothing. A light that
+ * does not fade otherwise does not fade. */
+static void take_fading(const struct aiScene *file, const struct aiLight *source,
+                        cs_model_light *light)
 {
     const float fading[3] = {source->mAttenuationConstant, source->mAttenuationLinear,
                              source->mAttenuationQuadratic};
     double sum = 0.0;
-    for (int i = 0; i < 3; i++) {
+    for (int i = is_collada(file) ? 0 : 2; i < 3; i++) {
         light->fading[i] = fading[i] > 0.0f && isfinite(fading[i]) ? (double)fading[i] : 0.0;
         sum += light->fading[i];
     }
@@ -106,7 +109,7 @@ int cs_light_read(const struct aiScene *file, const struct aiLight *source, cs_m
     memset(light, 0, sizeof *light);
     snprintf(light->name, sizeof light->name, "%.*s", CS_MODEL_NAME - 1, source->mName.data);
     if (!take_kind(source, light)) return 0;
-    if (light->kind != CS_MODEL_DIRECTIONAL) take_fading(source, light);
+    if (light->kind != CS_MODEL_DIRECTIONAL) take_fading(file, source, light);
     cs_node_transform(&matrix, &source->mPosition, 1.0, light->position);
     cs_node_transform(&matrix, &source->mDirection, 0.0, light->axis);
     light->cone[0] = 0.5f * source->mAngleInnerCone;

@@ -1,6 +1,7 @@
 #include "helper/other.h"
 
 #include <assimp/cimport.h>
+#include <assimp/commonMetaData.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -263,16 +264,24 @@ static clshear_status add_camera(const importing *work, const struct aiCamera *s
     return CLSHEAR_OK;
 }
 
-/* Assimp's material for files without one is a grey of its own, in FBX another. */
+/* Whether a material is Assimp's own for meshes without one, which is a grey: 0.8 in FBX, else 0.6.
+ */
+static int is_default(const struct aiScene *file, const cs_material_description *material)
+{
+    const char *format = cs_metadata_text(file, AI_METADATA_SOURCE_FORMAT);
+    const float grey = strstr(format, "FBX") != NULL ? 0.8f : 0.6f;
+    if (strcmp(material->name, AI_DEFAULT_MATERIAL_NAME) != 0) return 0;
+    if (cs_map_is_used(&material->base_map) || cs_map_is_used(&material->alpha_map)) return 0;
+    for (int c = 0; c < 3; c++)
+        if (material->base_colour[c] != grey || material->emissive[c] > 0.0f) return 0;
+    return material->base_colour[3] == 1.0f;
+}
+
 static void make_default(const importing *work)
 {
     cs_material_description *all = work->model->materials.items;
-    for (size_t i = 0; i < work->model->materials.count; i++) {
-        const float grey = all[i].base_colour[0];
-        if (strcmp(all[i].name, AI_DEFAULT_MATERIAL_NAME) == 0 &&
-            !cs_map_is_used(&all[i].base_map) && (grey == 0.6f || grey == 0.8f))
-            cs_model_plain(work->model, all[i].name, &all[i]);
-    }
+    for (size_t i = 0; i < work->model->materials.count; i++)
+        if (is_default(work->file, &all[i])) cs_model_plain(work->model, all[i].name, &all[i]);
 }
 
 /* Exporters of Collada and others write an opacity of 0 for opaque. */

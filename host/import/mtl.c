@@ -110,8 +110,9 @@ static void read_other(mtl_reader *reader, const char *key, cs_material_descript
     if (is_opacity) reader->values.opacity = (float)number;
     if (strcmp(key, "illum") == 0 && number >= 0.0 && number < 100.0)
         reader->values.model = (int)number;
-    for (int i = 0; i < 3 && strcmp(key, "Ka") == 0; i++)
-        reader->values.ambient[i] = (float)numbers[i < count ? i : 0];
+    if (strcmp(key, "Ka") == 0)
+        for (int i = 0; i < 3; i++)
+            reader->values.ambient[i] = (float)numbers[i < count ? i : 0];
     if (strcmp(key, "aniso") == 0 && number != 0.0) cs_material_ask(material, "anisotropy");
 }
 

@@ -12,7 +12,7 @@
 /* What is known of each pixel of a window before samples are shared out, row by row. */
 typedef struct cs_pilot_picture {
     const cs_f32 *variance;  /* about that of the mean of a pattern, averaged over colours; */
-                             /* negative: nothing is known of the pixel */
+                             /* negative: nothing is known, which only cs_allocate_gain allows */
     const cs_f32 *intensity; /* mean over colours */
     /* The same, as a pixel's neighbours see it. The same arrays, unless a part of a pixel's samples
      * must not decide how many it gets: these lack that part, which neighbours may know. */

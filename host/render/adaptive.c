@@ -21,15 +21,12 @@ static cs_u32 beginning_of(cs_u32 pattern, double affordable)
     return whole / 4 > least ? whole / 4 : least;
 }
 
-/* How many samples a beginning has, once it is known which pixels are certain. */
-static void choose_beginning(cs_job *job)
+/* How many samples a beginning has. certain: the number of certain pixels. */
+static void choose_beginning(cs_job *job, double certain)
 {
     cs_adaptive *adaptive = &job->adaptive;
     const cs_u32 pattern = job->pattern.grid.count;
     const double all = (double)job->pixel_count;
-    double certain = 0.0;
-    for (size_t i = 0; i < job->pixel_count; i++)
-        certain += adaptive->certain[i];
     adaptive->few = pattern / 32 > 2 ? cs_power_of_two(pattern / 32) : 2;
     adaptive->begin = beginning_of(
         pattern, all > certain ? (all * pattern - certain * adaptive->few) / (all - certain) : 0.0);
@@ -85,33 +82,34 @@ static cs_range range_of(const cs_job *job)
                       .most = cs_sampler_most(job->pattern.sampler)};
 }
 
-/* Chooses even samples where sharing out promises less than its price. A pattern in two parts takes
- * 5 to 20 % more time than one that is drawn at once, since its packets are less coherent, and
- * pixels that need more samples take more time for each. Where much is background, sharing out pays
- * always. */
-static clshear_status reconsider(cs_job *job, cs_error *error)
+/* Whether sharing out promises its price. A pattern in two parts takes 5 to 20 % more time than one
+ * that is drawn at once, since its packets are less coherent, and pixels that need more samples
+ * take more time for each. Where much is background, it always pays. */
+static clshear_status ask_whether_it_pays(cs_job *job, double certain, int *pays, cs_error *error)
 {
     const double least_gain = 1.25, much = 0.25;
     const cs_range range = range_of(job);
-    const double even = 0.0;
-    double certain = 0.0, gain = 0.0;
-    for (size_t i = 0; i < job->pixel_count; i++)
-        certain += job->adaptive.certain[i];
+    double gain = 0.0;
+    *pays = 1;
     if (certain >= much * (double)job->pixel_count) return CLSHEAR_OK;
-    clshear_status status = cs_pilot_promise(job, job->adaptive.certain, &range, &gain, error);
-    if (status != CLSHEAR_OK || gain >= least_gain) return status;
-    job->adaptive.begin = 0;
+    const clshear_status status =
+        cs_pilot_promise(job, job->adaptive.certain, &range, &gain, error);
+    *pays = gain >= least_gain;
+    return status;
+}
+
+/* Chooses even samples after all. */
+static clshear_status revoke(cs_job *job, cs_error *error)
+{
+    const double even = 0.0;
+    free(job->adaptive.certain);
+    job->adaptive = (cs_adaptive){0};
     return cs_settings_set(&job->settings, CLSHEAR_ADAPTIVE, &even, 1, error);
 }
 
-clshear_status cs_adaptive_plan(cs_job *job, cs_error *error)
+static clshear_status reserve(cs_job *job, cs_error *error)
 {
-    if (!can_share_out(job)) return CLSHEAR_OK;
     cs_adaptive *adaptive = &job->adaptive;
-    adaptive->certain = malloc(job->pixel_count);
-    if (adaptive->certain == NULL)
-        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
-                       job->pixel_count);
     for (int k = 0; k < CS_BEGINNINGS; k++) {
         cs_share *share = &adaptive->shares[k];
         share->samples = malloc(job->pixel_count * sizeof *share->samples);
@@ -120,14 +118,30 @@ clshear_status cs_adaptive_plan(cs_job *job, cs_error *error)
             return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
                            job->pixel_count);
     }
-    clshear_status status = cs_background_find(job, adaptive->certain, error);
-    choose_beginning(job);
-    if (status == CLSHEAR_OK && adaptive->is_unasked) status = reconsider(job, error);
-    if (status != CLSHEAR_OK || adaptive->begin == 0) return status;
     for (size_t i = 0; i < CS_BEGINNINGS * job->pixel_count; i++)
         adaptive->shares[i % CS_BEGINNINGS].samples[i / CS_BEGINNINGS] =
             cs_adaptive_begun_with(adaptive, i / CS_BEGINNINGS);
     return cs_adaptive_reserve_aovs(job, error);
+}
+
+clshear_status cs_adaptive_plan(cs_job *job, cs_error *error)
+{
+    clshear_status status = CLSHEAR_OK;
+    cs_adaptive *adaptive = &job->adaptive;
+    double certain = 0.0;
+    int pays = 1;
+    if (!can_share_out(job)) return CLSHEAR_OK;
+    adaptive->certain = malloc(job->pixel_count);
+    CS_REQUIRE(adaptive->certain != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
+               job->pixel_count);
+    CS_TRY(cs_background_find(job, adaptive->certain, error));
+    for (size_t i = 0; i < job->pixel_count; i++)
+        certain += adaptive->certain[i];
+    choose_beginning(job, certain);
+    if (adaptive->is_unasked) CS_TRY(ask_whether_it_pays(job, certain, &pays, error));
+    return pays ? reserve(job, error) : revoke(job, error);
+done:
+    return status;
 }
 
 cs_u32 cs_adaptive_begun_with(const cs_adaptive *adaptive, size_t index)

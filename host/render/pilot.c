@@ -246,7 +246,10 @@ static size_t list_blocks(const cs_job *job, const uint8_t *certain, cs_u32 side
     for (cs_u32 top = 0; top < height; top += side)
         for (cs_u32 left = 0; left < width; left += side) {
             const cs_u32 lot = cs_hash((top << 16 ^ left) + 1u);
-            const cs_u32 x = left + lot % (side - 2), y = top + (lot >> 16) % (side - 2);
+            const cs_u32 across = width - left < side ? width - left : side;
+            const cs_u32 down = height - top < side ? height - top : side;
+            const cs_u32 x = left + lot % (across > 3 ? across - 2 : 1);
+            const cs_u32 y = top + (lot >> 16) % (down > 3 ? down - 2 : 1);
             for (cs_u32 k = 0; k < 9; k++) {
                 const cs_u32 column = x + k % 3, row = y + k / 3;
                 if (column >= width || row >= height) continue;

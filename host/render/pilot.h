@@ -28,7 +28,7 @@ enum {
 clshear_status cs_pilot_samples(cs_job *job, cs_u32 *samples, cs_error *error);
 
 /* How much less error sharing samples out within `range` promises (cs_allocate_gain), by a look at
- * 9 pixels in 144, at most 9216 of them, but for those that are `certain`. */
+ * 9 pixels in 144, at most about 9300 of them, but for those that are `certain`. */
 clshear_status cs_pilot_promise(cs_job *job, const uint8_t *certain, const cs_range *range,
                                 double *gain, cs_error *error);
 

@@ -135,6 +135,7 @@ static inline void cs_path_seek_lights(const cs_scene_buffers *scene, cs_paths *
     const cs_u32 lights = paths->launch->lights;
     cs_shadow *shadow = paths->shadow + paths->shadows;
     cs_hit end;
+    if (!cs_any(path->alive)) return;
     end.distance = path->alive ? (cs_vfloat)(INFINITY) : (cs_vfloat)(-1.0f);
     end.triangle = (cs_vint)(CS_NO_HIT);
     cs_meet_shapes(scene, lights, &path->ray, 0, &end);
