@@ -50,8 +50,8 @@ static void expect_lamp(const char *creator, const char *unit, const char *lamp,
     cs_scene scene = read_lamp(creator, unit, lamp);
     const cs_light *light = scene.lights.items;
     const double tolerance = 1e-5 * red;
-    assert_float_equal(light->colour[0], red, tolerance);
-    assert_float_equal(light->colour[1], 0.5 * red, tolerance);
+    assert_near(light->colour[0], red, tolerance);
+    assert_near(light->colour[1], 0.5 * red, tolerance);
     assert_true(light->colour[2] == 0.0f);
     cs_scene_free(&scene);
 }
@@ -99,7 +99,7 @@ static void edges_of_spots(void **state)
                                SPOT SQUARE NUMBER("InnerAngle", "30") NUMBER("OuterAngle", "60"));
     const cs_light *light = scene.lights.items;
     const double outer = sqrt(0.75), width = 0.75 * 0.5 * (1.0 - outer);
-    assert_float_equal(light->parameters[0], 0.5 / width, 1e-3 / width);
+    assert_near(light->parameters[0], 0.5 / width, 1e-3 / width);
     expect_close(light->axis, 0, 1, 0);
     cs_scene_free(&scene);
 }
@@ -139,8 +139,8 @@ static void expect_collada(const char *tool, const char *kind, double red)
 {
     cs_scene scene = read_collada(tool, kind, "");
     const cs_light *light = scene.lights.items;
-    assert_float_equal(light->colour[0], red, 1e-5 * red);
-    assert_float_equal(light->colour[1], 0.5 * red, 1e-5 * red);
+    assert_near(light->colour[0], red, 1e-5 * red);
+    assert_near(light->colour[1], 0.5 * red, 1e-5 * red);
     cs_scene_free(&scene);
 }
 
@@ -169,7 +169,7 @@ static void edges_of_collada(void **state)
         cs_scene scene = read_collada("Blender 3.4.1", "spot", cones[i]);
         const cs_light *light = scene.lights.items;
         const double width = 0.75 * blends[i] * (1.0 - sqrt(0.75));
-        assert_float_equal(light->parameters[0], 0.5 / width, 1e-3 / width);
+        assert_near(light->parameters[0], 0.5 / width, 1e-3 / width);
         cs_scene_free(&scene);
     }
 }
