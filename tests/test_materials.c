@@ -338,15 +338,16 @@ static clshear_film *film_of_floor(clshear_context *context, const lit_floor *li
 
 /* A light that looks small is found by its own samples alone, with the same mean as if the BSDF's
  * looked for it too: 5 standard errors of 240 degrees of freedom, false alarms 1e-6. One that looks
- * large, or that a polished floor mirrors, is looked for. */
+ * large, or that a polished floor mirrors, is looked for. Rays that would end at no light are none:
+ * a fifth of them ends at the large ball, nearly all at what is mirrored. */
 static void small_lights_need_no_last_ray(void **state)
 {
     static const lit_floor cases[] = {{0.6f, CLSHEAR_SUN, "1,2,1,1,1,1,0.5", 1.0},
                                       {0.2f, CLSHEAR_SUN, "1,2,1,1,1,1,0.5", 1.0},
                                       {0.6f, CLSHEAR_SPHERE, "0,20,3,2,1,1,1", 1.0},
                                       {0.6f, CLSHEAR_QUAD, "-1,20,-1,2,0,0,0,0,2,1,1,1", 1.0},
-                                      {0.03f, CLSHEAR_SUN, "1,2,1,1,1,1,0.5", 2.0},
-                                      {0.6f, CLSHEAR_SPHERE, "4,3,0,2.8,1,1,1", 2.0},
+                                      {0.03f, CLSHEAR_SUN, "1,2,0,1,1,1,0.5", 1.9},
+                                      {0.6f, CLSHEAR_SPHERE, "4,3,0,2.8,1,1,1", 1.2},
                                       {0.6f, CLSHEAR_ENVIRONMENT, "1,1,1", 2.0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         clshear_film *film = film_of_floor(*state, &cases[i], 0);
@@ -357,9 +358,8 @@ static void small_lights_need_no_last_ray(void **state)
         print_message("light %zu: %.4f rays, %.5g; looked for, %.5g, error %.2g\n", i, rays,
                       found.mean, expected.mean, hypot(found.error, expected.error));
         assert_near(rays, cases[i].rays, 0.1); /* some facets are turned away */
-        assert_above((double)more.shadow_rays / (double)more.samples, 2.5);
-        if (cases[i].rays < 2.0)
-            assert_near(found.mean, expected.mean, 5.0 * hypot(found.error, expected.error));
+        assert_above((double)more.shadow_rays / (double)more.samples, 2.1);
+        if (i < 4) assert_near(found.mean, expected.mean, 5.0 * hypot(found.error, expected.error));
         assert_above(found.mean, 10.0 * hypot(found.error, expected.error));
         clshear_film_free(both);
         clshear_film_free(film);

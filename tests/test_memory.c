@@ -142,6 +142,7 @@ static void kinds_of_renders(void **state)
     check("equal samples", box->scene, equal);
 
     clshear_settings *shared = test_settings(box->settings, 440, 330, 64);
+    test_set_number(shared, CLSHEAR_ADAPTIVE, 1);
     check("shared out", box->scene, shared);
 
     clshear_settings *rounds = test_settings(box->settings, 460, 340, 32);
@@ -152,6 +153,7 @@ static void kinds_of_renders(void **state)
 
     clshear_settings *moving = test_settings(box->settings, 480, 360, 64);
     test_set(moving, CLSHEAR_CAMERA_TO, "0.1,1,3.4,0,1,0");
+    test_set_number(moving, CLSHEAR_ADAPTIVE, 1);
     check("of a moving camera", box->scene, moving);
 
     clshear_settings *channels = test_settings(box->settings, 500, 370, 16);
@@ -162,6 +164,7 @@ static void kinds_of_renders(void **state)
 
     clshear_settings *both = test_settings(box->settings, 640, 480, 64);
     test_set(both, CLSHEAR_AOV, "albedo,normal,position,direct");
+    test_set_number(both, CLSHEAR_ADAPTIVE, 1);
     check("with more channels, shared out", box->scene, both);
 }
 
