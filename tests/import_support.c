@@ -36,6 +36,19 @@ cs_scene import_load(const char *path)
     return scene;
 }
 
+cs_scene import_apart(const char *path)
+{
+    const cs_import_options options = {.smooth_degrees = -1.0};
+    const cs_log log = {.warn = import_collect};
+    cs_scene scene;
+    cs_error error = {0};
+    import_warnings[0] = '\0';
+    cs_scene_init(&scene);
+    if (cs_scene_import(path, &options, &scene, &log, &error) != CLSHEAR_OK)
+        fail_msg("%s", error.message);
+    return scene;
+}
+
 cs_scene import_text(const char *name, const char *text)
 {
     return import_load(test_file(name, text));

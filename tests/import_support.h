@@ -19,6 +19,9 @@ clshear_status import_smooth(const char *path, double degrees, cs_scene *scene, 
 cs_scene import_load(const char *path);
 cs_scene import_text(const char *name, const char *text);
 
+/* Likewise, but by the process that reads files of all formats for programs. */
+cs_scene import_apart(const char *path);
+
 /* Expects a refusal in one line that begins with the file's name and contains `words`. */
 void import_refused(const char *path, const char *words);
 

@@ -34,23 +34,9 @@
                                        "</library_visual_scenes><scene><instance_visual_scene "    \
                                        "url='#w'/></scene></COLLADA>\n"
 
-/* Reads a file of one triangle or more; the caller frees the scene. */
-static cs_scene load(const char *path)
-{
-    const cs_import_options options = {.smooth_degrees = -1.0};
-    const cs_log log = {.warn = import_collect};
-    cs_scene scene;
-    cs_error error = {0};
-    import_warnings[0] = '\0';
-    cs_scene_init(&scene);
-    if (cs_scene_import(path, &options, &scene, &log, &error) != CLSHEAR_OK)
-        fail_msg("%s", error.message);
-    return scene;
-}
-
 static void expect_triangle(const char *path, float red, float green, float blue)
 {
-    cs_scene scene = load(path);
+    cs_scene scene = import_apart(path);
     assert_int_equal(scene.triangle_flags.count, 1);
     expect_close(import_material(&scene, 0)->diffuse, red, green, blue);
     cs_scene_free(&scene);
@@ -101,8 +87,8 @@ static const char *file_with(const char *from, const char *to)
 static void polygons_with_holes(void **state)
 {
     (void)state;
-    cs_scene scene =
-        load(file_with("<triangles ", POLYGONS("<ph><p>2 1 0</p><h>0 1 2</h><h>\n0 1 2</h></ph>")));
+    cs_scene scene = import_apart(
+        file_with("<triangles ", POLYGONS("<ph><p>2 1 0</p><h>0 1 2</h><h>\n0 1 2</h></ph>")));
     assert_int_equal(scene.triangle_flags.count, 2);
     import_warned("holes of polygons are not supported: 2 closed");
     cs_scene_free(&scene);
@@ -115,7 +101,7 @@ static void morph_targets(void **state)
     snprintf(text, sizeof text,
              MORPH "<library_visual_scenes><visual_scene id='w'>"
                    "<node id='o'><instance_controller url='#k'/></node>");
-    cs_scene scene = load(file_with("<library_visual_scenes><visual_scene id='w'>", text));
+    cs_scene scene = import_apart(file_with("<library_visual_scenes><visual_scene id='w'>", text));
     assert_int_equal(scene.triangle_flags.count, 2);
     expect_close(import_position(&scene, 0, 1), 1, 0, 0);
     import_warned("morph targets are not supported: the first shape of 1 mesh");
@@ -127,7 +113,7 @@ static cs_scene skewed(const char *skew)
 {
     char text[256];
     snprintf(text, sizeof text, "<translate>0 0 5</translate>%s<instance_geometry url='#g'>", skew);
-    return load(file_with("<instance_geometry url='#g'>", text));
+    return import_apart(file_with("<instance_geometry url='#g'>", text));
 }
 
 /* Of an angle and two axes: points move along the second, as far as they are along the first. */
@@ -166,7 +152,7 @@ static void skins_as_bound(void **state)
                  "<technique_common><instance_material symbol='s' target='#m'/></technique_common>"
                  "</bind_material></instance_controller></node>",
                  has_morph ? MORPH : "", has_morph ? "k" : "g", scene_begin);
-        cs_scene scene = load(file_with(scene_begin, text));
+        cs_scene scene = import_apart(file_with(scene_begin, text));
         assert_int_equal(scene.triangle_flags.count, 2);
         expect_close(import_position(&scene, 0, 0), 100, 7, 0);
         expect_close(import_position(&scene, 0, 1), 102, 7, 0);
@@ -199,7 +185,7 @@ static void opacity(void **state)
                  {COLLADA("", TRANSPARENT("A_ONE", "1 1 1 1", "0")), 1.0f}};
     (void)state;
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        cs_scene scene = load(test_file("opacity.dae", files[i].text));
+        cs_scene scene = import_apart(test_file("opacity.dae", files[i].text));
         const cs_material *material = import_material(&scene, 0);
         assert_near(material->alpha, files[i].alpha, 1e-6f);
         assert_int_equal((material->flags & CS_MATERIAL_BLEND) != 0, files[i].alpha < 1.0f);
@@ -234,7 +220,7 @@ static void colours_of_vertices(void **state)
 {
     (void)state;
     for (int kind = 0; kind < 6; kind++) {
-        cs_scene scene = load(coloured_file(kind < 3 ? "0.5" : "1", kind % 3));
+        cs_scene scene = import_apart(coloured_file(kind < 3 ? "0.5" : "1", kind % 3));
         expect_close(import_colour(&scene, 0, 0), 1, 0.21404f, 0);
         expect_close(import_position(&scene, 0, 1), 1, 0, 0);
         if (kind < 3)
@@ -283,7 +269,7 @@ static const char *camera_file(const char *optics)
 /* What the picture shows downwards: an angle in degrees, or of parallel cameras the height. */
 static void expect_extent(const char *optics, float degrees, float height)
 {
-    cs_scene scene = load(camera_file(optics));
+    cs_scene scene = import_apart(camera_file(optics));
     assert_int_equal(scene.cameras.count, 1);
     const cs_view *view = &((const cs_scene_camera *)scene.cameras.items)->view;
     assert_near(view->orthographic, height, 1e-5f * height);
@@ -351,7 +337,7 @@ static void expect_set(const int numbers[2], const char *digits, int bound, floa
     splice(text, sizeof text, "</technique_common></bind_material>", "</instance_material>");
     memcpy(strstr(text, "none"), "some", 4); /* which another test does not find */
     import_picture("some.png");
-    cs_scene scene = load(test_file("sets.dae", text));
+    cs_scene scene = import_apart(test_file("sets.dae", text));
     assert_string_equal(import_warnings, "");
     expect_st(&scene, 1, s, t);
     cs_scene_free(&scene);
@@ -376,11 +362,11 @@ static void sets_of_coordinates(void **state)
         expect_set(pairs[i], "", -1, 1, 0);
         expect_set(pairs[i], "", 13, 0, 1); /* no such set: the one before it */
     }
-    cs_scene scene = load(file_with("<library_visual_scenes>",
-                                    "<bind_vertex_input semantic='U' input_semantic='TEXCOORD' "
-                                    "input_set='0'/><bind_vertex_input semantic='U' "
-                                    "input_semantic='TEXCOORD' input_set='1'/>"
-                                    "<library_visual_scenes>"));
+    cs_scene scene = import_apart(file_with(
+        "<library_visual_scenes>", "<bind_vertex_input semantic='U' input_semantic='TEXCOORD' "
+                                   "input_set='0'/><bind_vertex_input semantic='U' "
+                                   "input_semantic='TEXCOORD' input_set='1'/>"
+                                   "<library_visual_scenes>"));
     import_warned("give one name to several sets of texture coordinates");
     cs_scene_free(&scene);
 }

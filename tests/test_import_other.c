@@ -8,14 +8,7 @@
 /* Reads a file with one light; the caller frees the scene. */
 static cs_scene read_light(const char *path)
 {
-    const cs_import_options options = {.smooth_degrees = -1.0};
-    const cs_log log = {.warn = import_collect};
-    cs_scene scene;
-    cs_error error = {0};
-    import_warnings[0] = '\0';
-    cs_scene_init(&scene);
-    if (cs_scene_import(path, &options, &scene, &log, &error) != CLSHEAR_OK)
-        fail_msg("%s", error.message);
+    cs_scene scene = import_apart(path);
     assert_int_equal(scene.lights.count, 1);
     return scene;
 }

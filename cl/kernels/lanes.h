@@ -130,9 +130,9 @@ static inline void cs_blend_four(CS_GLOBAL const cs_f32 *table, cs_vint first, c
         found[i] += part * (other[i] - found[i]);
 }
 
-/* Blends four neighbours from table[corner[i]] on, for i from 0 to 3, in each lane: the second
- * corner has weight `down` beside the first, the fourth beside the third, and what comes of the
- * latter two has weight `across`. */
+/* Blends four rows of four numbers bilinearly in each lane. Row i begins at table[corner[i]]; the
+ * corners are the upper left, lower left, upper right and lower right one. down: weight of the
+ * lower rows, 0 to 1. across: weight of the right rows, 0 to 1. */
 static inline void cs_blend_corners(CS_GLOBAL const cs_f32 *table, const cs_vint *corner,
                                     cs_vfloat across, cs_vfloat down, cs_vfloat *found)
 {

@@ -127,8 +127,8 @@ typedef struct cs_wide_turn {
     int node_count, leaf_count;
 } cs_wide_turn;
 
-/* Takes what a ray meets next from its stack and asks for it. With `any_hit` all that is there is
- * within its reach, which does not shrink. */
+/* Takes the next node or leaf of a ray from its stack and prefetches it. With `any_hit` entries are
+ * not compared with the limit: it does not shrink, and all were within it when they were pushed. */
 CS_INLINED void cs_wide_pop(const cs_scene_buffers *scene, cs_wide_ray *ray, int lane,
                             const int any_hit, cs_wide_turn *turn)
 {

@@ -252,15 +252,24 @@ size_t cs_allocate_bytes(void)
     return sizeof(errors);
 }
 
+/* Reserves what both functions below need; the caller frees it, also after a failure. */
+static clshear_status reserve(size_t pixels, census **all, errors **found, cs_error *error)
+{
+    *all = malloc(sizeof **all);
+    *found = malloc(pixels * sizeof **found);
+    if (*all == NULL || *found == NULL)
+        return cs_fail(error, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels", pixels);
+    return CLSHEAR_OK;
+}
+
 clshear_status cs_allocate_samples(const cs_pilot_picture *pilot, const cs_range *range,
                                    cs_u32 *samples, cs_error *error)
 {
     clshear_status status = CLSHEAR_OK;
     const size_t pixels = (size_t)pilot->width * (size_t)pilot->height;
-    census *all = malloc(sizeof *all);
-    errors *found = malloc(pixels * sizeof *found);
-    CS_REQUIRE(all != NULL && found != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
-               pixels);
+    census *all = NULL;
+    errors *found = NULL;
+    CS_TRY(reserve(pixels, &all, &found, error));
     /* What the pixels have in common must not depend on what is kept from one of them. */
     cs_pilot_picture alone = *pilot;
     alone.near_variance = pilot->variance;
@@ -284,10 +293,9 @@ clshear_status cs_allocate_gain(const cs_pilot_picture *pilot, const cs_range *r
 {
     clshear_status status = CLSHEAR_OK;
     const size_t pixels = (size_t)pilot->width * (size_t)pilot->height;
-    census *all = malloc(sizeof *all);
-    errors *found = malloc(pixels * sizeof *found);
-    CS_REQUIRE(all != NULL && found != NULL, CLSHEAR_OUT_OF_MEMORY, "out of memory for %zu pixels",
-               pixels);
+    census *all = NULL;
+    errors *found = NULL;
+    CS_TRY(reserve(pixels, &all, &found, error));
     const measure by = measure_of(pilot, found);
     const plan how = choose_plan(pilot, &by, found, range, all);
     count_pixels(pilot, &by, found, how.weight, all);

@@ -38,8 +38,9 @@ static inline void cs_path_add_emission(const cs_scene_buffers *scene, cs_paths 
 }
 
 #if CS_HAS(LIGHTS)
-/* Lanes of the path whose rays end at light number `i`, or beyond the scene in what it shines
- * there. found: of these. The camera does not see suns. */
+/* Returns the lanes whose rays find light number `i`: a shape that they hit, or, where they hit
+ * nothing, an environment or a sun. The camera does not see suns. found: the light's radiance and
+ * density in these lanes; it is not set if there are none. */
 static inline cs_vint cs_path_escape(const cs_scene_buffers *scene, const cs_path *path,
                                      const cs_hit *hit, cs_u32 i, int from_camera,
                                      cs_escaped *found)
@@ -59,7 +60,7 @@ static inline cs_vint cs_path_escape(const cs_scene_buffers *scene, const cs_pat
     return escaped;
 }
 
-/* Adds lights that the paths met, and what comes from beyond the scene. */
+/* Adds the radiance of the lights that the paths' rays find. */
 static inline void cs_path_add_escaped(const cs_scene_buffers *scene, cs_paths *paths,
                                        const cs_path *path, const cs_hit *hit)
 {

@@ -74,9 +74,9 @@ static inline void cs_trace_shadows(const cs_scene_buffers *scene, cs_paths *pat
     paths->shadows = 0;
 }
 
-/* Lets rays to lights wait, of which everything is filled in but what they share with the paths.
- * wanted: lanes that have one. reach: in lengths of their directions. number: of the light, or that
- * of lights. */
+/* Puts the packet of shadow rays at the end of the queue into it, and traces the queue when it is
+ * full. The caller has set the packet's ray and light. wanted: lanes that have a ray. reach:
+ * lengths of their directions. number: of the light; the number of lights for last rays. */
 static inline void cs_path_wait(const cs_scene_buffers *scene, cs_paths *paths, const cs_path *path,
                                 cs_u32 number, cs_vint wanted, cs_vfloat reach)
 {
@@ -127,8 +127,9 @@ static inline void cs_path_add_light(const cs_scene_buffers *scene, cs_paths *pa
 }
 
 #if CS_HAS(LIGHTS)
-/* Lets what the paths' last rays find wait like rays to lights, where no surface shines: at which
- * light a ray ends is known before it is traced, and only what is in the way is not. */
+/* Queues the paths' last rays as shadow rays. A last ray only finds lights. Where no surface shines
+ * (launch.dark), the light at which it would end is computed without tracing; the shadow ray only
+ * tests whether something is in the way. Rays that would find no light are not traced. */
 static inline void cs_path_seek_lights(const cs_scene_buffers *scene, cs_paths *paths,
                                        const cs_path *path)
 {

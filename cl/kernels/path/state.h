@@ -118,8 +118,8 @@ static inline void cs_samples_add(cs_paths *paths, cs_vint home, cs_u32 met, cs_
     }
 }
 
-/* Radiance at the lens for `colour` times `weight` at the end of the paths. met: surfaces that it
- * met; of what met more than one, what `clamp` leaves. */
+/* Computes the radiance at the lens that `colour` times `weight` makes at the end of the paths.
+ * met: number of surfaces that the light met. `clamp` limits light that met more than one. */
 static inline void cs_path_carry(const cs_paths *paths, const cs_path *path, cs_u32 met,
                                  cs_vfloat weight, const cs_vfloat *colour, cs_vfloat *light)
 {
