@@ -69,24 +69,28 @@ static void spots_may_be_narrow_or_sharp(void **state)
 }
 
 /* A floor, and a half plane x < 0 at a height of 10: seen from (0, 0, 0), it hides half of a sun in
- * the zenith. A triangle below the floor, which nothing sees, has radiance `below`. */
-static clshear_scene *floor_and_half_plane(clshear_context *context, float below)
+ * the zenith. albedo: of the half plane. A triangle below the floor, which nothing sees, has
+ * radiance `below`. */
+static clshear_scene *floor_and_half_plane(clshear_context *context, float albedo, float below)
 {
     static const float hidden[9] = {0, -5, 0, 1, -5, 0, 0, -5, 1};
     static const float floor_y[12] = {-50, 0, -50, 50, 0, -50, 50, 0, 50, -50, 0, 50};
     static const float half[12] = {-50, 10, -50, 0, 10, -50, 0, 10, 50, -50, 10, 50};
-    const clshear_mesh meshes[3] = {
-        {.positions = floor_y,
-         .indices = quad,
-         .vertex_count = 4,
-         .triangle_count = 2,
-         .diffuse = {0.5f, 0.5f, 0.5f}},
-        {.positions = half, .indices = quad, .vertex_count = 4, .triangle_count = 2},
-        {.positions = hidden,
-         .indices = quad,
-         .vertex_count = 3,
-         .triangle_count = 1,
-         .emission = {below, below, below}}};
+    const clshear_mesh meshes[3] = {{.positions = floor_y,
+                                     .indices = quad,
+                                     .vertex_count = 4,
+                                     .triangle_count = 2,
+                                     .diffuse = {0.5f, 0.5f, 0.5f}},
+                                    {.positions = half,
+                                     .indices = quad,
+                                     .vertex_count = 4,
+                                     .triangle_count = 2,
+                                     .diffuse = {albedo, albedo, albedo}},
+                                    {.positions = hidden,
+                                     .indices = quad,
+                                     .vertex_count = 3,
+                                     .triangle_count = 1,
+                                     .emission = {below, below, below}}};
     return test_meshes(context, meshes, 3);
 }
 
@@ -97,7 +101,7 @@ static clshear_scene *floor_and_half_plane(clshear_context *context, float below
 static void sun_behind_an_edge(void **state)
 {
     static const double places[] = {-1.5, -0.5, 0.0, 0.5, 1.5};
-    clshear_scene *scene = floor_and_half_plane(*state, 0.0f);
+    clshear_scene *scene = floor_and_half_plane(*state, 0.0f, 0.0f);
     const clshear_light light = {.kind = CLSHEAR_LIGHT_DIRECTIONAL,
                                  .direction = {0, 2, 0},
                                  .colour = {3, 3, 3},
@@ -126,7 +130,7 @@ static void sun_behind_an_edge(void **state)
  */
 static void light_is_paired_with_the_fibre(void **state)
 {
-    clshear_scene *scene = floor_and_half_plane(*state, 0.0f);
+    clshear_scene *scene = floor_and_half_plane(*state, 0.0f, 0.0f);
     const clshear_light light = {.kind = CLSHEAR_LIGHT_DIRECTIONAL,
                                  .direction = {0, 2, 0},
                                  .colour = {3, 3, 3},
@@ -267,10 +271,10 @@ static void studio_lights_the_inside(void **state)
 static void last_rays_are_like_others(void **state)
 {
     for (int k = 0; k < 4; k++) {
-        const int bounces = k % 2;
+        const int bounces = 1 + k % 2;
         test_estimate found[2];
         for (int shines = 0; shines < 2; shines++) {
-            clshear_scene *scene = floor_and_half_plane(*state, (float)shines);
+            clshear_scene *scene = floor_and_half_plane(*state, 0.8f, (float)shines);
             clshear_settings *settings = test_looking_down(0.0, 1024);
             test_set_number(settings, CLSHEAR_FOV, 60.0);
             test_set_number(settings, CLSHEAR_BOUNCES, bounces);
