@@ -359,6 +359,28 @@ static void sharing_out_is_the_default(void **state)
     }
 }
 
+static int has_even_samples(const clshear_film *film)
+{
+    const float *samples = clshear_film_channel(film, "Samples");
+    for (int i = 0; i < PIXELS; i++)
+        if (samples[i] != samples[0]) return 0;
+    return 1;
+}
+
+/* Without a word the box has even samples, since sharing out promises little there. */
+static void little_gain_is_left(void **state)
+{
+    test_fixture *made = *state;
+    for (int asked = 0; asked < 2; asked++) {
+        clshear_settings *settings = test_settings(made->settings, SIZE, SIZE, 64);
+        if (asked) test_set(settings, CLSHEAR_ADAPTIVE, "1");
+        clshear_film *film = test_render(made->scene, settings);
+        assert_int_equal(has_even_samples(film), !asked);
+        clshear_film_free(film);
+        clshear_settings_free(settings);
+    }
+}
+
 /* A floor under an even sky has the same noise everywhere: nothing is shared out without a word,
  * which a pilot of a few samples finds. */
 static void even_noise_has_even_samples(void **state)
@@ -399,6 +421,7 @@ int main(void)
         cmocka_unit_test(gain_is_shown),
         cmocka_unit_test(sharing_out_is_the_default),
         cmocka_unit_test(even_noise_has_even_samples),
+        cmocka_unit_test(little_gain_is_left),
         cmocka_unit_test(adaptive_allocation_is_unbiased_and_less_noisy),
     };
     return cmocka_run_group_tests(tests, test_open_cornell, test_close);
